@@ -1,4 +1,4 @@
-// check.c: runs a check: parses the shaders, draws, and has the pictures compared.
+// check.c: runs a check: parses the shaders, draws the scenes, and compares the pictures.
 #include "check_run.h"
 #include "check_draw.h"
 #include "compiler_hints.h"
@@ -19,7 +19,7 @@
 
 // --- preparation
 
-// A scene as the shaders can express it, without features that its terms do not show.
+// Returns a scene as the shaders can express it, without features that its terms do not show.
 static struct reference_scene visible_scene(const struct run *r, int index)
 {
     struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);
@@ -36,7 +36,7 @@ static struct reference_scene visible_scene(const struct run *r, int index)
     return s;
 }
 
-// Whether the shaders can express no difference between a scene and one of `scenes`: shaders without a name for a strength
+// Returns whether the shaders cannot distinguish a scene from one of `scenes`: shaders without a name for a strength
 // draw every term in every scene.
 static bool is_repeated(const struct run *r, int index, unsigned scenes)
 {
@@ -78,7 +78,8 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
     return true;
 }
 
-// The contract that is given, or that has the shaders' names. NULL: none has. False: see `error`.
+// Gets the given contract, or the contract that has the shaders' names; NULL if there is none. Returns false and fills
+// `error` on failure.
 static bool choose_contract(struct run *r, const struct contract **out, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -87,7 +88,7 @@ static bool choose_contract(struct run *r, const struct contract **out, lam_erro
                            contract_recognise(r->shipped, r->shipped_count, p->vertex, p->fragment, out, error));
 }
 
-// Completes the shaders as the contract's engine does, and reads them.
+// Completes the shaders as the contract's engine does, and parses them.
 static bool read_shaders(struct run *r, const struct contract *contract, lam_error *error)
 {
     shader_interface_free(&r->interface);
@@ -150,7 +151,8 @@ static bool draw_here(struct run *r, const lam_bytes *request, lam_error *error)
     return check_draw(request->data, request->size, &r->painter, &r->bytes, error);
 }
 
-// False: no verdict is possible. A process that timed out or crashed sets the report's verdict.
+// Draws the scenes. Returns false if no verdict is possible. A process that timed out or crashed sets the report's
+// verdict.
 static bool draw(struct run *r, unsigned scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -203,14 +205,14 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
 }
 
 #define BIT(semantic) ((uint64_t)1 << (semantic))
-// Names that say nothing of light.
+// Names that do not concern lighting.
 static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTIC_PROJECTION) |
                                           BIT(SEMANTIC_MODEL_VIEW_PROJECTION) | BIT(SEMANTIC_NORMAL_MATRIX) |
                                           BIT(SEMANTIC_MODEL) | BIT(SEMANTIC_VIEW) | BIT(SEMANTIC_VIEW_PROJECTION) |
                                           BIT(SEMANTIC_ZERO) | BIT(SEMANTIC_ONE) | BIT(SEMANTIC_EYE_POSITION);
 
-// Whether the shaders' names are the contract's: a verdict needs a value for every input. Misspelt names are mistakes,
-// which the report names; names that differ only in case and underscores belong to another course.
+// Returns whether the shaders use the names of the contract: a verdict needs a value for every input. Misspelt names
+// are mistakes, which the report names; names that differ only in case and underscores belong to another course.
 static bool suits_contract(const struct run *r)
 {
     bool drawn_here = !r->texts.vertex;
@@ -236,7 +238,7 @@ static bool suits_contract(const struct run *r)
     return misspelt == drawn->unknown_count && !drawn->types_count && lit && drawn_here;
 }
 
-// Says why the contract that comes nearest is not theirs. Returns false.
+// Explains why the nearest contract does not fit. Returns false.
 static bool fail_unknown(struct run *r, const char *reason, lam_error *error)
 {
     const struct shader_interface *interface = &r->interface;
@@ -277,7 +279,7 @@ static int count_bits(unsigned bits)
     return count;
 }
 
-// Draws the shaders by an inferred contract, and compares them.
+// Draws the shaders with an inferred contract, and compares them.
 static bool try_inferred(struct run *r, const struct contract *contract, enum fit_outcome *outcome, char *reason,
                          size_t capacity, lam_error *error)
 {
@@ -288,7 +290,7 @@ static bool try_inferred(struct run *r, const struct contract *contract, enum fi
         return false;
     r->report->scenes_wanted = count_bits(scenes);
     if (r->report->verdict != LAM_CHECK_PASSES)
-        *outcome = FIT_EXPLAINED; // refused, or endless
+        *outcome = FIT_EXPLAINED; // the shaders do not compile, or loop forever
     else if (r->drawn.unknown_count || r->drawn.types_count)
         snprintf(reason, capacity, "the input '%.60s' has no value",
                  r->drawn.unknown_count ? r->drawn.unknown[0] : r->drawn.types[0]);
@@ -297,8 +299,8 @@ static bool try_inferred(struct run *r, const struct contract *contract, enum fi
     return true;
 }
 
-// Finds the roles of the inputs by their use, in each space that the text leaves open; the first reading with which the shaders
-// are right counts, else one that a single mistake explains.
+// Infers the roles of the inputs from their use, in each possible space. It accepts the first interpretation for which
+// the shaders are correct, or else one that a single mistake explains.
 static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -352,7 +354,7 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     return ok && (done || fail_unknown(r, reason, error));
 }
 
-// Compares by the contract that was asked for, or whose names the shaders have.
+// Compares with the requested contract, or with the contract whose names the shaders use.
 static bool run_contract(struct run *r, const struct contract *contract, unsigned scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -379,7 +381,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (!check_reserved("lam_check_params", params, error) ||
         (params->painter && !check_reserved("lam_check_painter", params->painter, error)))
         return false;
-    lam_check_params own = *params; // with the fixed state of GLSL 110 and 120 as inputs
+    lam_check_params own = *params; // uses the fixed state of GLSL 110 and 120 as inputs
     struct run r = {.params = &own, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)

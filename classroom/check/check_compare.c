@@ -14,8 +14,9 @@
 
 // Some seconds with a software driver on one processor (docs/check.md).
 static const uint64_t default_max_pictures = 10000;
-static const double max_dark = 2.0 / 255; // of a picture that is black
-static const double max_left = 0.25;      // of the difference, beside names that do not explain everything
+static const double max_dark = 2.0 / 255; // the largest value in a picture that counts as black
+// of the difference, so that names are reported although they do not explain everything
+static const double max_left = 0.25;
 
 // --- the pictures
 
@@ -66,8 +67,8 @@ static uint64_t count_not_numbers(const float *pixels, size_t count)
 
 static float decode(float encoded) { return (float)srgb_linear((double)encoded); }
 
-// Whether the shader encodes its colours as sRGB, like shaders of `lambent shader`: the constant 12.92 of the encoding
-// occurs in its text. Its pictures are then decoded before they are compared.
+// Returns whether the shader encodes its colours as sRGB, like shaders of `lambent shader`: the constant 12.92 of the
+// encoding occurs in its text. Its pictures are then decoded before they are compared.
 static bool is_encoded(const struct run *r)
 {
     return r->interface.contract->printed && declarations_uses(&r->interface.fragment, "12.92");
@@ -135,7 +136,7 @@ void check_measure(struct run *r, bool writes)
                         "vector and division by 0 produce it; pow(max(x, 0.0), shininess) does not");
 }
 
-// Fraction of the compared pixels that are unwritten, or NaN or infinite.
+// Returns the fraction of the compared pixels that are unwritten, or NaN or infinite.
 double check_missing_share(const struct scene_comparison *scene, bool not_numbers)
 {
     size_t missing = 0;
@@ -158,8 +159,8 @@ static bool is_dark(const struct scene_comparison *scene, const float *picture)
     return true;
 }
 
-// A black picture of a black scene proves nothing: it earns no point in a shader that does not pass, and a shader with
-// no other scenes gets no verdict.
+// A black picture of a black scene proves nothing: it earns no points in a shader that fails elsewhere, and a shader
+// with only such scenes gets no verdict.
 static bool weigh_darkness(struct run *r, lam_error *error)
 {
     bool lit = false;
@@ -176,8 +177,8 @@ static bool weigh_darkness(struct run *r, lam_error *error)
                 r->interface.contract->name);
 }
 
-// Whether a search for faults makes sense: not for pictures that are nearly empty. Scenes with much NaN are left out: it
-// counts as black, and would resemble faults that darken.
+// Returns whether a search for faults is useful, which it is not for nearly empty pictures. Scenes with many NaN values
+// are excluded: NaN counts as black, and would look like faults that darken.
 static bool is_searchable(struct run *r, bool writes)
 {
     double clear = 0;
@@ -204,7 +205,7 @@ static bool is_searchable(struct run *r, bool writes)
     return writes && known && clear < 0.9 && usable > 0;
 }
 
-// Reports styles of the shader that are as right as the reference, and compares with pictures that have them too.
+// Finds styles of the shader that are as correct as the reference, and compares with pictures in these styles.
 static bool accept_styles(struct run *r, struct fault_search *s, bool writes, lam_error *error)
 {
     if (s->count == 0)
@@ -223,7 +224,7 @@ static bool accept_styles(struct run *r, struct fault_search *s, bool writes, la
     return true;
 }
 
-// The ids of the faults with the same pictures, separated by blanks. NULL: none.
+// Returns the ids of the faults with the same pictures, separated by blanks, or NULL if there are none.
 static const char *also_text(struct run *r, const struct found_fault *found)
 {
     char text[200] = "";
@@ -236,7 +237,7 @@ static void report_findings(struct run *r, const struct fault_search *s)
 {
     lam_check_report *report = r->report;
     if (s->count && !s->certain && s->found[s->count - 1].after > max_left * s->before)
-        return; // too much remains for a name
+        return; // the remaining difference is too large to report a name
     report->findings = arena_alloc_zeroed(r->arena, MAX_FOUND_FAULTS * sizeof *report->findings);
     for (int i = 0; report->findings && i < s->count; i++) {
         char explanation[400], correction[400];
@@ -290,7 +291,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
         usable += !r->scenes[i].spoilt;
     }
     s.before /= usable;
-    for (int i = 0; i < r->scene_count; i++) // some scenes show more than they need
+    for (int i = 0; i < r->scene_count; i++) // some scenes show more features than they test
         s.needs |=
             (r->scenes[i].reference_scene.ka > 0 ? NEED_AMBIENT : 0) |
             (r->interface.contract->has_attenuation && (r->interface.supports & NEED_POINT) ? NEED_ATTENUATION : 0);

@@ -1,5 +1,5 @@
 // check_describe.c: describes in one sentence a difference that no known mistake explains, and finds the line of a
-// mistake that only the text shows.
+// mistake that is only visible in the text.
 #include "check_run.h"
 
 #include <string.h>
@@ -74,7 +74,7 @@ static bool has_two_sides(const struct run *r, int i) { return r->scenes[i].row-
 static bool is_translucent(const struct run *r, int i) { return r->scenes[i].alpha; }
 static bool is_glossy(const struct run *r, int i) { return scene_of(r, i)->shininess > 30; }
 
-// A property of scenes. If all differing scenes have it, and others without it match, it states a hint; of several
+// A property of scenes. If all differing scenes have it, and scenes without it match, it gives a hint; of several such
 // properties the rarest is used.
 static const struct {
     const char *sentence;
@@ -101,8 +101,8 @@ static const struct {
     {"only small highlights differ: look at the exponent", is_glossy},
 };
 
-// The number of scenes with a property, if all scenes that differ have it and nearly all that have it differ. 0: it does not set
-// these apart.
+// Returns the number of scenes with a property, if all differing scenes have it and nearly all scenes with it differ;
+// otherwise 0.
 static int count_with(const struct run *r, bool (*has)(const struct run *r, int scene))
 {
     int with = 0, failed = 0;
@@ -116,7 +116,7 @@ static int count_with(const struct run *r, bool (*has)(const struct run *r, int 
     return with < r->scene_count && 4 * failed >= 3 * with ? with : 0;
 }
 
-// The factor by which every picture is too bright. False: it is no factor.
+// Finds the factor by which every picture is too bright. Returns false if there is no such factor.
 static bool find_factor(struct run *r, double *factor)
 {
     double products = 0, squares = 0, sum = 0, left = 0;

@@ -1,4 +1,4 @@
-// check_expect.c: draws the reference pictures of the result expected from the shaders.
+// check_expect.c: draws the reference pictures, which show the result expected from the shaders.
 #include "check_run.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "render_cache.h"
 #include "shader_constants.h"
 
-// x^(1/2.2), 0 to 1: the root of y^11 = x^5 by Newton's steps from above.
+// Returns x^(1/2.2) for 0 to 1: the root of y^11 = x^5 by Newton's method from above.
 static double gamma_encoded(double x)
 {
     double power = x * x * x * x * x, y = 1;
@@ -23,7 +23,7 @@ static double gamma_encoded(double x)
     return x > 0 ? y : 0;
 }
 
-// The light of a point as shaders with metalness and roughness write it.
+// Converts the light of a point as shaders with metalness and roughness write it.
 static void display(const struct physical_convention *c, float *pixels, size_t count)
 {
     for (size_t i = 0; i < 4 * count; i++)
@@ -34,7 +34,7 @@ static void display(const struct physical_convention *c, float *pixels, size_t c
         }
 }
 
-// The CPU device has glTF's own equations; the other forms of them are the fault shader's.
+// The CPU device uses glTF's own equations; the fault shader draws their other forms.
 static bool is_of_device(const struct run *r)
 {
     const struct physical_convention *c = &r->interface.contract->physical;
@@ -51,7 +51,7 @@ static bool draw_by_shader(struct run *r, struct scene_comparison *scene, lam_er
     return fault_shader_draw(r->shader, &scene->reference_scene, &model, &none, scene->reference, error);
 }
 
-// The surfaces of a scene alone: whether both of their sides are drawn.
+// Makes only the surfaces of a scene: whether both of their sides are drawn.
 static lam_scene *surfaces_of(const struct run *r, const struct reference_scene *s, lam_camera *camera,
                               lam_error *error)
 {
@@ -67,7 +67,7 @@ static lam_scene *surfaces_of(const struct run *r, const struct reference_scene 
 static bool draw_reference(struct run *r, lam_device *device, struct scene_comparison *scene, lam_error *error)
 {
     const lam_vec3 bump = scene->reference_scene.bump;
-    if (!is_of_device(r) || bump.x != 0 || bump.y != 0 || bump.z != 0) // only the fault shader has these frames
+    if (!is_of_device(r) || bump.x != 0 || bump.y != 0 || bump.z != 0) // only the fault shader draws such scenes
         return draw_by_shader(r, scene, error);
     lam_camera camera;
     struct reference_scene opaque = scene->reference_scene; // the shader under test is drawn without blending
@@ -102,7 +102,8 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
 }
 
 // A browser's GPU may round corners to 1/16 of a pixel (WebGL: SUBPIXEL_BITS is at least 4), the CPU device to 1/256.
-// If the surface turns within a pixel, for example at edges in front of other parts, colours differ and prove nothing.
+// If the surface normal changes within a pixel, for example at edges in front of other parts, colours differ without
+// proving anything.
 static bool leave_out_turns(struct run *r, lam_device *device, struct scene_comparison *scene, lam_error *error)
 {
     if (!r->painter.es_only || !is_of_device(r))
@@ -126,11 +127,11 @@ static bool leave_out_turns(struct run *r, lam_device *device, struct scene_comp
     return ok;
 }
 
-// Possible expectations of the shaders: bits of enum expectation, and numbers.
+// A possible expectation: bits of enum expectation, and numbers.
 struct candidate {
     unsigned expectation;
     struct contract_defaults numbers;
-    double mean; // difference
+    double mean; // mean difference
     bool fits;
 };
 
@@ -159,20 +160,21 @@ static bool try_candidate(struct run *r, lam_device *device, int scene_count, st
     return true;
 }
 
-// If the exercise has a number in place of a name, and the text does not show which of its numbers it is, all are tried
-// on the first scene, which shows every term. Numbers with which it is right are kept in `best`. If there are none the
-// shader has a mistake, and whichever come nearest prove little: then a number of the contract is kept where the text
-// has it, or nothing else, and no number of the text serves twice.
+// If the exercise has a number instead of a name, and the text does not show which of its numbers it is, all numbers
+// are tried on the first scene, which shows every term. The numbers with which the shader is correct are kept in
+// `best`. If there are none, the shader has a mistake, and the nearest numbers prove little. In that case the
+// contract's number is kept if the text contains it or contains no other number, and no number of the text is used
+// twice.
 enum { MAX_OPEN = 4, MAX_TRIES = 512 };
 static const double same_pictures = 1e-5; // mean difference
 
 struct open_number {
     enum uniform_semantic semantic;
     double values[MAX_NUMBERS][3];
-    int count, own; // 1 + the index of the contract's own value; 0: the text does not have it
+    int count, own; // 1 + the index of the contract's own value; 0 means the text does not contain it
 };
 
-// The numbers that are open, and how many combinations of them there are.
+// Finds the open numbers, and the number of their combinations.
 static int find_open(struct shader_interface *interface, struct open_number open[MAX_OPEN], int *count)
 {
     enum uniform_semantic semantics[SEMANTIC_COUNT];
@@ -184,7 +186,7 @@ static int find_open(struct shader_interface *interface, struct open_number open
         open[i].semantic = semantics[i];
         open[i].count = shader_constants_values(interface, semantics[i], open[i].values);
         open[i].own = 0;
-        tries *= open[i].count + 1; // the contract's own as well
+        tries *= open[i].count + 1; // the contract's own value is tried too
         for (int k = 0; k < open[i].count; k++) {
             shader_constants_set(interface, semantics[i], open[i].values[k]);
             if (shader_constants_hash(interface) == hash)
@@ -195,7 +197,8 @@ static int find_open(struct shader_interface *interface, struct open_number open
     return tries;
 }
 
-// Whether `b` takes a number of the text that `a` takes too. Both lists are the text's numbers, or its vectors, in order.
+// Returns whether `b` uses a number of the text that `a` uses too. Both lists are the text's numbers, or its vectors,
+// in order.
 static bool is_taken(const struct open_number *a, int value_a, const struct open_number *b, int value_b)
 {
     return value_a && value_b && a->count == b->count && value_a == value_b &&
@@ -270,7 +273,7 @@ bool check_draw_references(struct run *r, lam_error *error)
         ok = fit_numbers(r, device, choices, count, &best, error);
         numbers = best.mean < before;
     }
-    if (ok && !best.fits) // the last one tried need not be the best
+    if (ok && !best.fits) // the last combination need not be the best
         ok = try_candidate(r, device, r->scene_count, &best, error);
     lam_device_free(device);
     render_cache_keep_shader(r->params->cache, r->shader);

@@ -1,11 +1,12 @@
-// check_fit.c: compares a shader whose strengths and colours are its own with sums of an ambient, a diffuse and a
+// check_fit.c: compares a shader that has its own strengths and colours with sums of an ambient, a diffuse and a
 // specular term.
 //
-// The fault shader draws each term of a scene in a channel of its own (shader_interface_scene). A reading is a
-// highlight, an exponent, and forms or a fault. The factors of its terms, the same in every scene, are found by least
-// squares. The shader passes if some reading of a correct shader explains every scene, and differs if one with a single
-// known mistake does. Otherwise there is no verdict: a shader that the check does not understand may be right.
-#include "readings.h"
+// The fault shader draws each term of a scene in a separate channel (shader_interface_scene). An interpretation
+// consists of a highlight, an exponent, and forms or a fault. The factors of its terms, which are the same
+// in every scene, are found by least squares. The shader passes if some interpretation of a correct shader explains
+// every scene, and differs if one with a single known mistake does. Otherwise there is no verdict: a shader that the
+// check does not understand may be correct.
+#include "interpretations.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,24 +20,24 @@
 
 enum { FIRST_SCENES = 1, MAX_BASES = 12, MAX_NEAREST = 3 };
 
-static const double min_diffuse = 0.02;  // the least factor of a diffuse term that is evidence of lighting
-static const double min_mean = 0.02;     // the least difference that is one without an explanation
-static const double max_negative = 0.01; // a factor below its negative is no strength
+static const double min_diffuse = 0.02;  // a smaller factor of a diffuse term is no evidence of lighting
+static const double min_mean = 0.02;     // smaller differences need no explanation
+static const double max_negative = 0.01; // a factor below the negative of this is not a strength
 
 struct fit {
     struct run *r;
-    struct fault_shader *shader; // of the strided pictures
+    struct fault_shader *shader; // draws the strided pictures
     int stride, size;
     uint32_t *from[MAX_SCENES],
-        *to[MAX_SCENES]; // indices of the pixels: in the shader's pictures, and in those drawn here
+        *to[MAX_SCENES]; // indices of the pixels: in the shader's pictures, and in the ones drawn here
     size_t count[MAX_SCENES];
     float *basis[MAX_SCENES], *pixels;
 };
 
 // --- pictures
 
-static bool draw_terms(struct run *r, struct fault_shader *shader, int scene, const struct reading *g, float *pixels,
-                       lam_error *error)
+static bool draw_terms(struct run *r, struct fault_shader *shader, int scene, const struct interpretation *g,
+                       float *pixels, lam_error *error)
 {
     struct fault_model model = {&r->interface, r->interface.light_frame, g->reflection};
     return fault_shader_draw(shader, &r->scenes[scene].reference_scene, &model, &g->set, pixels, error);
@@ -44,8 +45,8 @@ static bool draw_terms(struct run *r, struct fault_shader *shader, int scene, co
 
 static double decode(double x, bool decoded) { return decoded && x > 0 ? math_pow(x, 2.2) : x; }
 
-// The factors of least squares of the first `scene_count` scenes.
-static void solve(const struct fit *f, int scene_count, struct reading *g)
+// Finds the factors by least squares over the first `scene_count` scenes.
+static void solve(const struct fit *f, int scene_count, struct interpretation *g)
 {
     for (int c = 0; c < 3; c++) {
         double a[3][4] = {{0}};
@@ -62,7 +63,7 @@ static void solve(const struct fit *f, int scene_count, struct reading *g)
                     a[k][3] += (double)b[k] * y;
                 }
             }
-        for (int k = 0; k < 3; k++) { // Gauss, without a term that is nowhere
+        for (int k = 0; k < 3; k++) { // Gaussian elimination, without terms that are zero everywhere
             if (a[k][k] < 1e-6 || (k == 2 && !g->has_highlight))
                 continue;
             for (int m = 0; m < 3; m++) {
@@ -78,8 +79,8 @@ static void solve(const struct fit *f, int scene_count, struct reading *g)
 
 static double clamped(double x) { return x > 0 ? (x < 1 ? x : 1) : 0; }
 
-// Measures a reading in the first `scene_count` scenes.
-static bool measure(struct fit *f, int scene_count, struct reading *g, lam_error *error)
+// Measures an interpretation in the first `scene_count` scenes.
+static bool measure(struct fit *f, int scene_count, struct interpretation *g, lam_error *error)
 {
     for (int s = 0; s < scene_count; s++) {
         if (!draw_terms(f->r, f->shader, s, g, f->pixels, error))
@@ -122,8 +123,8 @@ static bool measure(struct fit *f, int scene_count, struct reading *g, lam_error
     return true;
 }
 
-// Measures a reading in all scenes, if it fits the first ones.
-static bool try_reading(struct fit *f, struct reading *g, lam_error *error)
+// Measures an interpretation in all scenes, if it fits the first ones.
+static bool try_interpretation(struct fit *f, struct interpretation *g, lam_error *error)
 {
     int first = f->r->scene_count < FIRST_SCENES ? f->r->scene_count : FIRST_SCENES;
     return measure(f, first, g, error) && (!g->fits || measure(f, f->r->scene_count, g, error));
@@ -139,24 +140,24 @@ static bool has_bit(const struct fault *row, enum fault_bit bit)
     return false;
 }
 
-// Adds each fault to each of the readings until one explains every scene. `nearest`: the MAX_NEAREST that come nearest.
-static bool add_faults(struct fit *f, const struct reading *readings, int count, struct reading nearest[MAX_NEAREST],
-                       struct reading *best, lam_error *error)
+// Adds each fault to each interpretation until one explains every scene. `nearest` receives the MAX_NEAREST best ones.
+static bool add_faults(struct fit *f, const struct interpretation *interpretations, int count,
+                       struct interpretation nearest[MAX_NEAREST], struct interpretation *best, lam_error *error)
 {
     for (int i = 0; i < MAX_NEAREST; i++)
-        nearest[i] = (struct reading){.mean = 1e9};
+        nearest[i] = (struct interpretation){.mean = 1e9};
     for (int m = 0; m < fault_count && !best->fits; m++)
         for (int i = 0; i < count && !best->fits; i++) {
-            struct reading g = readings[i];
+            struct interpretation g = interpretations[i];
             bool early = fault_set_has(&g.set, BIT_LONG_NORMAL_VERTEX) && has_bit(&faults[m], BIT_LONG_NORMAL);
-            if (early || !readings_allow_fault(&faults[m]) || g.mean >= 1e9 ||
+            if (early || !interpretations_allow_fault(&faults[m]) || g.mean >= 1e9 ||
                 !fault_applies(&faults[m], &f->r->interface, f->r->interface.light_frame, g.reflection, ~0u))
                 continue;
             g.set = fault_set_add(&g.set, &faults[m]);
-            if (fault_set_equal(&g.set, &readings[i].set))
+            if (fault_set_equal(&g.set, &interpretations[i].set))
                 continue;
             g.faults[g.fault_count++] = &faults[m];
-            if (!try_reading(f, &g, error))
+            if (!try_interpretation(f, &g, error))
                 return false;
             if (g.fits)
                 *best = g;
@@ -171,19 +172,20 @@ static bool add_faults(struct fit *f, const struct reading *readings, int count,
     return true;
 }
 
-// The first fault, or else two, that explain every scene with one of the readings: `best` fits.
-static bool find_faults(struct fit *f, const struct reading *readings, int count, struct reading *best,
-                        lam_error *error)
+// Finds the first fault, or else two faults, that explain every scene with one of the interpretations: `best` then
+// fits.
+static bool find_faults(struct fit *f, const struct interpretation *interpretations, int count,
+                        struct interpretation *best, lam_error *error)
 {
-    struct reading nearest[MAX_NEAREST], unused[MAX_NEAREST];
-    return add_faults(f, readings, count, nearest, best, error) &&
+    struct interpretation nearest[MAX_NEAREST], unused[MAX_NEAREST];
+    return add_faults(f, interpretations, count, nearest, best, error) &&
            (best->fits || add_faults(f, nearest, MAX_NEAREST, unused, best, error));
 }
 
 // --- the report
 
-// Draws the references: a correct shader of this reading, with its factors.
-static bool draw_references(struct run *r, const struct reading *g, lam_error *error)
+// Draws the references: a correct shader of this interpretation, with its factors.
+static bool draw_references(struct run *r, const struct interpretation *g, lam_error *error)
 {
     size_t pixels = (size_t)r->size * (size_t)r->size;
     struct fault_shader *shader = render_cache_take_shader(r->params->cache, &r->painter, r->size, 1, error);
@@ -205,7 +207,7 @@ static bool draw_references(struct run *r, const struct reading *g, lam_error *e
     return ok;
 }
 
-static void report_faults(struct run *r, const struct reading *g, double before)
+static void report_faults(struct run *r, const struct interpretation *g, double before)
 {
     r->report->findings = arena_alloc_zeroed(r->arena, MAX_FAULTS * sizeof *r->report->findings);
     for (int i = 0; r->report->findings && i < g->fault_count; i++) {
@@ -226,7 +228,7 @@ static void report_faults(struct run *r, const struct reading *g, double before)
     }
 }
 
-static void hint_forms(struct run *r, const struct reading *g)
+static void hint_forms(struct run *r, const struct interpretation *g)
 {
     for (int i = 0; i < g->form_count; i++)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s; the contract accepts this form",
@@ -240,28 +242,29 @@ static void hint_forms(struct run *r, const struct reading *g)
 
 static int by_mean(const void *a, const void *b)
 {
-    double x = ((const struct reading *)a)->mean, y = ((const struct reading *)b)->mean;
+    double x = ((const struct interpretation *)a)->mean, y = ((const struct interpretation *)b)->mean;
     return (x > y) - (x < y);
 }
 
-// The readings with which faults are tried: they differ from the nearest one only in the highlight and its forms. If
-// the text has reflect(), the highlight is Phong's.
-static int choose_bases(const struct run *r, struct reading *readings, int count, const struct reading *best)
+// Lists the interpretations with which faults are tried: they differ from the nearest one only in the highlight and its
+// forms. If the text contains reflect(), the highlight is Phong's.
+static int choose_bases(const struct run *r, struct interpretation *interpretations, int count,
+                        const struct interpretation *best)
 {
     static const enum fault_bit same[] = {BIT_VIEWER_INFINITE, BIT_INVERSE_SQUARE, BIT_INVERSE_DISTANCE,
                                           BIT_DIRECTION_REVERSED, BIT_AMBIENT_ATTENUATED};
     int kept = 0;
     for (int i = 0; i < count; i++) {
-        bool fits = readings[i].decoded == best->decoded &&
-                    (readings[i].reflection == LAM_REFLECTION_PHONG || !readings_use(r, "reflect"));
+        bool fits = interpretations[i].decoded == best->decoded &&
+                    (interpretations[i].reflection == LAM_REFLECTION_PHONG || !interpretations_use(r, "reflect"));
         for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
-            bool has = fault_set_has(&readings[i].set, same[k]);
+            bool has = fault_set_has(&interpretations[i].set, same[k]);
             fits = fits && (!has || fault_set_has(&best->set, same[k]));
         }
         if (fits)
-            readings[kept++] = readings[i];
+            interpretations[kept++] = interpretations[i];
     }
-    qsort(readings, (size_t)kept, sizeof *readings, by_mean);
+    qsort(interpretations, (size_t)kept, sizeof *interpretations, by_mean);
     return kept < MAX_BASES ? kept : MAX_BASES;
 }
 
@@ -290,11 +293,11 @@ static bool open_fit(struct fit *f, struct run *r, lam_error *error)
     return ok;
 }
 
-// Finds the pixels to compare. `missing`: the least share of a scene's that the shader does not draw; one that faces away may be
-// black and transparent.
+// Finds the pixels to compare. Sets `missing` to the smallest share of a scene that the shader does not draw; a scene
+// that faces away may be black and transparent.
 static bool find_inside(struct run *r, double *missing, lam_error *error)
 {
-    const struct reading plain = {.reflection = LAM_REFLECTION_PHONG};
+    const struct interpretation plain = {.reflection = LAM_REFLECTION_PHONG};
     for (int s = 0; s < r->scene_count; s++)
         r->scenes[s].reference_scene = shader_interface_scene(&r->interface, r->scenes[s].row);
     if (!draw_references(r, &plain, error))
@@ -320,25 +323,26 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
         snprintf(reason, capacity, "%.0f %% of the expected model is not drawn", missing * 100);
         return true;
     }
-    struct reading *readings = arena_array(r->arena, MAX_READINGS, sizeof *readings), best = {.mean = 1e9};
-    if (!readings || !open_fit(&f, r, error))
-        return readings ? false : fail_memory(error, MAX_READINGS * sizeof *readings);
-    int count = readings_list(r, readings);
+    struct interpretation *interpretations = arena_array(r->arena, MAX_INTERPRETATIONS, sizeof *interpretations),
+                          best = {.mean = 1e9};
+    if (!interpretations || !open_fit(&f, r, error))
+        return interpretations ? false : fail_memory(error, MAX_INTERPRETATIONS * sizeof *interpretations);
+    int count = interpretations_list(r, interpretations);
     bool ok = true;
     for (int i = 0; ok && i < count && !best.fits; i++) {
-        ok = try_reading(&f, &readings[i], error);
-        if (readings[i].fits || readings[i].mean < best.mean)
-            best = readings[i];
+        ok = try_interpretation(&f, &interpretations[i], error);
+        if (interpretations[i].fits || interpretations[i].mean < best.mean)
+            best = interpretations[i];
     }
-    count = choose_bases(r, readings, count, &best);
-    struct reading correct = best;
+    count = choose_bases(r, interpretations, count, &best);
+    struct interpretation correct = best;
     double before = best.mean;
     if (ok && count && !best.fits)
-        ok = find_faults(&f, readings, count, &best, error);
+        ok = find_faults(&f, interpretations, count, &best, error);
     render_cache_keep_shader(r->params->cache, f.shader);
     if (!ok)
         return false;
-    bool plain = !best.fits && best.mean > min_mean && readings_are_plain(r);
+    bool plain = !best.fits && best.mean > min_mean && interpretations_are_plain(r);
     if (!best.fits && !plain) {
         snprintf(reason, capacity,
                  "its pictures are no sum of an ambient, a diffuse and a specular term that the check knows");
@@ -356,7 +360,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     if (r->report->verdict == LAM_CHECK_NOT_NUMBER)
         *outcome = FIT_EXPLAINED;
     else if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
-        *outcome = FIT_UNKNOWN; // the full pictures say something else
+        *outcome = FIT_UNKNOWN; // the full pictures do not confirm it
     if (*outcome == FIT_UNKNOWN)
         snprintf(reason, capacity, "its pictures are close to a correct shader's, but not equal");
     else if (explained)

@@ -1,4 +1,5 @@
-// check_run.h: one check, from its parameters to its report. check.c prepares and draws, check_compare.c compares.
+// check_run.h: the state of one check, from its parameters to its report. check.c prepares and draws, check_compare.c
+// compares.
 #ifndef CHECK_RUN_H
 #define CHECK_RUN_H
 
@@ -13,45 +14,45 @@ struct run {
     lam_check_report *report;
     struct arena *arena;
     struct diagnostics diagnostics;
-    lam_check_painter painter;                  // that draws
-    lam_check_contract *shipped[MAX_CONTRACTS]; // read if none is given
+    lam_check_painter painter;                  // the painter in use
+    lam_check_contract *shipped[MAX_CONTRACTS]; // read if no contract is given
     int shipped_count;
-    lam_check_contract *inferred; // if none has the shaders' names
+    lam_check_contract *inferred; // used if no contract has the shaders' names
     struct complete_texts texts;
     struct shader_interface interface;
     int size;
     double tolerance;
-    lam_light_frame frame; // of the first light
+    lam_light_frame frame; // the space of the first light
     lam_reflection reflection;
-    char *vertex;    // generated, if none was given
-    lam_bytes bytes; // the drawing process's message, which `drawn` points into
+    char *vertex;    // generated if none is given
+    lam_bytes bytes; // the drawing process's message; `drawn` points into it
     struct draw_result drawn;
     struct scene_comparison *scenes;
     int scene_count;
     unsigned expectation;        // bits of enum expectation
     float *numbers;              // scratch memory for the samples of a picture
-    struct fault_shader *shader; // draws references that the CPU device has no equations for; NULL: not open
+    struct fault_shader *shader; // draws references that the CPU device cannot compute; NULL if not open
 };
 
-// Draws the references of `scenes`: of the possible expectations the first that the pictures fulfil, else the nearest.
+// Draws the references of `scenes`, for the first possible expectation that the pictures meet, or else the nearest.
 bool check_draw_references(struct run *run, lam_error *error);
 
-// The steps of a comparison: the scenes of `drawn`, the share of the compared pixels that are unwritten (or not numbers), and
-// the difference of each scene from its reference with the verdict.
+// The steps of a comparison: make the scenes of `drawn`, get the share of compared pixels that are unwritten (or not
+// numbers), and measure the difference of each scene from its reference with the verdict.
 bool check_make_scenes(struct run *run, unsigned scenes, lam_error *error);
 double check_missing_share(const struct scene_comparison *scene, bool not_numbers);
 void check_measure(struct run *run, bool writes);
 
-// Compares shaders of a contract whose strengths are any. FIT_UNKNOWN: no verdict; `reason` is the end of a sentence.
+// Compares shaders of a contract that allows any strengths. FIT_UNKNOWN: no verdict; `reason` is the end of a sentence.
 enum fit_outcome { FIT_UNKNOWN, FIT_RIGHT, FIT_EXPLAINED, FIT_DIFFERS };
 bool check_fit(struct run *run, bool writes, enum fit_outcome *outcome, char *reason, size_t capacity,
                lam_error *error);
 
-// Describes the scenes of a shader that differs and gets no name.
+// Describes the scenes of a shader whose difference has no name.
 void check_describe(struct run *run);
 
 // Compares the pictures of `drawn` with the reference scenes `scenes` (bits), and fills the report: scenes, verdict,
-// findings. `writes`: the fragment shader writes a colour.
+// findings. `writes` states whether the fragment shader writes a colour.
 bool check_compare(struct run *run, unsigned scenes, bool writes, lam_error *error);
 
 #endif

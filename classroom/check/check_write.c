@@ -1,4 +1,5 @@
-// check_write.c: writes a contract as a file for readers: one entry per line, with its meaning and what to correct.
+// check_write.c: writes a contract as a file for readers: one entry per line, with its meaning and possible
+// corrections.
 #include <lambent/check.h>
 
 #include <jansson.h>
@@ -14,7 +15,7 @@
 #include "json_parse.h"
 #include "prefix.h"
 
-// The advice on correcting an entry, by its role; "": only the role can be wrong.
+// The advice on correcting an entry, by its role. It is "" if only the role can be wrong.
 static const struct {
     const char *role, *correct;
 } corrections[] = {
@@ -124,7 +125,7 @@ static void put_line(struct text *t, int indent, const char *key, const json_t *
     put(t, last ? "\n" : ",\n", last ? 1 : 2);
 }
 
-// An object or a list of more than one line, with a member a line.
+// Writes an object or a list on several lines, with one member per line.
 static void put_members(struct text *t, const char *key, const json_t *value, bool last)
 {
     bool list = json_is_array(value);

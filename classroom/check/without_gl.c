@@ -1,4 +1,4 @@
-// without_gl.c: the painter in builds without the headers of EGL and OpenGL: a check needs one of the caller's there.
+// without_gl.c: the painter in builds without the headers of EGL and OpenGL. The caller must then provide a painter.
 #include "gl_painter.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-// contract_schema.h: the JSON Schema of shader contracts, for the command `generate`.
+// contract_schema.h: prints the JSON Schema of shader contracts for the command `generate`.
 #ifndef CONTRACT_SCHEMA_H
 #define CONTRACT_SCHEMA_H
 

@@ -1,5 +1,5 @@
-// explain_figure.c: draws the figure of `explain -o`: the vectors n, l, v, r and h (of threads t instead of r and h) as
-// arrows on the surface, the same vectors seen from the side, and tables of the point's coordinates, the vectors, the
+// explain_figure.c: draws the figure of `explain -o`: the vectors n, l, v, r and h as arrows on the surface (t instead
+// of r and h for threads), the same vectors from the side, and tables of the point's coordinates, the vectors, the
 // angles and the terms.
 #include "explain_figure.h"
 
@@ -9,9 +9,9 @@
 #include "console.h"
 
 enum { INK = 0x222222, GREY = 0x707070, RULE = 0xd8d8d8, WHITE = 0xffffff };
-enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 }; // the panel's parts, in units
+enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 }; // the panel's measures, in units
 
-// Colours that can be distinguished without red and green too (Okabe and Ito, https://jfly.uni-koeln.de/color/).
+// Colours that remain distinct for colour-blind readers (Okabe and Ito, https://jfly.uni-koeln.de/color/).
 static const struct {
     const char *name, *meaning;
     uint32_t color;
@@ -19,19 +19,19 @@ static const struct {
                     {"v", "to the eye", 0x007a59},      {"r", "mirrored light", 0xb0558a},
                     {"h", "between l and v", 0xd55e00}, {"t", "tangent", 0x4d4dff}};
 
-// The subject of the figure: the nearest surface of the pixel, the point of it that is lit, and the light that adds most there.
+// The subject of the figure: the pixel's nearest surface, its shaded point, and the light that contributes most.
 struct subject {
-    const lam_explained_fragment *fragment; // NULL: the background alone
+    const lam_explained_fragment *fragment; // NULL if there is only the background
     const lam_explained_point *point;
-    const lam_explained_light *light; // NULL: none adds anything
-    bool threads;                     // lit by the tangent t (Kajiya-Kay): r and h have no part in it
-    lam_vec3 vectors[ARROWS];         // unit; zero: there is none, or it has no part
+    const lam_explained_light *light; // NULL if no light contributes
+    bool threads;                     // shaded by the tangent t (Kajiya-Kay), which does not use r and h
+    lam_vec3 vectors[ARROWS];         // unit vectors; zero if a vector is missing or unused
 };
 
 struct sheet_layout {
-    double unit; // of the panel; 1 for a picture 640 pixels high
+    double unit; // the panel's unit; 1 for a picture 640 pixels high
     double left, right;
-    double y; // of the next line
+    double y; // the position of the next line
 };
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -77,7 +77,7 @@ static double length_of(struct point p) { return __builtin_sqrt(p.x * p.x + p.y 
 
 // --- arrows
 
-// Arrows from one point, and their letters.
+// The arrows at one point, and their letters.
 struct diagram {
     struct point from, tips[ARROWS];
     bool has[ARROWS];
@@ -86,13 +86,13 @@ struct diagram {
 
 static struct point minus(struct point a, struct point b) { return (struct point){a.x - b.x, a.y - b.y}; }
 
-// Arrows shorter than this point at the reader.
+// Shorter arrows point towards the viewer.
 static bool is_short(const struct diagram *g, int arrow)
 {
     return length_of(minus(g->tips[arrow], g->from)) < 9 * g->unit;
 }
 
-// Returns the distance of a point from the arrow's line.
+// Returns the distance between a point and the arrow's line.
 static double distance_of(struct point p, const struct diagram *g, int arrow)
 {
     struct point way = minus(g->tips[arrow], g->from), to = minus(p, g->from);
@@ -101,8 +101,8 @@ static double distance_of(struct point p, const struct diagram *g, int arrow)
     return length_of((struct point){to.x - along * way.x, to.y - along * way.y});
 }
 
-// Finds a position for an arrow's letter around its tip, clear of the arrows and of earlier letters; if none is free,
-// the farthest position tried.
+// Finds a position for an arrow's letter around its tip that does not overlap the arrows and earlier letters. If there
+// is none, returns the farthest position tried.
 static struct point find_place(const struct diagram *g, int arrow, const struct point *letters, int count)
 {
     struct point way = minus(g->tips[arrow], g->from), at = g->tips[arrow];
@@ -143,8 +143,8 @@ static void draw_letters(const struct diagram *g, struct drawing *d)
     }
 }
 
-// Draws an arrow over a wider white line that separates it from the picture. An arrow that points at the reader is a
-// dot in a ring.
+// Draws an arrow over a wider white line that separates it from the picture. An arrow towards the viewer is a dot in a
+// ring.
 static bool draw_arrow(const struct diagram *g, int arrow, struct drawing *d, lam_error *error)
 {
     struct point from = g->from, tip = g->tips[arrow], way = minus(tip, from);
@@ -162,8 +162,8 @@ static bool draw_arrow(const struct diagram *g, int arrow, struct drawing *d, la
            draw_line(d, line, 2, 2.6 * unit, color, 0, error) && draw_line(d, wings, 3, 2.6 * unit, color, 0, error);
 }
 
-// h covers l in the picture, because v points at the reader, and is the shorter one: it is drawn after l. n comes next,
-// and vectors towards the reader last.
+// In the picture, h covers l and is shorter, because v points towards the viewer. So h is drawn after l, then n, and
+// vectors towards the viewer last.
 static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *error)
 {
     static const int order[ARROWS] = {2, 3, 5, 1, 4, 0};
@@ -176,8 +176,8 @@ static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *
     return spot;
 }
 
-// Computes the tips of all arrows of this length in the picture, from the lit point. Returns false if one lies outside
-// of it.
+// Computes the tips of all arrows with this length in the picture, starting at the shaded point. Returns false if a tip
+// is outside the picture.
 static bool find_tips(const struct explain_figure *f, const struct subject *s, double length, double margin,
                       struct point tips[ARROWS])
 {
@@ -195,7 +195,7 @@ static bool find_tips(const struct explain_figure *f, const struct subject *s, d
     return inside;
 }
 
-// Draws the arrows on the picture, as long as the picture lets all of them be, with a spot at the point.
+// Draws the arrows on the picture, as long as they all fit, with a dot at the point.
 static bool draw_vectors(const struct explain_figure *f, const struct subject *s, struct point corner, double unit,
                          struct drawing *d, lam_error *error)
 {
@@ -219,9 +219,9 @@ static bool draw_vectors(const struct explain_figure *f, const struct subject *s
     return draw_diagram(&g, d, error);
 }
 
-// The vectors in the plane of the normal and the light (of n and v without a light): the surface is a level line. Of a thread it
-// is the plane of t and l, and the thread is the level line: the angle between these two is all that the light counts by. In the
-// picture v points at the reader.
+// Draws the vectors in the plane of the normal and the light (n and v without a light), with the surface as a
+// horizontal line. For a thread it is the plane of t and l, with the thread as the horizontal line, because only the
+// angle between t and l matters. In the picture, v points towards the viewer.
 static bool draw_from_the_side(const struct subject *s, const struct sheet_layout *at, struct drawing *d,
                                lam_error *error)
 {
@@ -239,7 +239,7 @@ static bool draw_from_the_side(const struct subject *s, const struct sheet_layou
     double up = dot(other, n);
     lam_vec3 level = {other.x - up * n.x, other.y - up * n.y, other.z - up * n.z};
     double size = __builtin_sqrt(dot(level, level));
-    if (!(size > 1e-4)) { // along the normal: any direction of the surface
+    if (!(size > 1e-4)) { // parallel to the normal, so any direction of the surface will do
         level = n.x * n.x < 0.5 ? (lam_vec3){0, n.z, -n.y} : (lam_vec3){-n.z, 0, n.x};
         size = __builtin_sqrt(dot(level, level));
     }
@@ -267,7 +267,7 @@ static void put(struct drawing *d, const struct sheet_layout *at, double x, enum
     draw_text(d, (struct point){at->left + x * at->unit, at->y}, 12.5 * at->unit, align, color, text);
 }
 
-// Prints the heading of a table, and the names of its columns.
+// Prints a table's heading and the names of its columns.
 static bool begin_table(struct drawing *d, struct sheet_layout *at, const char *title, const char *const *columns,
                         lam_error *error)
 {
@@ -303,7 +303,7 @@ static void put_vector(struct drawing *d, struct sheet_layout *at, uint32_t colo
     put_row(d, at, color, name, (double[3]){v.x, v.y, v.z}, 3);
 }
 
-// Prints the point in each space, from the mesh to the window.
+// Prints the point's coordinates in each space, from the mesh to the window.
 static bool put_places(const lam_explained_fragment *f, struct drawing *d, struct sheet_layout *at, lam_error *error)
 {
     static const char *const columns[] = {"x", "y", "z", "w", NULL};
@@ -360,7 +360,7 @@ static bool put_vectors(const struct subject *s, struct drawing *d, struct sheet
     return true;
 }
 
-// Prints the factors of the drawn light, and the terms of the sum.
+// Prints the factors of the drawn light and the terms of the sum.
 static bool put_terms(const lam_explanation *e, const struct subject *s, struct drawing *d, struct sheet_layout *at,
                       lam_error *error)
 {
@@ -390,7 +390,7 @@ static bool put_terms(const lam_explanation *e, const struct subject *s, struct 
     return true;
 }
 
-// Prints the head of the panel: the surface, the methods, and the light of the arrows.
+// Prints the heading of the panel: the surface, the methods, and the light of the arrows.
 static void put_words(const struct explain_figure *f, const struct subject *s, struct drawing *d,
                       struct sheet_layout *at)
 {
@@ -444,7 +444,7 @@ void explain_figure_size(const struct explain_figure *f, int *width, int *height
     *height = (int)(head_of(unit) + (rows > e->height ? rows : e->height) + 24 * unit);
 }
 
-// Describes the figure in words, for readers who cannot see it.
+// Describes the figure in words for readers who cannot see it.
 static bool describe(const struct explain_figure *f, const struct subject *s, const char *title, struct drawing *d,
                      lam_error *error)
 {
@@ -473,11 +473,11 @@ static bool describe(const struct explain_figure *f, const struct subject *s, co
     return drawing_describe(d, title, text, error);
 }
 
-// If nothing is lit: a ring around the pixel.
+// Draws a ring around the pixel if nothing is shaded.
 static bool draw_ring(struct drawing *d, struct point middle, double unit, lam_error *error)
 {
     struct point round[33];
-    for (int i = 0; i <= 32; i++) { // a circle of 32 sides
+    for (int i = 0; i <= 32; i++) { // a circle with 32 sides
         static const double quarter[9] = {0, 0.1951, 0.3827, 0.5556, 0.7071, 0.8315, 0.9239, 0.9808, 1};
         int part = i % 32, side = part / 8, step = part % 8;
         double a = quarter[8 - step], b = quarter[step];

@@ -1,4 +1,4 @@
-// explain_figure.h: draws an explained pixel as a figure: the picture with its vectors, and its numbers beside it.
+// explain_figure.h: draws an explained pixel as a figure: the picture with its vectors and a panel of numbers.
 #ifndef EXPLAIN_FIGURE_H
 #define EXPLAIN_FIGURE_H
 
@@ -6,16 +6,16 @@
 
 struct explain_figure {
     const lam_explanation *explanation;
-    const lam_camera *camera; // of the picture
-    const lam_image *picture; // of the explanation's size
+    const lam_camera *camera; // the camera of the picture
+    const lam_image *picture; // same size as the explanation
     const char *model;
-    const char *title; // NULL: the model and the pixel
+    const char *title; // NULL means the model and the pixel
 };
 
-// The size of the page in pixels.
+// Returns the size of the page in pixels.
 void explain_figure_size(const struct explain_figure *figure, int *width, int *height);
 
-// Draws it onto an open page of that size.
+// Draws the figure onto an open page of that size.
 bool explain_figure_draw(const struct explain_figure *figure, struct drawing *drawing, lam_error *error);
 
 #endif

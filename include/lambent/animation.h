@@ -12,18 +12,17 @@ extern "C" {
 // thread at a time may use it.
 typedef struct lam_animation lam_animation;
 
-// Parameters of an animation. All zero: the defaults.
+// Parameters of an animation. If all fields are zero, the defaults apply.
 typedef struct lam_animation_params {
     double frames_per_second; // 0.1..240; 0: 24
     int loops;                // number of repetitions, 0..65535; 0: forever
-    // How each frame is encoded, as in lam_image_save; its `control` is ignored. NULL: the defaults.
+    // The encoding of each frame, as for lam_image_save; its `control` is ignored. NULL: the defaults.
     const lam_save_params *frames;
     LAM_RESERVED(8);
 } lam_animation_params;
 
-// Returns the format of an animation whose file has this name: "png" (animated PNG, which shows its first frame where a
-// program does not know animations) or "webp". Returns NULL if the extension belongs to no format with several
-// pictures.
+// Returns the format of an animation file by its extension: "png" (animated PNG; programs without support for animation
+// show its first frame) or "webp". Returns NULL if the extension belongs to no animation format.
 LAM_API const char *lam_animation_format(const char *path);
 
 // Begins an animation of pictures of width × height pixels in one of these formats. `params` may be NULL; it is copied.
@@ -32,20 +31,20 @@ LAM_API const char *lam_animation_format(const char *path);
 LAM_API lam_animation *lam_animation_make(const char *format, int width, int height, const lam_animation_params *params,
                                           lam_error *error);
 
-// Encodes the next frame, of 8 bits a channel and the animation's size. Only the smallest rectangle that contains all
-// changes since the previous frame is stored. `control` may be NULL; its memory limit counts the encoded frames of a
-// PNG too, and the encoder's canvases of a WebP. Fails with LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED; the animation
-// is then of no more use but to be freed.
+// Encodes the next frame, with 8 bits per channel and the size of the animation. Only the smallest rectangle that
+// contains all changes since the previous frame is stored. `control` may be NULL; its memory limit includes the encoded
+// frames of a PNG and the encoder's canvases of a WebP. Fails with LAM_BAD_ARGUMENT, LAM_LIMIT or LAM_CANCELLED; after
+// a failure the animation can only be freed.
 LAM_API bool lam_animation_add(lam_animation *animation, const lam_image *frame, const lam_control *control,
                                lam_error *error);
 
-// Ends the animation, which has at least one frame, and makes the bytes of its file; the caller frees them. The same
-// frames give the same bytes of a PNG on every machine (LAM_COMPRESS_FAST); for a WebP they depend on the version of
-// its library. Later calls fail. Fails with LAM_BAD_ARGUMENT, LAM_LIMIT, LAM_CANCELLED.
+// Ends the animation, which needs at least one frame, and makes the bytes of its file; the caller frees them. A PNG has
+// the same bytes on every machine (LAM_COMPRESS_FAST); a WebP depends on the version of its library. Later calls fail.
+// Fails with LAM_BAD_ARGUMENT, LAM_LIMIT or LAM_CANCELLED.
 LAM_API bool lam_animation_finish(lam_animation *animation, const lam_control *control, lam_bytes *out,
                                   lam_error *error);
 
-LAM_API void lam_animation_free(lam_animation *animation); // NULL is fine
+LAM_API void lam_animation_free(lam_animation *animation); // NULL is allowed
 
 #ifdef __cplusplus
 }

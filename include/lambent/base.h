@@ -59,8 +59,8 @@ typedef enum lam_code {
     LAM_CANCELLED,    // the caller's cancel flag was raised
 } lam_code;
 
-// An error. The caller need not initialise it: a failing call fills it completely, a successful call does not change
-// it.
+// An error. The caller need not initialise it: a failing call fills it completely, and a successful call leaves it
+// unchanged.
 typedef struct lam_error {
     lam_code code; // the kind of failure
     // One sentence in UTF-8 without a line end: the file, the position in it (line or byte), what was found and what
@@ -68,9 +68,10 @@ typedef struct lam_error {
     char text[508];
 } lam_error;
 
-// A flag that any thread may raise to stop a running call. All zero: not raised. It may be used for many calls.
+// A flag that any thread may raise to stop a running call. Initialise it with zeros. One flag can be used for many
+// calls.
 typedef struct lam_cancel {
-    int raised; // not 0: raised
+    int raised; // nonzero: raised
 } lam_cancel;
 
 // Raise and clear the flag. Both are safe from any thread and in a signal handler.
@@ -85,62 +86,63 @@ LAM_API void lam_cancel_clear(lam_cancel *cancel);
 #define LAM_FILE_LIMIT_BYTES 32000000000u // bytes
 #define LAM_JSON_DEPTH_LIMIT 256u         // objects and lists within one another
 #define LAM_JSON_DEPTH_MAX   2000u        // the upper bound of json_depth_limit: the parser is recursive
-// Triangles of small files: this many, and more for each byte of files, up to LAM_TRIANGLE_LIMIT.
+// The triangle limit of small files: this number plus LAM_TRIANGLES_PER_BYTE for each byte of files, up to
+// LAM_TRIANGLE_LIMIT.
 #define LAM_TRIANGLES_BASE     50000000u
 #define LAM_TRIANGLES_PER_BYTE 100u
-// Bytes of memory that reading a model may use: this many, and expansion_limit for each byte of files.
+// The bytes of memory that reading a model may use: this number plus expansion_limit for each byte of files.
 #define LAM_EXPANSION_BASE_BYTES 500000000u
 #define LAM_EXPANSION_LIMIT      2000u
-// Objects of a model: this many, and one more for each byte of files.
+// The object limit of a model: this number plus one for each byte of files.
 #define LAM_OBJECTS_BASE 100000u
-// Layers of a picture: this many, and one more for each LAM_LAYER_BYTES of files.
+// The layer limit of a picture: this number plus one for each LAM_LAYER_BYTES of files.
 #define LAM_LAYERS_BASE 40u
 #define LAM_LAYER_BYTES 16384u
 
-// Control over one long call, such as loading or drawing. All zero: no limits of time and memory, the limits above,
-// no progress. Every long loop checks it, so that a call fails within milliseconds after the flag is raised or the
-// deadline has passed.
+// Controls one long call, such as loading or drawing. If all fields are zero, there is no limit of time or memory, the
+// limits above apply, and no progress is reported. Every long loop checks the control, so that a call fails within
+// milliseconds after the flag is raised or the deadline has passed.
 typedef struct lam_control {
     // The flag that stops the call with LAM_CANCELLED. NULL: the call cannot be cancelled.
     const lam_cancel *cancel;
-    // Seconds on the clock from the start of the call after which it fails with LAM_LIMIT. Times the number of threads,
+    // The call fails with LAM_LIMIT this many seconds after its start (wall-clock time). Times the number of threads,
     // this bounds the processor time as well. 0 or less: no limit.
     double time_limit_s;
-    // Bytes that the call may use at once; more is LAM_LIMIT. 0: no limit.
+    // The most bytes that the call may use at once; beyond this it fails with LAM_LIMIT. 0: no limit.
     uint64_t memory_limit_bytes;
     // Called repeatedly, in the calling thread, with the fraction done, 0..1, and the name of the step ("read",
     // "normals", "frame"). It must not call into the same device or scene. NULL: none.
     void (*progress)(void *user, double share, const char *step);
     void *user; // passed to `progress`
     // The largest number of triangles of a model or a picture (each object adds the triangles of its mesh). A line or
-    // point counts as one triangle in a model, and as two in a picture. 0: LAM_TRIANGLE_LIMIT, less for small files.
+    // point counts as one triangle in a model, and as two in a picture. 0: LAM_TRIANGLE_LIMIT, or less for small files.
     uint64_t triangle_limit;
     // The largest number of pixels of each picture read: textures, environments, single pictures. A side is never
     // longer than 65535 pixels. 0: LAM_PIXEL_LIMIT.
     uint64_t pixel_limit;
     // The largest size of each file read, in bytes. 0: LAM_FILE_LIMIT_BYTES.
     uint64_t file_limit_bytes;
-    // How deep JSON (glTF, scene files) may nest, at most LAM_JSON_DEPTH_MAX. 0: LAM_JSON_DEPTH_LIMIT.
+    // The deepest nesting of JSON (glTF, scene files), at most LAM_JSON_DEPTH_MAX. 0: LAM_JSON_DEPTH_LIMIT.
     uint64_t json_depth_limit;
     // Bytes of memory that reading may use for each byte of files, beyond LAM_EXPANSION_BASE_BYTES: textures, vertices,
     // and the memory of decoders. 0: LAM_EXPANSION_LIMIT.
     uint64_t expansion_limit;
-    // The largest number of objects of a model, instances included. 0: LAM_OBJECTS_BASE, and one for each byte of
+    // The largest number of objects of a model, instances included. 0: LAM_OBJECTS_BASE plus one for each byte of
     // files.
     uint64_t object_limit;
     // The largest number of layers per pixel of a picture, on average (a smaller picture counts as 256×256 pixels). A
-    // layer is a translucent or masked surface over a pixel; 32 lights that light a point count as one, and so do 32
-    // opaque surfaces. The CPU device counts them. 0: LAM_LAYERS_BASE, and more for large files.
+    // layer is a translucent or masked surface over a pixel; 32 lights that light a point count as one layer, and so do
+    // 32 opaque surfaces. The CPU device counts the layers. 0: LAM_LAYERS_BASE, or more for large files.
     uint64_t layer_limit;
     LAM_RESERVED(1);
 } lam_control;
 
-// Returns the memory that this process may use, bytes: the smallest of the machine's memory, the limits of its control
-// groups (cgroup v2 and v1, parents included), RLIMIT_AS and RLIMIT_DATA. UINT64_MAX: unknown. Reads a few files of the
-// system each time.
+// Returns the memory that this process may use, in bytes: the smallest of the machine's memory, the limits of its
+// control groups (cgroup v2 and v1, parents included), RLIMIT_AS and RLIMIT_DATA. Returns UINT64_MAX if no limit is
+// known. Each call reads a few system files.
 LAM_API uint64_t lam_memory_available(void);
 
-// A position, direction or angle triple.
+// A position, a direction or three angles.
 typedef struct lam_vec3 {
     double x, y, z;
 } lam_vec3;
@@ -171,27 +173,27 @@ typedef struct lam_mat4 {
 // Returns the identity.
 LAM_API lam_mat4 lam_mat4_identity(void);
 
-// Returns the right-handed rotation about an axis through the origin, of any length but 0. The same bytes on every
-// machine.
+// Returns the right-handed rotation about an axis through the origin, of any nonzero length. The result is
+// bit-identical on every machine.
 LAM_API lam_mat4 lam_mat4_rotation(lam_vec3 axis, double angle_rad);
 
 // Returns the version of the library, "major.minor.patch". The string is static.
 LAM_API const char *lam_version(void);
 
-// One line about the build: compiler, instruction sets, libraries. The string is static.
+// Returns one line about the build: compiler, instruction sets, libraries. The string is static.
 LAM_API const char *lam_build_info(void);
 
-// Bytes of the well-formed UTF-8 character (RFC 3629) that begins at `bytes`, of which `size` may be read: 1..4. 0:
-// none begins there, or it is cut.
+// Returns the length in bytes, 1..4, of the UTF-8 character (RFC 3629) that begins at `bytes`, of which `size` may be
+// read. Returns 0 if the bytes are invalid or the character is truncated.
 LAM_API int lam_utf8_length(const void *bytes, size_t size);
 
 // Returns the edit distance between two words: the number of letters inserted, deleted, replaced or swapped with their
-// neighbour (optimal string alignment). Words of more than 63 bytes count as 63 apart.
+// neighbour (optimal string alignment). Words of more than 63 bytes have the distance 63.
 LAM_API int lam_edit_distance(const char *a, const char *b);
 
-// Returns how far a typed word is from a word of this interface, for suggestions. 0: it means that word (they differ in
-// capitals, '-', '_' and spaces at most, or people call it so: "sun" for "directional"). 1: the word begins with it,
-// three letters or more. Else the edit distance.
+// Returns the distance of a typed word from a word of this interface, for suggestions. 0: both words mean the same
+// (they differ only in capitals, '-', '_' and spaces, or the typed word is a common synonym: "sun" for "directional").
+// 1: the word begins with the typed one, which has at least three letters. Otherwise: the edit distance.
 LAM_API int lam_word_distance(const char *typed, const char *word);
 
 #ifdef __cplusplus

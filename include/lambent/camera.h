@@ -12,11 +12,12 @@ extern "C" {
 typedef struct lam_camera {
     lam_vec3 eye;    // position, world space
     lam_vec3 target; // a point in the middle of the picture, other than `eye`
-    // Direction of the picture's top, any length but 0. Along the line of sight, another axis takes its place.
+    // The direction of the picture's top, of any nonzero length. If it is parallel to the line of sight, another axis
+    // is used.
     lam_vec3 up;
-    // Full vertical field of view, radians, in (0, π). Used where `ortho_half_height` is 0.
+    // Full vertical field of view, radians, in (0, π). Used if `ortho_half_height` is 0.
     double fovy_rad;
-    // > 0: an orthographic camera that shows this many model units from the middle of the picture to its top.
+    // > 0: an orthographic camera; the model units from the middle of the picture to its top. 0: a perspective camera.
     double ortho_half_height;
     // Distances along the view of the nearest and farthest drawn points; near < far, and near > 0 for perspective. Both
     // 0: fitted to the scene.
@@ -30,25 +31,25 @@ LAM_API lam_camera lam_camera_default(void);
 // Returns the matrix from world to eye space: the eye at the origin, x to the right, y up, looking along −z.
 LAM_API lam_mat4 lam_camera_view_matrix(const lam_camera *camera);
 
-// Projects a point of eye space into a picture of width × height pixels (both above 0): *x and *y in pixels from its
-// upper left corner, also for points outside the picture. Ignores the near and far planes. Returns false and changes
-// nothing if the point is beside or behind the eye of a perspective camera.
+// Projects a point of eye space into a picture of width × height pixels (both above 0). *x and *y are in pixels from
+// the upper left corner, also for points outside the picture. The near and far planes are ignored. Returns false and
+// changes nothing if the point is beside or behind the eye of a perspective camera.
 LAM_API bool lam_camera_project(const lam_camera *camera, int width, int height, lam_vec3 eye_position, double *x,
                                 double *y);
 
-// The direction from which lam_camera_fit views the scene. All zero: the three-quarter view of a catalogue, 30° to the
-// right of the front and 20° above, in perspective.
+// The direction from which lam_camera_fit views the scene. If all fields are zero, it is the three-quarter view of a
+// catalogue, 30° to the right of the front and 20° above it, in perspective.
 typedef struct lam_view {
-    // true: `azimuth_rad` and `elevation_rad` count; false: the three-quarter view.
+    // true: use `azimuth_rad` and `elevation_rad`; false: the three-quarter view.
     bool from_angles;
-    // Turn about the up axis, radians. 0: the front, which is +z (−y for scenes with z up); π/2: the right side.
+    // Angle about the up axis, radians. 0: the front, which is +z (−y for scenes with z up); π/2: the right side.
     double azimuth_rad;
-    // Height above the horizon, radians, −π/2..π/2. π/2: from above.
+    // Angle above the horizon, radians, −π/2..π/2. π/2: from above.
     double elevation_rad;
     double fovy_rad;   // full vertical field of view, radians, in (0, π); 0: 30°
     bool orthographic; // true: parallel projection; `fovy_rad` is ignored
     double zoom;       // > 0; 2 shows the model twice as large; 0: 1
-    // Fraction of the tighter side of the picture that the projected vertices take, in (0, 1]. 0: 0.92.
+    // Fraction of the picture's tighter side that the projected vertices fill, in (0, 1]. 0: 0.92.
     double fill;
     LAM_RESERVED(8);
 } lam_view;
@@ -71,7 +72,7 @@ typedef enum lam_side {
 // range.
 LAM_API const char *lam_side_name(lam_side side);
 
-// Returns the side of a name, or LAM_SIDE_COUNT if there is none.
+// Returns the side with this name, or LAM_SIDE_COUNT if there is none.
 LAM_API lam_side lam_side_find(const char *name);
 
 // Returns the view of a side, in perspective. Out of range: the three-quarter view.
@@ -79,9 +80,9 @@ LAM_API lam_view lam_view_of_side(lam_side side);
 
 // Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height
 // pixels and are centred in it. A camera fitted for one aspect ratio crops or shrinks the model in another. The view is
-// relative to the scene's up axis. A side below 1 counts as 1. `view` NULL: the three-quarter view. A scene without
-// triangles gives the default camera. If a view sets a field that this version does not know, the result is a camera
-// that every call rejects (base.h, "Growth").
+// relative to the scene's up axis. A width or height below 1 counts as 1. `view` NULL: the three-quarter view. A scene
+// without triangles gets the default camera. If a view sets a field that this version does not know, the result is a
+// camera that every call rejects (base.h, "Growth").
 LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view);
 
 // Fits one camera for all angles of a scene that rotates about an axis through `centre` (lam_scene_rotate), so that the
@@ -91,8 +92,8 @@ LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height,
 LAM_API lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
                                           const lam_view *view);
 
-// A camera of the scene's file (lam_scene_camera_count). If it has no far plane, the far plane is placed behind the
-// scene's bounds. Returns false and the default camera if there is no such camera.
+// Gets a camera of the scene's file (lam_scene_camera_count). If the camera has no far plane, the far plane is placed
+// behind the scene's bounds. Returns false and the default camera if there is no such camera.
 LAM_API bool lam_scene_camera(const lam_scene *scene, int index, lam_camera *camera);
 
 // A camera that orbits a point, for programs in which users rotate a model with the mouse. Begin with lam_orbit_of().
@@ -107,24 +108,25 @@ typedef struct lam_orbit {
     LAM_RESERVED(8);
 } lam_orbit;
 
-// Returns the orbit of a camera of this scene. Its target is the point of the line of sight that is nearest to the middle of the scene's
-// box, or, if that lies behind the eye or the scene is NULL or empty, the camera's target. A camera that is tilted comes upright.
+// Returns the orbit of a camera of this scene. Its target is the point on the line of sight that is nearest to the
+// centre of the scene's box. If that point is behind the eye, or the scene is NULL or empty, it is the camera's target.
+// A tilted camera becomes upright.
 LAM_API lam_orbit lam_orbit_of(const lam_camera *camera, const lam_scene *scene);
 
 // Returns the camera of an orbit; the planes are fitted to the scene when it is drawn.
 LAM_API lam_camera lam_orbit_camera(const lam_orbit *orbit);
 
-// Turns the eye about the target, radians: to the right and up. The elevation stops at −π/2 and π/2. To turn the model with
-// the mouse, a drag by dx, dy pixels (dy down) in a picture of `height` pixels is about −π dx / height to the right and
-// π dy / height up. Numbers that are not finite change nothing, here and below.
+// Turns the eye about the target, radians, to the right and up. The elevation stops at −π/2 and π/2. To turn the model
+// with the mouse, a drag by dx, dy pixels (dy down) in a picture of `height` pixels is about −π dx / height to the
+// right and π dy / height up. Numbers that are not finite are ignored, here and below.
 LAM_API void lam_orbit_turn(lam_orbit *orbit, double right_rad, double up_rad);
 
 // Moves eye and target in the plane of the picture, in heights of the picture at the target's distance: a drag by dx, dy pixels is
 // −dx / height to the right and dy / height up.
 LAM_API void lam_orbit_pan(lam_orbit *orbit, double right, double up);
 
-// Shows the target `factor` times as large, > 0: the eye comes nearer, or an orthographic camera shows less. Others change
-// nothing.
+// Shows the target `factor` times as large, > 0: the eye comes nearer, or an orthographic camera shows less. Other
+// factors are ignored.
 LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 
 // Parses a camera from text: pairs key=value, separated by commas, of

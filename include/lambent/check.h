@@ -12,21 +12,21 @@
 extern "C" {
 #endif
 
-// A contract: the names of a course's shader inputs, and the requirements of its exercise. It is a file of JSON
-// (docs/check.md, "Contracts"). Nothing changes it, so any number of checks may share one.
+// A contract: the names of a course's shader inputs, and the requirements of its exercise. It is read from a JSON file
+// (docs/check.md, "Contracts"). It is immutable, so any number of checks may share one.
 typedef struct lam_check_contract lam_check_contract;
 
-// Returns the names of the contracts that are built in: "lambent", "pittsburgh", "oregon", … NULL past the last.
+// Returns the name of a built-in contract: "lambent", "pittsburgh", "oregon", … Returns NULL past the last one.
 LAM_API const char *lam_check_contract_shipped(int index);
-// Returns the file of a contract that is built in, by its name. Returns NULL if there is none.
+// Returns the file of a built-in contract by its name. Returns NULL if there is none.
 LAM_API const char *lam_check_contract_text(const char *name);
 
 // Reads a contract. `file`: its name, for messages, or NULL if there is none. The caller frees the contract. Fails with
-// LAM_CANNOT_READ, with the place that is wrong, or LAM_LIMIT.
+// LAM_CANNOT_READ, with the position of the error, or LAM_LIMIT.
 LAM_API lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error);
-LAM_API void lam_check_contract_free(lam_check_contract *contract); // NULL is fine
+LAM_API void lam_check_contract_free(lam_check_contract *contract); // NULL is allowed
 
-// Its name and its title, a line. Both belong to the contract.
+// Return the contract's name and its one-line title. Both strings belong to the contract.
 LAM_API const char *lam_check_contract_name(const lam_check_contract *contract);
 LAM_API const char *lam_check_contract_title(const lam_check_contract *contract);
 
@@ -35,7 +35,7 @@ typedef struct lam_check_name {
     const char *name; // "lights[].lightPosition" for members of a list
     const char *type; // "vec4"
     const char *role; // "light_position": the name of a lam_check_role
-    // Of positions and directions: "eye", "world" or "object"; NULL: none.
+    // The space of a position or direction: "eye", "world" or "object"; NULL: none.
     const char *space;
     const char *meaning; // one line
     // Other accepted names, separated by blanks. NULL: none.
@@ -44,20 +44,20 @@ typedef struct lam_check_name {
     LAM_RESERVED(4);
 } lam_check_name;
 
-// Row `row` of a contract, counted from 0. False past the last one.
+// Gets row `row` of a contract, counted from 0. Returns false past the last one.
 LAM_API bool lam_check_contract_row(const lam_check_contract *contract, int row, lam_check_name *name);
 
-// A role that a contract can give to a name. Strings are static.
+// A role that a contract can give to a name. The strings are static.
 typedef struct lam_check_role {
     const char *name;    // as in contract files: "light_position"
     const char *meaning; // one line
-    // That an attribute, a uniform, or a number in a shader's text can have it.
+    // Whether an attribute, a uniform, or a number in a shader's text can have this role.
     bool attribute, uniform, constant;
-    bool in_space; // it has a space
+    bool in_space; // whether names of this role have a space
     LAM_RESERVED(4);
 } lam_check_role;
 
-// Row `row` of the roles, counted from 0. False past the last one.
+// Gets row `row` of the roles, counted from 0. Returns false past the last one.
 LAM_API bool lam_check_role_row(int row, lam_check_role *role);
 
 // Returns the known mistakes: their ids ("no-gate") and a sentence about each. Returns NULL past the last.
@@ -79,9 +79,9 @@ LAM_API bool lam_check_draw(const void *request, size_t size, const char *gl_dev
 typedef enum lam_check_draw_status {
     LAM_CHECK_DRAW_DONE = 0, // `result` contains the bytes from lam_check_draw
     LAM_CHECK_DRAW_FAILED,   // `error` says why
-    LAM_CHECK_DRAW_TIMEOUT,  // it was stopped at its deadline
+    LAM_CHECK_DRAW_TIMEOUT,  // the process was stopped at its deadline
     LAM_CHECK_DRAW_CRASHED,  // the process crashed
-    LAM_CHECK_DRAW_MEMORY,   // it was ended because it used too much memory
+    LAM_CHECK_DRAW_MEMORY,   // the process was stopped because it used too much memory
 } lam_check_draw_status;
 // Runs lam_check_draw on `request`, usually in another process.
 typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *request, lam_bytes *result,
@@ -89,21 +89,21 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 
 // --- drawing for a check
 
-// A check draws the shaders under test, and its own shaders with known mistakes, by OpenGL that it finds at run time,
-// or by a painter of the caller: a page draws with WebGL 2 (web/check/painter.js). The check alone decides the drawn
-// meshes, their inputs and the conclusion from the pictures, so that every painter gets the same verdict.
+// A check draws the shaders under test, and its own shaders with known mistakes. It uses OpenGL, which it finds at run
+// time, or a painter of the caller: a page draws with WebGL 2 (web/check/painter.js). The check alone chooses the
+// meshes and their inputs and compares the pictures, so that every painter gets the same verdict.
 
 // The compiler of a pair of shaders.
 typedef enum lam_check_language {
     LAM_CHECK_LANGUAGE_CORE = 0, // OpenGL 3.3 core
     LAM_CHECK_LANGUAGE_ES,       // OpenGL ES 3.0, which is WebGL 2
-    // OpenGL with everything since 1.0, such as gl_Vertex and gl_NormalMatrix.
+    // OpenGL with all names since 1.0, such as gl_Vertex and gl_NormalMatrix.
     LAM_CHECK_LANGUAGE_COMPATIBILITY,
 } lam_check_language;
 
 // The type of an input.
 typedef enum lam_check_type {
-    LAM_CHECK_TYPE_OTHER = 0, // none of those below
+    LAM_CHECK_TYPE_OTHER = 0, // none of the types below
     LAM_CHECK_TYPE_FLOAT,     // float
     LAM_CHECK_TYPE_INT,       // int
     LAM_CHECK_TYPE_BOOL,      // bool
@@ -115,120 +115,123 @@ typedef enum lam_check_type {
     LAM_CHECK_TYPE_SAMPLER2D, // sampler2D
 } lam_check_type;
 
-// An attribute or a uniform that a program reads, also one in a block.
+// An attribute or a uniform that a program reads, also in a uniform block.
 typedef struct lam_check_input {
-    // As OpenGL says it: "lights[0].position", "numbers[0]" for a whole list of numbers.
+    // The name that OpenGL reports: "lights[0].position", or "numbers[0]" for a whole array of numbers.
     char name[128];
     lam_check_type type; // of one element
-    int elements;        // of a list; 1: no list
+    int elements;        // length of an array; 1: not an array
     bool attribute;      // false: a uniform
     LAM_RESERVED(2);
 } lam_check_input;
 
-// A compiled program. Its members belong to the painter.
+// A compiled program. The painter owns the data that its members point to.
 typedef struct lam_check_program {
-    void *program;                         // NULL: it does not compile or link
-    lam_check_input *inputs;               // the inputs that they read
+    void *program;                         // NULL: the program does not compile or link
+    lam_check_input *inputs;               // the inputs that the shaders read
     int input_count;                       // of `inputs`
-    bool refused_vertex, refused_fragment; // which of the texts do not compile
+    bool refused_vertex, refused_fragment; // which of the shaders do not compile
     char vertex_log[4096];                 // the compiler's messages; ""
     char fragment_log[4096];               // likewise
-    char link_log[4096];                   // the linker's
+    char link_log[4096];                   // the linker's messages
     LAM_RESERVED(4);
 } lam_check_program;
 
-// Values of a uniform: `count` elements from `first` on, each with as many floats as its type has components, matrices by
-// columns. Of integers and flags, whole numbers; of a sampler, the RGBA of a texture that has this colour everywhere.
+// Values of a uniform: `count` elements from `first` on. Each element has as many floats as its type has components,
+// matrices by columns. Integers and flags are given as whole numbers. A sampler gets the RGBA of a texture with one
+// colour everywhere.
 typedef struct lam_check_value {
     int input;            // index in `inputs`
-    int first;            // element
-    int count;            // of elements
-    const float *numbers; // belong to the check
+    int first;            // index of the first element
+    int count;            // number of elements
+    const float *numbers; // owned by the check
     LAM_RESERVED(1);
 } lam_check_value;
 
-// Triangles. Meshes with the same number are the same as long as a place is open, so a painter may keep them.
+// A triangle mesh. Meshes with the same number are identical as long as a context is open, so a painter may keep them.
 typedef struct lam_check_mesh {
     int number;              // from 0
     int vertex_count;        // at most 65535
     int index_count;         // three for each triangle
     const float *positions;  // 3 floats for each vertex
-    const float *normals;    // 4 floats, the last of them 0
-    const float *tangents;   // 3 floats
-    const uint16_t *indices; // of vertices
+    const float *normals;    // 4 floats for each vertex, the last of them 0
+    const float *tangents;   // 3 floats for each vertex
+    const uint16_t *indices; // indices of vertices
     LAM_RESERVED(4);
 } lam_check_mesh;
 
-// Values for an attribute beside positions, normals and tangents, of each vertex of the mesh: texture coordinates, tangents
-// with the sign of the bitangent, bitangents.
+// Values of a further attribute for each vertex of the mesh: texture coordinates, tangents with the sign of the
+// bitangent, or bitangents.
 typedef struct lam_check_stream {
     int input;            // the attribute: index in `inputs`
     int components;       // floats for each vertex: 2, 3 or 4
-    const float *numbers; // belong to the check
+    const float *numbers; // owned by the check
     LAM_RESERVED(1);
 } lam_check_stream;
 
-// Triangles that are left out; the vertices of a front face go counter-clockwise.
+// The triangles that are culled. The vertices of a front face are in counter-clockwise order.
 typedef enum lam_check_cull {
-    LAM_CHECK_CULL_NONE = 0, // all are drawn
+    LAM_CHECK_CULL_NONE = 0, // none
     LAM_CHECK_CULL_BACK,     // back faces
     LAM_CHECK_CULL_FRONT,    // front faces
 } lam_check_cull;
 
 // One picture: a program draws a mesh on transparent black, with a depth buffer, without blending.
 typedef struct lam_check_drawing {
-    const lam_check_program *program; // that the painter compiled
-    const lam_check_mesh *mesh;       // to draw
+    const lam_check_program *program; // compiled by the painter
+    const lam_check_mesh *mesh;       // the mesh to draw
     // The attributes that get positions, normals and tangents, as indices in `inputs`; -1: none.
     int position, normal, tangent;
-    const lam_check_value *values; // of uniforms
+    const lam_check_value *values; // values of uniforms
     int value_count;               // of `values`
     lam_check_cull cull;           // triangles that are left out
-    // For LAM_CHECK_LANGUAGE_COMPATIBILITY: gl_ModelViewMatrix and gl_ProjectionMatrix, by columns. There gl_Vertex and
-    // gl_Normal are the mesh's where `position` and `normal` are -1.
+    // For LAM_CHECK_LANGUAGE_COMPATIBILITY: gl_ModelViewMatrix and gl_ProjectionMatrix, by columns. If `position` or
+    // `normal` is -1, gl_Vertex or gl_Normal gets the values of the mesh.
     float model_view[16], projection[16];
-    const lam_check_stream *streams; // for further attributes
+    const lam_check_stream *streams; // values of further attributes
     uint64_t stream_count;           // of `streams`
     LAM_RESERVED(2);
 } lam_check_drawing;
 
-// Draws for a check. All calls come from the thread of lam_check_run, and one place is open within another.
+// The functions that draw for a check. All calls come from the thread of lam_check_run. Contexts are opened and closed
+// in nested order.
 typedef struct lam_check_painter {
     void *user; // passed to `open`
-    // Makes a place for pictures of size² pixels and programs in a language. `renderer` gets the name of what draws.
-    // NULL: see `error`.
+    // Makes a context for pictures of size² pixels and for programs in a language. `renderer` gets the name of the
+    // renderer. NULL: the call failed, and `error` is filled.
     void *(*open)(void *user, lam_check_language language, int size, char renderer[128], lam_error *error);
-    void (*close)(void *place); // frees it; its programs are forgotten before
-    // A cache of the caller's keeps places: they come to rest after a check, and wake for another, perhaps on another thread.
+    void (*close)(void *place); // frees it; `forget` was called for its programs before
+    // Contexts can be cached by the caller: a context rests after a check and is woken for another one, perhaps on
+    // another thread.
     void (*rest)(void *place);
-    // False: see `error`; the place stays at rest. Its programs are forgotten, and it is closed without another call
-    // that wakes it: memory and the device's objects must be freed then too.
+    // Returns false and fills `error` on failure; the context stays at rest. Its programs are then forgotten and it is
+    // closed without being woken again, so these calls must free memory and device objects in this state too.
     bool (*wake)(void *place, lam_error *error);
-    // Compiles both texts, so that the messages of both are known at once, and links them. A program that is refused is no
-    // error. False: `error`; nothing is kept then.
+    // Compiles both shaders, so that the messages of both are available at once, and links them. A program that does
+    // not compile is not an error. Returns false, fills `error` and keeps nothing on failure.
     bool (*compile)(void *place, const char *vertex, const char *fragment, lam_check_program *program,
                     lam_error *error);
     void (*forget)(void *place, lam_check_program *program); // frees the result of compile
-    // Draws to size² RGBA pixels, rows top-down: floats as the program wrote them, or bytes / 255 where the device has no
-    // targets of floats, in which case colours are clamped and NaN is not found.
+    // Draws to size² RGBA pixels, rows top-down. The pixels are floats as the program wrote them. If the device has no
+    // float targets, they are bytes / 255; colours are then clamped, and NaN is not found.
     bool (*draw)(void *place, const lam_check_drawing *drawing, float *pixels, lam_error *error);
-    // Compiles nothing but GLSL ES: texts in desktop GLSL are rewritten for it, on the same lines, as far as the two
-    // languages agree (docs/check.md). Its pixels are not compared where the surface turns by more than 26 degrees from one to
-    // the next: GPUs that have nothing else may round corners to 1/16 of a pixel.
+    // The painter compiles only GLSL ES. Desktop GLSL is rewritten for it, line by line, as far as the two languages
+    // agree (docs/check.md). Pixels are not compared where the surface normal changes by more than 26 degrees to the
+    // next pixel, because such GPUs may round corners to 1/16 of a pixel.
     bool es_only;
     LAM_RESERVED(4);
 } lam_check_painter;
 
-// A cache of the pictures of known mistakes, shared by several checks: most of a check's time goes into drawing them.
-// It stores up to `max_bytes`; further pictures are drawn each time. For one OpenGL device or painter; any number of
-// threads may check with one cache at once. NULL: out of memory.
+// A cache of the pictures of known mistakes, shared by several checks; most of a check's time is spent drawing them. It
+// stores up to `max_bytes` and draws further pictures each time. A cache serves one OpenGL device or painter; any
+// number of threads may use it at once.
 typedef struct lam_check_cache lam_check_cache;
 
-// Makes an empty cache.
+// Makes an empty cache. Returns NULL if memory runs out.
 LAM_API lam_check_cache *lam_check_cache_make(size_t max_bytes, lam_error *error);
-LAM_API void lam_check_cache_free(lam_check_cache *cache); // NULL is fine
+LAM_API void lam_check_cache_free(lam_check_cache *cache); // NULL is allowed
 
-// The terms of the lighting that an exercise asks for.
+// The lighting terms that an exercise requires.
 typedef enum lam_check_term {
     LAM_CHECK_TERM_AMBIENT = 1,  // light from everywhere
     LAM_CHECK_TERM_DIFFUSE = 2,  // matt reflection
@@ -236,24 +239,24 @@ typedef enum lam_check_term {
     LAM_CHECK_TERM_ALL = 7       // all of them
 } lam_check_term;
 
-// The shaders to check, and how. Zero is the default of each field.
+// The shaders to check, and the settings of the check. Zero is the default of each field.
 typedef struct lam_check_params {
     const char *fragment;      // GLSL; required
     const char *fragment_name; // the file's name, for messages
     // NULL: a correct vertex shader is generated that writes the inputs of the fragment shader.
     const char *vertex;
     const char *vertex_name; // as fragment_name
-    // The names that the shaders use. NULL: the built-in one with these names.
+    // The names that the shaders use. NULL: the built-in contract that fits their names.
     const lam_check_contract *contract;
     int size; // width and height of each picture, 32..1024 pixels; 0: 128
-    // Largest allowed difference of a channel, 1 = full range; 0: 2/255. A scene passes when at most one pixel in 200
+    // Largest allowed difference of a channel, 1 = full range; 0: 2/255. A scene passes if at most one pixel in 200
     // exceeds it and the mean difference is at most a quarter of it.
     double tolerance;
-    // The space of light positions: LAM_FRAME_OBJECT or LAM_FRAME_CAMERA; LAM_FRAME_WORLD: the contract's own.
+    // The space of light positions: LAM_FRAME_OBJECT or LAM_FRAME_CAMERA; LAM_FRAME_WORLD: the contract's space.
     lam_light_frame light_frame;
-    // The expected highlight: LAM_REFLECTION_PHONG or LAM_REFLECTION_BLINN_PHONG; AUTO: the contract's own.
+    // The expected highlight: LAM_REFLECTION_PHONG or LAM_REFLECTION_BLINN_PHONG; AUTO: the contract's highlight.
     lam_reflection reflection;
-    // Names of the scenes to use; NULL: all that the contract can express.
+    // Names of the scenes to use; NULL: every scene that the contract can express.
     const char *const *scenes;
     int scene_count;        // of `scenes`
     const char *gl_device;  // as lam_gl_params.device; NULL: the first usable one
@@ -261,14 +264,14 @@ typedef struct lam_check_params {
     // Runs lam_check_draw in another process. NULL: in this process, for trusted shaders.
     lam_check_draw_fn *draw;
     void *user; // passed to `draw`
-    // The terms that the shaders are expected to compute, bits of lam_check_term; 0: the terms of which they declare a
-    // name. A colour that is not declared is taken as white.
+    // The terms that the shaders are expected to compute, bits of lam_check_term; 0: the terms for which the shaders
+    // declare a name. A colour that is not declared counts as white.
     unsigned terms;
-    // The search for mistakes ends after this many pictures of sets of them; 0: 10000. The result is the same on every
-    // machine, with a cache or without.
+    // The search for mistakes ends after comparing this many pictures of combined mistakes; 0: 10000. The result is the
+    // same on every machine, with or without a cache.
     uint64_t max_pictures;
-    // Draws in place of OpenGL. NULL: OpenGL draws, on `gl_device`. With `draw`, the shaders under test are drawn by
-    // that. The caller keeps it, and the data that it points to, until the check and its cache are done.
+    // Draws instead of OpenGL. NULL: OpenGL draws, on `gl_device`. If `draw` is set, it still draws the shaders under
+    // test. The caller keeps the painter and its data valid until the check and its cache are freed.
     const lam_check_painter *painter;
     LAM_RESERVED(13);
 } lam_check_params;
@@ -276,37 +279,38 @@ typedef struct lam_check_params {
 // The result of a check.
 typedef enum lam_check_verdict {
     LAM_CHECK_PASSES = 0, // every scene matches the reference
-    LAM_CHECK_DIFFERS,    // at least one scene does not
-    LAM_CHECK_REFUSED,    // does not compile or link
-    LAM_CHECK_ENDLESS,    // exceeded its time
-    LAM_CHECK_CRASHES,    // crashed the driver
+    LAM_CHECK_DIFFERS,    // at least one scene differs
+    LAM_CHECK_REFUSED,    // a shader does not compile or link
+    LAM_CHECK_ENDLESS,    // drawing exceeded its time
+    LAM_CHECK_CRASHES,    // drawing crashed the driver
     LAM_CHECK_NOT_NUMBER, // NaN or infinity in a picture
-    LAM_CHECK_MEMORY,     // needed more memory than it may use
+    LAM_CHECK_MEMORY,     // drawing exceeded its memory limit
 } lam_check_verdict;
 
 // The result of one scene. Pixels are compared if they and their eight neighbours are inside the model; colours are
 // first clamped to 0…1, as on a screen.
 typedef struct lam_check_scene {
-    const char *name, *description; // of the scene
+    const char *name, *description; // the scene's name and description
     lam_image theirs, reference;    // LAM_RGBA32F, straight alpha
-    double maximum, mean;           // difference of a channel
+    double maximum, mean;           // largest and mean difference of a channel
     double share_over;              // fraction of the pixels over the tolerance
-    uint64_t pixels;                // compared
+    uint64_t pixels;                // number of compared pixels
     uint64_t not_numbers;           // pixels with NaN or infinity
     bool passes;                    // within the tolerance
     // The mistake that explains this scene alone, by id. NULL: none, or the scene passes.
     const char *looks_like;
-    // The terms that the scene shows, bits of lam_check_term; 0: it is black, since none of its terms is asked for.
+    // The terms that the scene tests, bits of lam_check_term; 0: the scene is black, since none of its terms is
+    // required.
     unsigned terms;
-    // The points that the scene is worth, `weights` of the contract: 1 unless it says otherwise.
+    // The points that the scene is worth, from `weights` of the contract; 1 by default.
     double weight;
     LAM_RESERVED(6);
 } lam_check_scene;
 
 // A mistake that explains the pictures.
 typedef struct lam_check_finding {
-    const char *mistake;     // id
-    const char *explanation; // a sentence
+    const char *mistake;     // the mistake's id
+    const char *explanation; // one sentence
     char *correction;        // code to write instead, in the shader's own names
     // This mistake and those before it explain every picture within the tolerance.
     bool certain;
@@ -323,7 +327,7 @@ typedef struct lam_check_finding {
 typedef enum lam_check_diagnostic_kind {
     LAM_CHECK_DIAGNOSTIC_COMPILER, // a message of the driver's compiler
     LAM_CHECK_DIAGNOSTIC_HINT,     // an explanation of such a message, or something unusual
-    LAM_CHECK_DIAGNOSTIC_UNKNOWN,  // a name that the contract does not have
+    LAM_CHECK_DIAGNOSTIC_UNKNOWN,  // a name that is missing in the contract
 } lam_check_diagnostic_kind;
 
 // A message about a shader.
@@ -331,46 +335,46 @@ typedef struct lam_check_diagnostic {
     lam_check_diagnostic_kind kind; // its origin
     const char *file;               // as given in lam_check_params; NULL: both or none
     int line;                       // 0: unknown
-    char *text;                     // a sentence
+    char *text;                     // one sentence
     LAM_RESERVED(4);
 } lam_check_diagnostic;
 
 // The result of a check, with a result for each scene.
 typedef struct lam_check_report {
     lam_check_verdict verdict; // over all scenes
-    const char *contract;      // the name of the one given or recognised
+    const char *contract;      // the name of the given or recognised contract
     bool vertex_lit;           // the vertex shader computes the lighting
     bool made_vertex;          // the vertex shader was generated
-    char driver[128];          // OpenGL's name of its renderer
+    char driver[128];          // the renderer name that OpenGL reports
     lam_check_scene *scenes;   // in the order of lam_check_scene_name
-    int scene_count;           // 0 where nothing was drawn
+    int scene_count;           // 0 if nothing was drawn
     double mean;               // mean difference over all scenes
-    // In the order found: the first explains most.
+    // The findings in the order found: the first one explains most.
     lam_check_finding *findings;
-    int finding_count;                 // 0: no known mistake
+    int finding_count;                 // 0: no known mistake was found
     lam_check_diagnostic *diagnostics; // messages, in no order of importance
     int diagnostic_count;              // of `diagnostics`
     void *memory;                      // owns the strings above
-    int scenes_wanted;                 // that the shaders were to draw
-    bool search_stopped;               // the search for mistakes ended at max_pictures
-    uint64_t tried;                    // mistakes and sets of them that were compared
+    int scenes_wanted;                 // scenes that the shaders should have drawn
+    bool search_stopped;               // whether the search for mistakes ended at max_pictures
+    uint64_t tried;                    // number of compared mistakes and combinations of mistakes
     const char *contract_text;         // the file of that contract
     LAM_RESERVED(5);
 } lam_check_report;
 
-// Checks. False only without a verdict: LAM_BAD_ARGUMENT (no contract fits, an unknown scene), LAM_UNSUPPORTED (no
-// OpenGL), LAM_LIMIT. The caller frees the report.
+// Runs a check. Returns false only if there is no verdict: LAM_BAD_ARGUMENT (no contract fits, an unknown scene),
+// LAM_UNSUPPORTED (no OpenGL), LAM_LIMIT. The caller frees the report.
 LAM_API bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error);
-LAM_API void lam_check_report_free(lam_check_report *report); // zeroed is fine
+LAM_API void lam_check_report_free(lam_check_report *report); // a zeroed report is allowed
 
-// Writes a contract file for a pair of shaders: the contract of `report`, or without a report (NULL) the roles of their
-// inputs by their use. A comment beside each entry states its meaning and what to correct. The file gives the verdict
-// of the report. The caller frees `out` with lam_bytes_free. Fails with LAM_BAD_ARGUMENT (the vertex shader is missing,
-// or the shaders are of a kind that the check does not understand), LAM_LIMIT.
+// Writes a contract file for a pair of shaders: the contract of `report`, or, if `report` is NULL, roles guessed from
+// the use of their inputs. A comment beside each entry states its meaning and what to correct. A check with this file
+// gives the verdict of the report. The caller frees `out` with lam_bytes_free. Fails with LAM_BAD_ARGUMENT (the vertex
+// shader is missing, or the check does not understand this kind of shaders) or LAM_LIMIT.
 LAM_API bool lam_check_contract_write(const lam_check_params *params, const lam_check_report *report, lam_bytes *out,
                                       lam_error *error);
 
-LAM_API const char *lam_check_verdict_name(lam_check_verdict verdict); // "passes", …; NULL out of range
+LAM_API const char *lam_check_verdict_name(lam_check_verdict verdict); // "passes", …; NULL if out of range
 
 #ifdef __cplusplus
 }

@@ -10,14 +10,14 @@
 extern "C" {
 #endif
 
-// A device draws one picture at a time. Different threads use different devices, and may share a scene that nobody
-// changes. A device keeps its memory from frame to frame: drawing the same kind of frame again allocates nothing.
+// A device draws one picture at a time. Different threads use different devices, and may share a scene while nobody
+// changes it. A device keeps its memory from frame to frame: drawing the same kind of frame again allocates nothing.
 typedef struct lam_device lam_device;
 
-// Instruction sets of the CPU device. All give the same bytes.
+// Instruction sets of the CPU device. All give bit-identical pictures.
 typedef enum lam_isa {
-    LAM_ISA_AUTO = 0, // the widest that the processor and this build have
-    LAM_ISA_SCALAR,   // C without vectors
+    LAM_ISA_AUTO = 0, // the widest that processor and build support
+    LAM_ISA_SCALAR,   // C without SIMD
     LAM_ISA_SSE4,     // SSE4.2, 4 lanes
     LAM_ISA_AVX2,     // 8 lanes
     LAM_ISA_AVX512,   // AVX-512 F, BW, DQ and VL, 16 lanes
@@ -30,34 +30,34 @@ typedef enum lam_isa {
 // range.
 LAM_API const char *lam_isa_name(lam_isa isa);
 
-// Returns whether this build and this processor have the instruction set.
+// Returns whether this build and this processor support the instruction set.
 LAM_API bool lam_isa_usable(lam_isa isa);
 
-// Parameters of a CPU device. All zero: one thread for each processor and the widest instruction set.
+// Parameters of a CPU device. All zero: one thread for each processor, and the widest instruction set.
 typedef struct lam_cpu_params {
-    int threads; // that draw, the calling one included, 1..1024; 0: auto
+    int threads; // number, the calling thread included, 1..1024; 0: auto
     lam_isa isa; // the instruction set
     LAM_RESERVED(8);
 } lam_cpu_params;
 
-// Makes the CPU device; `params` may be NULL. NULL on failure: LAM_UNSUPPORTED (the instruction set), LAM_LIMIT. In C
-// the parameters can be written in the call:
-//   lam_device_cpu(&(lam_cpu_params){.threads = 4}, &error)
+// Makes the CPU device; `params` may be NULL. Returns NULL on failure: LAM_UNSUPPORTED (the instruction set),
+// LAM_LIMIT. In C the parameters can be written in the call:
+//  lam_device_cpu(&(lam_cpu_params){.threads = 4}, &error)
 LAM_API lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error);
 
-// Makes a device that checks its arguments, builds the frame and draws nothing, for tests and for measuring the time of
-// everything else. Fails with LAM_LIMIT.
+// Makes a device that checks its arguments and builds the frame but draws nothing, for tests and for measuring the rest
+// of the work. Fails with LAM_LIMIT.
 LAM_API lam_device *lam_device_null(lam_error *error);
 
-LAM_API void lam_device_free(lam_device *device); // NULL is fine
+LAM_API void lam_device_free(lam_device *device); // NULL is allowed
 
-// One line about the device: "cpu avx2, 2 threads". It lives as long as the device.
+// Returns one line about the device: "cpu avx2, 2 threads". It lives as long as the device.
 LAM_API const char *lam_device_name(const lam_device *device);
 
-// Returns the instruction set in use, or LAM_ISA_AUTO if the device is no CPU device.
+// Returns the instruction set in use, or LAM_ISA_AUTO if this is not a CPU device.
 LAM_API lam_isa lam_device_isa(const lam_device *device);
 
-// Returns the number of threads that draw; 0: the device has no own threads.
+// Returns the number of threads that draw; 0: the device has no threads of its own.
 LAM_API int lam_device_threads(const lam_device *device);
 
 // Shading methods: where the lighting is evaluated.
@@ -78,68 +78,68 @@ typedef enum lam_stage {
 
 // The position of the eye for highlights.
 typedef enum lam_viewer {
-    LAM_VIEWER_LOCAL = 0, // the camera's; infinitely far if orthographic
+    LAM_VIEWER_LOCAL = 0, // the camera; infinitely far if orthographic
     LAM_VIEWER_INFINITE,  // infinitely far along +z of eye space
 } lam_viewer;
 
 // The normal of flat shading.
 typedef enum lam_flat_normal {
-    LAM_FLAT_NORMAL_FACE = 0, // the triangle's own
-    LAM_FLAT_NORMAL_VERTEX,   // its last vertex's, as in OpenGL
+    LAM_FLAT_NORMAL_FACE = 0, // the normal of the triangle's plane
+    LAM_FLAT_NORMAL_VERTEX,   // the normal of its last vertex, as in OpenGL
 } lam_flat_normal;
 
-// The content of a frame: the picture, a part of its light, or a number of its surfaces.
+// The content of a frame: the picture, one part of its light, or a property of its surfaces.
 //
 // Light outputs are drawn like the picture: over the background, and sRGB-encoded in 8 bits (lam_output_is_light).
-// Numbers are neither blended nor encoded. A float picture stores the number itself, an 8-bit one the code given here.
-// Without a triangle, 8 bits store the background, as in the picture, and floats 0 with alpha 0. Numbers are not
-// averaged: they come from the triangle at the covered sample nearest to the pixel's centre.
+// Other outputs are neither blended nor encoded. A float picture stores the number itself, an 8-bit picture the code
+// given here. Pixels without a triangle store the background in 8 bits, as in the picture, and 0 with alpha 0 in
+// floats. Numbers are not averaged: they come from the triangle at the covered sample nearest to the pixel's centre.
 typedef enum lam_output {
     LAM_OUTPUT_PICTURE = 0, // the whole sum
-    // Terms of the sum. The five add up to the picture over no background (unlit, the colour is the diffuse term). With
-    // gl1, terms are not clamped.
+    // Terms of the sum. The five add up to the picture without a background (an unlit colour is part of the diffuse
+    // term). With gl1, terms are not clamped.
     LAM_OUTPUT_AMBIENT,
     LAM_OUTPUT_DIFFUSE,
     LAM_OUTPUT_SPECULAR,
     LAM_OUTPUT_EMISSION,
-    LAM_OUTPUT_REFLECTION, // of the environment, and its light on physical materials
+    LAM_OUTPUT_REFLECTION, // mirrored environment, and its light on physical materials
     // The ambient, diffuse and specular terms of one light. The contributions of all lights, the scene's ambient light,
-    // emission and reflection add up to the picture. Black where a surface is not lit.
+    // emission and reflection add up to the picture. Unlit surfaces are black.
     LAM_OUTPUT_LIGHT,
-    // Normals as used by the lighting, in eye space: x right, y up, z to the viewer; reversed on back faces. 8 bits: (x
-    // + 1)/2.
+    // Normals as used by the lighting, in eye space: x right, y up, z to the viewer; reversed on back faces. 8-bit
+    // code: (x + 1)/2.
     LAM_OUTPUT_NORMALS,
-    // Tangents: the file's, or the direction field, perpendicular to the normal. Coded as normals.
+    // Tangents from the file or the direction field, perpendicular to the normal. They are coded as normals.
     LAM_OUTPUT_TANGENTS,
-    // Distance d in front of the eye along the view, model units. 8 bits: (far − d)/(far − near), where near and far are
-    // the distances of the scene's nearest and farthest vertices, or the camera's planes where these lie between: near
-    // white, far black (lam_frame_report.depth_near, depth_far). A range below 1/100000 of far is all white.
+    // Distance d in front of the eye along the view, model units. 8-bit code: (far − d)/(far − near), so that near is
+    // white and far is black. near and far are the distances of the scene's nearest and farthest vertices, limited to
+    // the camera's planes (lam_frame_report.depth_near, depth_far). A range below 1/100000 of far is all white.
     LAM_OUTPUT_DEPTH,
-    LAM_OUTPUT_N_L, // cosine between normal and light; 8 bits: max(n·l, 0)
-    // Cosine between normal and half vector. 8 bits: max(n·h, 0).
+    LAM_OUTPUT_N_L, // cosine between normal and light; 8-bit: max(n·l, 0)
+    // Cosine between normal and half vector. 8-bit code: max(n·h, 0).
     LAM_OUTPUT_N_H,
-    // 1: front, −1: back. 8 bits: front blue (0, 102, 255), back red (255, 51, 0).
+    // 1: front, −1: back. 8-bit code: front blue (0, 102, 255), back red (255, 51, 0).
     LAM_OUTPUT_FACING,
-    // Triangle number in its mesh modulo 2²⁴, object number, triangle number / 2²⁴. 8 bits: a colour for each triangle
-    // of each object, no channel below 48.
+    // Triangle number in its mesh modulo 2²⁴, object number, triangle number / 2²⁴. 8-bit code: a colour for each
+    // triangle of each object, no channel below 48.
     LAM_OUTPUT_IDS,
-    // Fraction of the pixel's samples that are covered. Alpha is 1 everywhere, without triangles too.
+    // Fraction of the pixel's samples that are covered. Alpha is 1 everywhere, even without triangles.
     LAM_OUTPUT_COVERAGE,
-    // The number of triangles that cover a sample before the depth test, without culled triangles: the mean over the
-    // pixel's samples. Alpha is 1 everywhere, without triangles too. 8 bits: c/(c + 3).
+    // The number of triangles that cover a sample before the depth test, without culled triangles, averaged over the
+    // pixel's samples. Alpha is 1 everywhere, even without triangles. 8-bit code: c/(c + 3).
     LAM_OUTPUT_OVERDRAW,
-    // The distance of each channel of the picture from the range 0…1, negative below. 8 bits: red if a channel is
+    // The distance of each channel of the picture from the range 0…1, negative below. 8-bit code: red if a channel is
     // above, blue if one is below, otherwise the picture in dark grey.
     LAM_OUTPUT_CLIPPED,
-    // The material at the point, whatever the shading method: the base colour of a physical material or the diffuse
-    // colour of a classic one, times maps and vertex colours. A classic reflection model does not turn physical materials into
-    // its own kind here, LAM_REFLECTION_GGX turns classic ones. 8 bits: sRGB-encoded.
+    // The colour of the material at the point, for every shading method: the base colour of a physical material or the
+    // diffuse colour of a classic one, times maps and vertex colours. A classic reflection model leaves physical
+    // materials as they are here; LAM_REFLECTION_GGX converts classic ones. 8-bit code: sRGB-encoded.
     LAM_OUTPUT_BASE_COLOR,
-    LAM_OUTPUT_ROUGHNESS, // of lit physical materials, as given; 0 of others
+    LAM_OUTPUT_ROUGHNESS, // of lit physical materials, as given; otherwise 0
     LAM_OUTPUT_METALLIC,  // likewise
-    LAM_OUTPUT_OCCLUSION, // the factor of a map for light from everywhere; 1: no map
-    // Level of detail of the diffuse map, else of the first map that the material has; 0: no map. Below 0 the map is
-    // magnified; without a footprint it is -50. 8 bits: level / 10.
+    LAM_OUTPUT_OCCLUSION, // factor of the occlusion map; 1: no map
+    // Level of detail of the diffuse map, or else of the material's first map; 0: no map. A level below 0 means
+    // magnification; without a footprint it is -50. 8-bit code: level / 10.
     LAM_OUTPUT_LOD,
     // The fraction of surrounding light that reaches the point (lam_occlusion, lam_cavity), 0 … 1, above 1 on ridges.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
@@ -150,14 +150,14 @@ typedef enum lam_output {
 // primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has formulas,
 // sources and plots). They apply to pictures of 8 bits; float pictures store the light itself.
 typedef enum lam_tone {
-    // KHRONOS_NEUTRAL where the frame shows a physical material, else NONE.
+    // KHRONOS_NEUTRAL if the frame shows a physical material, else NONE.
     LAM_TONE_AUTO = 0,
-    LAM_TONE_NONE,     // each channel is cut off at 1
+    LAM_TONE_NONE,     // each channel is clipped at 1
     LAM_TONE_REINHARD, // x / (1 + x) for each channel (Reinhard et al., 2002)
     // Hill's fit of the ACES reference and output transform for sRGB screens.
     LAM_TONE_ACES,
     LAM_TONE_AGX, // Sobotka's AgX, its default contrast by Wrensch's polynomial
-    // Keeps colours up to 0.8, apart from a small offset; compresses and desaturates brighter colours (Khronos PBR
+    // Keeps colours up to 0.8 apart from a small offset; compresses and desaturates brighter colours (Khronos PBR
     // Neutral).
     LAM_TONE_KHRONOS_NEUTRAL,
     LAM_TONE_COUNT
@@ -174,51 +174,51 @@ LAM_API lam_rgb lam_tone_apply(lam_tone tone, lam_rgb color);
 // range.
 LAM_API const char *lam_output_name(lam_output output);
 
-// Returns whether an output is light: the picture, its terms, and a light.
+// Returns whether an output is light: the picture, a term, or one light.
 LAM_API bool lam_output_is_light(lam_output output);
 
-// Returns the samples per pixel of a picture of this size, if lam_draw_params give none: 16 up to 256² pixels, where
-// thin wires would break into dashes, 8 up to 512², and 4 above.
+// Returns the default samples per pixel for a picture of this size: 16 up to 256² pixels, so that thin wires do not
+// break into dashes, 8 up to 512², and 4 above.
 LAM_API int lam_default_samples(int width, int height);
 
 // Ambient occlusion: the fraction of surrounding light that nearby surfaces do not block (docs/lighting/occlusion.md).
 // It dims ambient, hemisphere and environment light and the share lam_light.occluded of other lights, under Phong
 // shading. Translucent surfaces are not occluded.
 typedef enum lam_occlusion {
-    // SCREEN under Phong shading where a light of the frame has a share `occluded`, or an environment lights the frame;
-    // else OFF.
+    // SCREEN if Phong shading is used and a light of the frame has a share `occluded` or an environment lights the
+    // frame; else OFF.
     LAM_OCCLUSION_AUTO = 0,
     LAM_OCCLUSION_OFF,
-    // From the distances of the visible surfaces around each pixel (Jimenez et al., "Practical Real-Time Strategies for
-    // Accurate Indirect Occlusion", 2016). Hidden surfaces occlude nothing.
+    // Computed from the depths of the visible surfaces around each pixel (Jimenez et al., "Practical Real-Time
+    // Strategies for Accurate Indirect Occlusion", 2016). Hidden surfaces occlude nothing.
     LAM_OCCLUSION_SCREEN,
-    // By occlusion_samples rays from each lit point: the integral that SCREEN estimates, over all surfaces of the scene. The
-    // CPU device alone; others refuse it (LAM_UNSUPPORTED).
+    // Computed by occlusion_samples rays from each lit point: the integral that SCREEN estimates, over all surfaces of
+    // the scene. CPU device only; other devices fail with LAM_UNSUPPORTED.
     LAM_OCCLUSION_RAYS,
     LAM_OCCLUSION_COUNT
 } lam_occlusion;
 
-// Ambient occlusion at a small radius, 0.05 of half the diagonal of the scene's box and at least three cells of the
-// picture, so that letters, holes and seams can be seen. On scenes whose colours come from no texture, ridges become lighter by the same
-// measure as valleys become darker (docs/lighting/occlusion.md).
+// Ambient occlusion at a small radius, which makes letters, holes and seams visible. The radius is 0.05 of half the
+// diagonal of the scene's box, and at least three cells of the picture. In scenes without textures, ridges become
+// lighter to the same degree as valleys become darker (docs/lighting/occlusion.md).
 typedef enum lam_cavity {
-    LAM_CAVITY_AUTO = 0, // ON where LAM_OCCLUSION_AUTO is SCREEN, else OFF
+    LAM_CAVITY_AUTO = 0, // ON if LAM_OCCLUSION_AUTO means SCREEN, else OFF
     LAM_CAVITY_OFF,      // valleys and ridges unchanged
-    LAM_CAVITY_ON,       // both
+    LAM_CAVITY_ON,       // dark valleys and light ridges
     LAM_CAVITY_COUNT
 } lam_cavity;
 
-// The ground: a plane at the scene's lowest point, across its up axis (lam_scene_set_up), on which the scene's lights cast
-// shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is opaque up to 3 radii of the scene's
-// sphere from the middle, and fades out up to 6 radii. It is invisible from below. It casts no shadows, and fitting the
-// camera and measuring the scene ignore it. It needs Phong shading.
+// The ground: a plane at the scene's lowest point, perpendicular to its up axis (lam_scene_set_up), on which the
+// scene's lights cast shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is opaque up to 3
+// radii of the scene's sphere from the centre, and fades out up to 6 radii. It is invisible from below. It casts no
+// shadows, and fitting the camera and measuring the scene ignore it. It requires Phong shading.
 typedef enum lam_ground {
     LAM_GROUND_NONE = 0, // no ground
     // A shadow catcher: black, with the fraction of light that the scene blocks from a white, matt ground as alpha. It
-    // works over any background. Pictures of surface numbers, except ambient occlusion, omit it.
+    // works over any background. Outputs of surface properties, except ambient occlusion, omit it.
     LAM_GROUND_SHADOW,
-    // Squares, whose side is the largest of 1, 2 and 5 times a power of ten that is at most half of the radius. They begin at
-    // multiples of it in world space.
+    // A checkerboard. The side of a square is the largest of 1, 2 and 5 times a power of ten that is at most half of
+    // the radius. Squares begin at multiples of it in world space.
     LAM_GROUND_CHECKER,
     LAM_GROUND_COLOR, // a matt surface
     LAM_GROUND_COUNT
@@ -227,67 +227,68 @@ typedef enum lam_ground {
 // Returns the name of a kind of ground: "off", "shadow". Returns a static string, or NULL if the index is out of range.
 LAM_API const char *lam_ground_name(lam_ground ground);
 
-// Edges of surfaces that are drawn as lines (docs/edges.md). Bits.
+// Edges of surfaces that are drawn as lines (docs/edges.md). The values are bits.
 typedef enum lam_edges {
-    // Two faces meet at more than lam_draw_params.edge_angle_rad, or more than two faces meet.
+    // Edges at which two faces meet at more than lam_draw_params.edge_angle_rad, or more than two faces meet.
     LAM_EDGES_CREASE = 1,
-    LAM_EDGES_BOUNDARY = 2, // one face ends there
-    // One of its two faces is seen from the front, the other from behind.
+    LAM_EDGES_BOUNDARY = 2, // edges of only one face
+    // Edges between a face seen from the front and a face seen from behind.
     LAM_EDGES_SILHOUETTE = 4,
     LAM_EDGES_ALL = 7, // all of them
 } lam_edges;
 
 // How edges behind surfaces are drawn.
 typedef enum lam_hidden_lines {
-    LAM_HIDDEN_LINES_REMOVE = 0, // left out
+    LAM_HIDDEN_LINES_REMOVE = 0, // not drawn
     LAM_HIDDEN_LINES_DASH,       // dashed
     LAM_HIDDEN_LINES_SHOW,       // as if no surface hid them
     LAM_HIDDEN_LINES_COUNT
 } lam_hidden_lines;
 
-// How a frame is drawn. All zero is the default.
+// The settings of a frame. Zero is the default of each field.
 typedef struct lam_draw_params {
     int samples; // per pixel: 1, 2, 4, 8 or 16; 0: lam_default_samples
-    // Linear, not premultiplied. All zero: clear.
+    // Linear, not premultiplied. All zero: transparent.
     lam_rgba background;
-    lam_color_mode color; // of the picture's 8-bit numbers
-    // Stops, −100…100: light is multiplied by 2^exposure, linearly, before it lies over the background (which stays as
-    // it is) and is encoded. Alpha and numbers of surfaces stay as they are.
+    lam_color_mode color; // encoding of 8-bit pictures
+    // Stops, −100…100: light is multiplied by 2^exposure, linearly, before it is composited over the background and
+    // encoded. The background, alpha and outputs of surface properties do not change.
     double exposure;
     lam_rig rig;                 // lights in addition to the scene's
     lam_shading shading;         // the shading method
     lam_reflection reflection;   // the reflection model
-    lam_stage stage;             // LAM_BAD_ARGUMENT where `shading` has no such stage
+    lam_stage stage;             // LAM_BAD_ARGUMENT if `shading` has no such stage
     lam_viewer viewer;           // the eye for highlights
     lam_flat_normal flat_normal; // the normal of LAM_SHADING_FLAT
-    // Shininess is Phong's α: Blinn–Phong takes 4α, so that both highlights look alike.
+    // Shininess means Phong's α: Blinn–Phong uses 4α, so that both highlights look alike.
     bool match_highlights;
     // Omits multiple scattering between microfacets (GGX), for comparison with renderers without it. Rough metals are
     // then darker.
     bool single_scattering;
     // Lighting as in OpenGL 1: vertex colours are clamped to 0…1 before interpolation, shininess is at most 128, and
-    // attenuation and cone dim each light's ambient too.
+    // attenuation and cone also dim each light's ambient term.
     bool gl1;
-    // In frames with more than 16 lights, each part of the picture skips its weakest lights, as long as they would
-    // together change an encoded channel by less than this fraction of its range; at most 1. 0: ½/255, so that no byte
-    // differs by more than 1. Below 0: every light is evaluated everywhere, as the OpenGL device always does.
+    // In frames with more than 16 lights, each part of the picture skips its weakest lights if they change an encoded
+    // channel by less than this fraction of its range together; at most 1. 0: ½/255, so that no byte differs by more
+    // than 1. Below 0: every light is evaluated everywhere, as the OpenGL device always does.
     float light_cutoff;
-    // Where a texture is seen at a slant: the most probes along the longer axis of a pixel's footprint, 1..16. 0: 1.
+    // The most texture probes along the longer axis of a pixel's footprint, 1..16, for textures seen at a slant. 0: 1.
     int anisotropy;
     lam_output output; // the content of the frame
-    // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the light's number in lam_draw_lights.
+    // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the index of the light in lam_draw_lights.
     int output_light;
-    lam_tone tone; // between exposure and encoding, of 8-bit pictures
-    // Physical materials under an environment: the integral of its light is summed over this many directions at each
-    // lit point, 16..1048576, in place of the split sum (docs/lighting/environment.md). 0: the split sum. The CPU
-    // device alone; others refuse it (LAM_UNSUPPORTED).
+    lam_tone tone; // applied after exposure, in 8-bit pictures
+    // For physical materials under an environment: integrates the environment over this many directions at each lit
+    // point, 16..1048576, instead of using the split sum (docs/lighting/environment.md). 0: the split sum. CPU device
+    // only; other devices fail with LAM_UNSUPPORTED.
     int reference;
-    // The width of lines, and the diameter of points, in pixels, up to 1000. 0: 1.5, and for points at least 3, more the fewer
-    // there are and the larger the picture is, 8 or more for fewer than 100. Points below 4 pixels are squares. They
-    // are drawn nearer to the eye by their own width, so that lines on a surface remain visible.
+    // The width of lines, and the diameter of points, in pixels, up to 1000. 0: 1.5 for lines; for points at least 3,
+    // increasing for fewer points and larger pictures, and at least 8 for fewer than 100 points. Points below 4 pixels
+    // are squares. Lines and points are drawn nearer to the eye by their own width, so that lines on a surface remain
+    // visible.
     float line_width, point_size;
     // Triangles between a point and a light block the diffuse and specular terms of every light that casts shadows
-    // (lam_light.no_shadows): docs/lighting/shadows.md.
+    // (lam_light.no_shadows, docs/lighting/shadows.md).
     bool shadows;
     // Shadow rays start on the flat triangles. By default they start on the curved surface defined by the vertex
     // normals; otherwise the terminator of a coarse smooth mesh shows its triangles.
@@ -296,21 +297,21 @@ typedef struct lam_draw_params {
     // full shadow get 48 rays.
     int shadow_samples;
     lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
-    // The largest distance at which surfaces occlude, relative to half the diagonal of the scene's box, above 0 … 10.
-    // 0: 0.1.
+    // The largest distance at which surfaces occlude, relative to half the diagonal of the scene's box, in (0, 10]. 0:
+    // 0.1.
     float occlusion_radius;
-    // With LAM_OCCLUSION_RAYS: rays from each lit point, 1..1024; 0: 64.
+    // Rays from each lit point for LAM_OCCLUSION_RAYS, 1..1024; 0: 64.
     int occlusion_samples;
-    lam_ground ground; // CPU device alone; others refuse it (LAM_UNSUPPORTED)
-    // The linear colour of COLOR, and of the bright squares of CHECKER; the dark squares have 0.45 of it. With CHECKER,
-    // all zero means 0.6.
+    lam_ground ground; // CPU device only; others fail with LAM_UNSUPPORTED
+    // The linear colour of COLOR, and of the bright squares of CHECKER; the dark squares have 0.45 times this colour.
+    // All zero: 0.6 for CHECKER.
     lam_rgb ground_color;
-    // Lines over the picture (only LAM_OUTPUT_PICTURE): the edges of all faces (of the file's polygons if the mesh
-    // knows them, lam_mesh.inner_edges), and feature edges, LAM_EDGES_…. Their coverage of each pixel is computed from
-    // the distance to its centre, whatever `samples` is; light, exposure and tone do not change their colours. A
+    // Draws lines over the picture (only LAM_OUTPUT_PICTURE): the edges of all faces (of the file's polygons if they
+    // are known, lam_mesh.inner_edges). `edges` adds feature edges. The coverage of a pixel is computed from the line's
+    // distance to its centre and does not depend on `samples`; light, exposure and tone do not change line colours. A
     // surface hides the edges behind it if its opacity is at least ½ and it does not transmit light (docs/edges.md).
     bool wireframe;
-    // Surfaces hide lines, but are not drawn: the picture contains only lines and points.
+    // Surfaces hide lines but are not drawn themselves: the picture contains only lines and points.
     bool no_surfaces;
     unsigned edges;                    // LAM_EDGES_…; 0: none
     lam_hidden_lines hidden_lines;     // of edges behind surfaces
@@ -318,48 +319,50 @@ typedef struct lam_draw_params {
     float wireframe_width, edge_width; // pixels, up to 1000; 0: 1 and 1.5
     // Linear, not premultiplied. All zero: black, and white with no_surfaces over a background darker than 0.18.
     lam_rgba wireframe_color, edge_color;
-    // LAM_BAD_ARGUMENT: ON with LAM_OCCLUSION_RAYS, or without Phong shading.
+    // ON fails with LAM_BAD_ARGUMENT together with LAM_OCCLUSION_RAYS or without Phong shading.
     lam_cavity cavity;
     LAM_RESERVED(14);
 } lam_draw_params;
 
-// The times of a frame in milliseconds, and counts.
+// The times of a frame in milliseconds, and counters.
 typedef struct lam_frame_report {
     double frame_ms;     // flattening the scene: lights and matrices
     double vertices_ms;  // positions to clip space
-    double triangles_ms; // rejecting, clipping, binning
+    double triangles_ms; // culling, clipping, binning
     // Computing missing normals (lam_load_params.normals_when_drawn).
     double normals_ms;
-    // LAM_OCCLUSION_SCREEN, after the distances were found (rays are part of lighting_ms).
+    // LAM_OCCLUSION_SCREEN, without finding the depths (rays are part of lighting_ms).
     double occlusion_ms;
     double tiles_ms; // coverage, lighting and resolve of all tiles
     double total_ms; // the whole call
-    // tiles_ms divided by work, in proportion to the times summed over the threads.
+    // tiles_ms divided in proportion to the times summed over the threads.
     double coverage_ms, lighting_ms, resolve_ms;
-    // The OpenGL device: making and uploading new or changed buffers (without lighting_ms, the lighting of the stage
-    // `application`); drawing until done; reading back and encoding. vertices_ms to tiles_ms are 0 there.
+    // OpenGL device: making and uploading new or changed buffers (without lighting_ms, the lighting of the stage
+    // `application`); drawing until done; reading back and encoding. vertices_ms to tiles_ms are 0.
     double upload_ms, draw_ms, read_ms;
-    // The OpenGL device: vertices, colours, lights, materials and environment sent in this frame.
+    // OpenGL device: bytes of vertices, colours, lights, materials and environment sent in this frame.
     uint64_t bytes_uploaded;
-    uint64_t triangles;        // of the scene, and a ground's
-    uint64_t triangles_binned; // that reached a tile
-    uint64_t pixels_covered;   // by a triangle
-    // Evaluations of the lighting: pixels, vertices or triangles. The OpenGL device counts only the processor's own.
+    uint64_t triangles;        // of the scene, and of the ground if there is one
+    uint64_t triangles_binned; // triangles that reached a tile
+    uint64_t pixels_covered;   // pixels covered by a triangle
+    // Evaluations of the lighting: pixels, vertices or triangles. The OpenGL device counts only the evaluations on the
+    // processor.
     uint64_t points_lit;
     uint64_t lights_evaluated; // summed over those points
-    uint64_t memory_bytes;     // held by the device after the frame
-    // LAM_OUTPUT_DEPTH: the distances, in model units, that 8 bits show white and black. Else 0.
+    uint64_t memory_bytes;     // of the device after the frame
+    // LAM_OUTPUT_DEPTH: the distances, in model units, that are white and black in 8 bits. Otherwise 0.
     double depth_near, depth_far;
     // Time for building the bounding volume hierarchy, in milliseconds; 0 if it was not needed, or reused from the last
     // frame.
     double hierarchy_ms;
-    uint64_t rays; // from lit points: to lights, and of ambient occlusion
-    bool ground;   // the camera sees a ground
-    // With one: its height along the scene's up axis, and the side of a checker's squares, model units. Else 0.
+    uint64_t rays; // from lit points, for shadows and ambient occlusion
+    bool ground;   // whether the camera sees the ground
+    // The height of the ground along the scene's up axis, and the side of a checker's squares, model units. Without a
+    // ground 0.
     double ground_height, ground_square;
-    // Finding the drawn edges and their visible parts; hierarchy_ms is separate.
+    // Time for finding the drawn edges and their visible parts, without hierarchy_ms.
     double edges_ms;
-    uint64_t edges_drawn; // of meshes that are inside of the picture, hidden ones too
+    uint64_t edges_drawn; // edges inside the picture, hidden ones included
     uint64_t edge_rays;   // from points of edges to the eye
     LAM_RESERVED(5);
 } lam_frame_report;
@@ -372,24 +375,24 @@ LAM_API bool lam_draw(lam_device *device, const lam_scene *scene, const lam_came
                       const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error);
 
 // Finds the exposure, in stops, at which 95 % of the covered pixels of a frame are at most as bright as 0.8 (Rec. 709
-// luminance), rounded to thirds of a stop; 0 without light. It draws the frame with an exposure of 0, at most 512
-// pixels wide and high. Errors as lam_draw.
+// luminance), rounded to thirds of a stop. The exposure is 0 if there is no light. The frame is drawn with an exposure
+// of 0, at most 512 pixels wide and high. Errors as lam_draw.
 LAM_API bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                               const lam_draw_params *params, int width, int height, const lam_control *control,
                               double *stops, lam_error *error);
 
-// Works like lam_camera_fit for a picture with a ground (params->ground): if the view sets no fill, the scene fills 0.8
-// of the picture, and the rest leaves space for its shadow. `axis` not NULL: the scene turns about an axis through
-// `centre`, as in lam_camera_fit_turning; give it the scene before it turns. Without a ground it is the camera of those
-// functions. `params` NULL: no ground.
+// Works like lam_camera_fit for a picture with a ground (params->ground): by default the scene fills 0.8 of the
+// picture, and the rest leaves space for its shadow. If `axis` is not NULL, the scene rotates about an axis through
+// `centre`, as in lam_camera_fit_turning; pass the scene before the rotation. Without a ground (or with `params` NULL)
+// the result is the camera of those two functions.
 LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
                                          const lam_view *view, lam_vec3 centre, const lam_vec3 *axis);
 
 // Lists the lights of a frame: first the lights of the scene, then of the rig. Returns their number and copies the
-// first `capacity` of them to `lights`, which may be NULL. Names are valid while the scene is unchanged.
+// first `capacity` of them to `lights`, which may be NULL. Names are valid until the scene changes.
 LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int capacity);
 
-// The report of the device's last frame; all zero before the first.
+// Returns the report of the device's last frame; all zero before the first frame.
 LAM_API void lam_device_report(const lam_device *device, lam_frame_report *report);
 
 #ifdef __cplusplus

@@ -1,4 +1,5 @@
-// lambent/environment.h: cube maps of surroundings, which shiny surfaces reflect: from files or built in.
+// lambent/environment.h: environments: cube maps of the surroundings that shiny surfaces reflect, from files or built
+// in.
 #ifndef LAMBENT_ENVIRONMENT_H
 #define LAMBENT_ENVIRONMENT_H
 
@@ -26,11 +27,11 @@ typedef enum lam_cube_face {
 } lam_cube_face;
 
 // Makes an environment of six square pictures of one size, up to 8192 pixels on a side, which are copied. Each face
-// follows OpenGL's table of cube maps, its first row at t = 0. Seen from inside with y up, the four faces around are
+// follows OpenGL's table of cube maps, its first row at t = 0. Seen from inside with y up, the four side faces are
 // upright and mirrored left to right.
 //
-// LAM_RGBA8 is decoded from sRGB, or taken as it is with LAM_COLOR_RAW; LAM_RGBA32F is linear. Transparent pixels are
-// blended over black. NULL on failure: LAM_BAD_ARGUMENT (sizes; numbers below 0 or not finite), LAM_LIMIT.
+// LAM_RGBA8 is decoded from sRGB, or used unchanged with LAM_COLOR_RAW; LAM_RGBA32F is linear. Transparent pixels are
+// blended over black. Returns NULL on failure: LAM_BAD_ARGUMENT (sizes; numbers below 0 or not finite), LAM_LIMIT.
 LAM_API lam_environment *lam_environment_make(const struct lam_image *const faces[LAM_FACE_COUNT], lam_color_mode color,
                                               lam_error *error);
 
@@ -46,39 +47,39 @@ LAM_API lam_environment *lam_environment_from_image(const struct lam_image *imag
                                                     lam_error *error);
 
 // Makes an environment from files of any format that lam_image_load_linear reads: six faces, or one picture. `control`
-// may be NULL; its memory limit counts each file while it is read, the pictures (16 bytes a pixel) and the faces (12).
-// Errors: the above and lam_image_load's, LAM_UNSUPPORTED (a picture's size); every sentence names the file.
+// may be NULL; its memory limit counts each file while it is read, the pictures (16 bytes per pixel) and the faces (12
+// bytes per pixel). Errors: as above, the errors of lam_image_load, and LAM_UNSUPPORTED (a picture's size); every
+// sentence names the file.
 LAM_API lam_environment *lam_environment_load_faces(const char *const paths[LAM_FACE_COUNT], lam_color_mode color,
                                                     const lam_control *control, lam_error *error);
 LAM_API lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
                                               lam_error *error);
 
-// Returns a built-in environment, computed: "sky" (a low sun over grey-brown ground) or "studio" (soft boxes of light
-// in a dark room). Fails with LAM_BAD_ARGUMENT (no such name), LAM_LIMIT.
+// Computes a built-in environment: "sky" (a low sun over grey-brown ground) or "studio" (softboxes in a dark room).
+// Fails with LAM_BAD_ARGUMENT (no such name), LAM_LIMIT.
 LAM_API lam_environment *lam_environment_built_in(const char *name, lam_error *error);
 
 // Returns the names of the built-in environments, from 0. The strings are static. Returns NULL if the index is out of
 // range.
 LAM_API const char *lam_environment_built_in_name(int index);
 
-// Releases an environment; scenes that use it keep it. NULL is fine.
+// Releases an environment; scenes that use it keep it. NULL is allowed.
 LAM_API void lam_environment_free(lam_environment *environment);
 
-// Pixels on a side of each face.
+// Returns the width and height of each face in pixels.
 LAM_API int lam_environment_size(const lam_environment *environment);
 
-// The linear light from a direction in the environment's own axes, of any length; (0, 0, 0) gives black. The lookup is
-// bilinear and seamless across faces. Drawing adds this times the reflectivity of a classic material; physical
-// materials are lit by prefiltered means of it, which the first frame that needs them computes and the environment
+// Returns the linear light from a direction in the environment's own axes, of any length; (0, 0, 0) gives black. The
+// lookup is bilinear and seamless across faces. Drawing adds this light times the reflectivity of a classic material.
+// Physical materials use prefiltered means of it, which the first frame that needs them computes and the environment
 // stores (docs/lighting/environment.md).
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
-// The light of an environment on physical materials as the texture `environment_light` of exported shaders
-// (lambent/shader.h): makes an LAM_RGBA32F picture 1024 texels wide, which the caller frees with lam_image_free. It
-// contains the prefiltered levels 1 to 11 and the irradiance divided by pi. Each is six faces in the order of
-// lam_cube_face with a border of one texel, row by row, one texel after the other across the rows of the picture.
-// docs/lighting/environment.md lists sizes and roughnesses. `control` may be NULL. Errors: LAM_BAD_ARGUMENT (NULL),
-// LAM_LIMIT, LAM_CANCELLED.
+// Makes the texture `environment_light` of exported shaders (lambent/shader.h), which lights physical materials: an
+// LAM_RGBA32F picture 1024 texels wide, which the caller frees with lam_image_free. It contains the prefiltered levels
+// 1 to 11 and the irradiance divided by pi. Each of them is six faces in the order of lam_cube_face with a border of
+// one texel, stored row by row as one sequence of texels. docs/lighting/environment.md lists sizes and roughnesses.
+// `control` may be NULL. Errors: LAM_BAD_ARGUMENT (NULL), LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_environment_light_image(const lam_environment *environment, struct lam_image *image,
                                          const lam_control *control, lam_error *error);
 

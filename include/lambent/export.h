@@ -9,13 +9,13 @@
 extern "C" {
 #endif
 
-// An exported scene: its files, in memory, and a list of the data that the format does not support.
+// An exported scene: its files, in memory, and a list of the features that the format does not support.
 typedef struct lam_export lam_export;
 
-// Parameters of an export. All zero is the default.
+// Parameters of an export. Zero is the default of each field.
 typedef struct lam_export_params {
-    // The name of the model's file, without a folder. Files beside it are named after it: "part.obj" comes with "part.mtl" and
-    // "part-0.png". NULL: "model" and the format's ending.
+    // The name of the model's file, without a folder. Further files use it too: "part.obj" comes with "part.mtl" and
+    // "part-0.png". NULL: "model" and the format's extension.
     const char *name;
     // A camera to store before the cameras of the scene, for formats with cameras. NULL: none.
     const lam_camera *camera;
@@ -25,24 +25,24 @@ typedef struct lam_export_params {
 } lam_export_params;
 
 // Makes the files of a model from a scene: its meshes, objects and materials with their textures, and its lights and
-// cameras, as far as the format supports them. Coordinates are rotated to the up axis of the format. `format` is one of
-// lam_export_format. `params` may be NULL. The caller frees the result with lam_export_free. Returns NULL on failure:
-// LAM_BAD_ARGUMENT (the scene contains nothing that the format supports; a thumbnail in a format without thumbnails),
-// LAM_UNSUPPORTED (no such format, or a library that writes it is not installed), LAM_LIMIT.
+// cameras, as far as the format supports them. Coordinates are rotated to the up axis of the format. `format` is a name
+// from lam_export_format. `params` may be NULL. The caller frees the result with lam_export_free. Returns NULL on
+// failure: LAM_BAD_ARGUMENT (the scene contains nothing that the format supports; a thumbnail in a format without
+// thumbnails), LAM_UNSUPPORTED (unknown format, or a required library is not installed), LAM_LIMIT.
 LAM_API lam_export *lam_scene_export(const lam_scene *scene, const char *format, const lam_export_params *params,
                                      lam_error *error);
-LAM_API void lam_export_free(lam_export *result); // NULL is fine
+LAM_API void lam_export_free(lam_export *result); // NULL is allowed
 
-// Returns the files, from 0: first the model, then the files beside it. The name (NULL if the index is out of range)
-// and the contents are valid until the result is freed.
+// Return the files, from 0: first the model, then further files. The name (NULL if the index is out of range) and the
+// contents are valid until the result is freed.
 LAM_API const char *lam_export_file_name(const lam_export *result, int index);
 LAM_API lam_bytes lam_export_file(const lam_export *result, int index);
 
-// Sentences, from 0, about what the files do not say although the scene does; NULL: no more.
+// Returns sentences, from 0, about data of the scene that the files omit; NULL past the last one.
 LAM_API const char *lam_export_loss(const lam_export *result, int index);
 
-// Returns the formats, from 0: the name, which is the ending of file names too ("glb"). Returns a static string, or
-// NULL if the index is out of range.
+// Returns the name of a format, from 0, which is also the file extension ("glb"). Returns a static string, or NULL if
+// the index is out of range.
 LAM_API const char *lam_export_format(int index);
 
 #ifdef __cplusplus

@@ -13,26 +13,26 @@ extern "C" {
 typedef enum lam_field_type {
     LAM_FIELD_NUMBER, // float
     LAM_FIELD_ANGLE,  // float, radians; degrees in scene files and options
-    // 0 or 1; the member is a bool that is false where the flag has its default.
+    // 0 or 1. The member is a bool; false is the flag's default.
     LAM_FIELD_FLAG,
     LAM_FIELD_RGB,   // lam_rgb
     LAM_FIELD_RGBA,  // lam_rgba; the alpha lies in 0..1
     LAM_FIELD_POINT, // lam_vec3
-    // lam_vec3 of any length but 0; a default of 0 means a direction that the scene decides.
+    // lam_vec3 of any nonzero length; a default of 0 means that the scene determines the direction.
     LAM_FIELD_DIRECTION,
     LAM_FIELD_TRIPLE, // three floats
 } lam_field_type;
 
 // A field of lam_material or lam_light.
 typedef struct lam_field {
-    const char *name;    // of the struct's member: "cutoff_rad"
+    const char *name;    // name of the struct's member: "cutoff_rad"
     const char *key;     // in scene files and options: "cutoff"
     const char *symbol;  // in formulas: "kr"; NULL: none
-    const char *source;  // the MTL statement that is read into it: "Ks"; NULL: none
+    const char *source;  // the MTL statement that sets it: "Ks"; NULL: none
     const char *unit;    // NULL: none
     const char *summary; // one line
-    lam_field_type type; // decides how many numbers it has
-    // The range of each number, INFINITY if it is unbounded, and the default. Angles in degrees.
+    lam_field_type type; // determines the number of components
+    // The range of each number, INFINITY if unbounded, and the default. Angles are in degrees.
     double min, max, standard[4];
     size_t offset; // in lam_material or lam_light
     // Bits 1 << lam_light_type: the light types with this field. 0: a field of materials.
@@ -40,7 +40,7 @@ typedef struct lam_field {
     LAM_RESERVED(8);
 } lam_field;
 
-// The most rows of either table.
+// The maximum number of rows of either table.
 enum { LAM_FIELDS_MAX = 40 };
 
 // Returns a row of a table, or NULL past the end. For lights, a key may occur in several rows, with different defaults
@@ -48,10 +48,10 @@ enum { LAM_FIELDS_MAX = 40 };
 LAM_API const lam_field *lam_material_field(int index);
 LAM_API const lam_field *lam_light_field(int index);
 
-// Reads the numbers of a field (angles in radians, a flag as 0 or 1) and returns how many there are: 1, 3 or 4.
+// Gets the numbers of a field (angles in radians, a flag as 0 or 1) and returns their count: 1, 3 or 4.
 LAM_API int lam_field_get(const lam_field *field, const void *object, double numbers[4]);
-// Reads the numbers as scene files, options and reports contain them: like lam_field_get, but with angles in degrees,
-// as the shortest decimal that gives the same angle.
+// Gets the numbers in the form used by scene files, options and reports: like lam_field_get, but with angles in
+// degrees, as the shortest decimal that gives the same angle.
 LAM_API int lam_field_get_written(const lam_field *field, const void *object, double numbers[4]);
 
 // Sets the numbers without checking their range.

@@ -8,48 +8,50 @@
 extern "C" {
 #endif
 
-// 8-bit formats store sRGB-encoded (or raw) numbers, float formats store linear numbers. RGBA8 and BGRA8 are not
+// 8-bit formats store sRGB-encoded (or raw) numbers; float formats store linear numbers. RGBA8 and BGRA8 are not
 // premultiplied by alpha, RGBA32F is premultiplied. Formats without alpha are opaque: a frame is drawn over its
-// background, and the background over black. Converted to another 8-bit format, they get alpha 255.
+// background, and the background over black. If they are converted to another 8-bit format, alpha is 255.
 typedef enum lam_pixel_format {
-    LAM_RGBA8 = 0,   // 4 bytes a pixel
-    LAM_RGBA32F = 1, // 4 floats a pixel
-    LAM_BGRA8,       // 4 bytes a pixel, blue first
-    LAM_RGB8,        // 3 bytes a pixel
-    // 1 byte a pixel: the luminance of the RGB8 picture (Rec. 709: 0.2126 R + 0.7152 G + 0.0722 B of its linear light,
-    // encoded again). Raw numbers, and pictures of numbers (lam_output), are weighted as they are.
+    LAM_RGBA8 = 0,   // 4 bytes per pixel
+    LAM_RGBA32F = 1, // 4 floats per pixel
+    LAM_BGRA8,       // 4 bytes per pixel, blue first
+    LAM_RGB8,        // 3 bytes per pixel
+    // 1 byte per pixel: the luminance of the RGB8 picture (Rec. 709: 0.2126 R + 0.7152 G + 0.0722 B of its linear
+    // light, encoded again). Raw numbers and outputs of surface properties (lam_output) are weighted without
+    // conversion.
     LAM_GREY8,
-    LAM_RGB32F, // 3 floats a pixel
+    LAM_RGB32F, // 3 floats per pixel
 } lam_pixel_format;
 
-// A picture. Row 0 is the top one: pixel (x, y) starts at (char *)pixels + y·stride + x·bytes, with the bytes a pixel of
-// its format. Every function of this library that accepts a picture accepts all formats and strides unless its comment
-// says otherwise. The library owns the pixels (lam_image_make, lam_image_load: `owned` is set), or the caller does:
-//     lam_image window = {.width = 800, .height = 600, .format = LAM_BGRA8, .pixels = memory, .stride = pitch};
+// A picture. Row 0 is the top row: pixel (x, y) starts at (char *)pixels + y·stride + x·(bytes per pixel of the
+// format). Every function of this library that accepts a picture accepts all formats and strides unless its comment
+// says otherwise. The pixels belong to the library (lam_image_make, lam_image_load: `owned` is set) or to the caller:
+//    lam_image window = {.width = 800, .height = 600, .format = LAM_BGRA8, .pixels = memory, .stride = pitch};
+//
 typedef struct lam_image {
     int width, height;       // pixels, 1..65535
-    lam_pixel_format format; // decides the bytes a pixel
-    // true: lam_image_free frees `pixels`. false: the caller owns them, and they are not freed.
+    lam_pixel_format format; // determines the bytes per pixel
+    // true: lam_image_free frees `pixels`. false: the caller owns them, and they are never freed here.
     bool owned;
-    void *pixels; // formats of floats: aligned to 4 bytes
-    // Bytes from a row to the next lower one. 0: rows without padding; negative: bottom row first.
+    void *pixels; // float formats: aligned to 4 bytes
+    // Bytes from one row to the next lower row. 0: rows without padding; negative: bottom row first.
     ptrdiff_t stride;
     LAM_RESERVED(8);
 } lam_image;
 
-// Allocates a picture of width×height pixels, without padding, contents undefined. The caller frees it with
-// lam_image_free. LAM_BAD_ARGUMENT, LAM_LIMIT (a side over 65535, memory).
+// Allocates a picture of width×height pixels without padding and with undefined contents. The caller frees it with
+// lam_image_free. Errors: LAM_BAD_ARGUMENT, LAM_LIMIT (a side over 65535, memory).
 LAM_API bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format format, lam_error *error);
 
-// Frees the pixels if the picture owns them, and zeroes the struct. NULL and a zeroed struct are fine.
+// Frees the pixels if the picture owns them, and zeroes the struct. NULL and a zeroed struct are allowed.
 LAM_API void lam_image_free(lam_image *image);
 
 // The compression of PNG files. The pixels are identical.
 typedef enum lam_compress {
-    // The default: some milliseconds for a million pixels. The bytes depend on the picture alone.
+    // The default: some milliseconds for a million pixels. The bytes depend only on the picture.
     LAM_COMPRESS_FAST,
-    // About a third smaller and about a hundred times slower, by libdeflate, which is loaded on demand (LAM_UNSUPPORTED
-    // if it is not installed). The bytes depend on its version.
+    // About a third smaller and a hundred times slower. It uses libdeflate, which is loaded on demand (LAM_UNSUPPORTED
+    // if it is not installed); the bytes depend on its version.
     LAM_COMPRESS_BEST,
 } lam_compress;
 
@@ -57,121 +59,118 @@ typedef enum lam_compress {
 typedef struct lam_save_params {
     // Cancel flag and time limit, checked while encoding. NULL: none.
     const lam_control *control;
-    // Formats without alpha (PPM, JPEG) store the picture over this colour, linear. Default black.
+    // Formats without alpha (PPM, JPEG) store the picture over this linear colour. Default: black.
     lam_rgb background;
-    // Threads to encode with; 0: one for each processor. The bytes do not depend on it.
+    // Number of threads that encode; 0: one for each processor. The bytes do not depend on it.
     int threads;
-    // The numbers are not sRGB-encoded: PNG gets no sRGB chunk, PPM and JPEG are composed without
-    // conversion.
+    // The numbers are not sRGB-encoded: PNG gets no sRGB chunk, and PPM and JPEG are composited without conversion.
     bool raw;
     lam_compress compress; // of PNG; ignored for other formats
-    // The quality of a lossy picture, 1 to 100; ignored for other formats. JPEG: 0 is 90, and below 90 colours have
-    // half the resolution (4:2:0). WebP: 0 and 100 are lossless.
+    // The quality of lossy formats, 1 to 100; other formats ignore it. JPEG: 0 means 90; below 90, colours are stored
+    // at half the resolution (4:2:0). WebP: 0 and 100 are lossless.
     int64_t quality;
-    // lam_image_save returns after the file and its name are on disk (fsync of both), so that a power failure leaves
-    // either the old file or the new one. false: the system writes them later, within seconds.
+    // true: lam_image_save returns after the file and its name are on disk (fsync of both), so that a power failure
+    // leaves either the old file or the new one. false: the system writes them later, within seconds.
     bool durable;
     LAM_RESERVED(6);
 } lam_save_params;
 
 // A block of bytes that the caller frees with lam_bytes_free.
 typedef struct lam_bytes {
-    void *data;  // from malloc; NULL: empty
+    void *data;  // allocated by malloc; NULL: empty
     size_t size; // bytes
 } lam_bytes;
 
-// Frees the block and zeroes the struct. NULL and a zeroed struct are fine.
+// Frees the block and zeroes the struct. NULL and a zeroed struct are allowed.
 LAM_API void lam_bytes_free(lam_bytes *bytes);
 
-// Writes a file completely or not at all, like lam_image_save. Errors: LAM_BAD_ARGUMENT, LAM_CANNOT_WRITE.
+// Writes a file completely or not at all, as lam_image_save does. Errors: LAM_BAD_ARGUMENT, LAM_CANNOT_WRITE.
 LAM_API bool lam_bytes_save(const lam_bytes *bytes, const char *path, lam_error *error);
-// Writes a file that is on disk when the call returns, as with lam_save_params.durable.
+// Does the same, and returns after the file is on disk, as with lam_save_params.durable.
 LAM_API bool lam_bytes_save_durably(const lam_bytes *bytes, const char *path, lam_error *error);
 
-// Encodes a picture. `format` is "png", "ppm", "jpg" ("jpeg") or "webp" (from formats of 8 bits), "pfm" (from floats;
-// RGB, linear, bottom row first) or "exr" (from floats of 32 bits). "webp" and "exr" are LAM_UNSUPPORTED without
-// libwebp and OpenEXR. The same picture always gives the same bytes; for "jpg", "webp" and "exr" they depend on the
-// version of the library. WebP has at most 16383 pixels on a side (LAM_LIMIT). `params` may be NULL. Errors:
-// LAM_BAD_ARGUMENT (bytes for a file of floats, or floats for a file of bytes), LAM_UNSUPPORTED (no such format),
-// LAM_LIMIT.
+// Encodes a picture. `format` is "png", "ppm", "jpg" ("jpeg") or "webp" (from 8-bit formats), "pfm" (from floats; RGB,
+// linear, bottom row first) or "exr" (from floats; 32 bits). "webp" and "exr" fail with LAM_UNSUPPORTED without libwebp
+// and OpenEXR. The same picture always gives the same bytes; for "jpg", "webp" and "exr" they depend on the version of
+// the library. WebP allows at most 16383 pixels on a side (LAM_LIMIT). `params` may be NULL. Errors: LAM_BAD_ARGUMENT
+// (an 8-bit picture for a float format, or the reverse), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
 LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params, lam_bytes *out,
                               lam_error *error);
 
-// Encodes and writes to `path`, whose extension selects the format. The file appears completely or not at all, and no
-// other file remains in its folder, even if a signal ends the process meanwhile (including SIGKILL, if the file system
-// supports O_TMPFILE). Errors as above, LAM_CANNOT_WRITE.
+// Encodes a picture and writes it to `path`, whose extension selects the format. The file appears completely or not at
+// all, and no temporary file remains, even if a signal ends the process meanwhile (including SIGKILL, if the file
+// system supports O_TMPFILE). Errors: as above, and LAM_CANNOT_WRITE.
 LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_save_params *params, lam_error *error);
 
 // A layer of an EXR picture.
 typedef struct lam_layer {
-    // "diffuse" gives the channels diffuse.R, …; NULL or "" is the picture itself, with the channels R, …
+    // "diffuse" gives the channels diffuse.R, …; NULL or "" means the picture itself, with the channels R, …
     const char *name;
-    const lam_image *image; // floats, of the same size as the others
-    // A letter for each number of a pixel that is written, in their order: "XYZ". NULL: "RGB", of the picture itself
-    // "RGBA".
+    const lam_image *image; // floats; all layers have the same size
+    // A letter for each written component of a pixel, in order: "XYZ". NULL: "RGB", or "RGBA" for the picture itself.
     const char *channels;
     LAM_RESERVED(4);
 } lam_layer;
 
-// Encodes one EXR picture with all layers (32-bit floats, ZIP), and writes it to `path` like lam_image_save. The same
-// layers give the same bytes with the same OpenEXR library. Errors: LAM_BAD_ARGUMENT (sizes, formats, channels of the
-// same name), LAM_UNSUPPORTED (OpenEXR is not in this build, or not installed), LAM_LIMIT, LAM_CANNOT_WRITE.
+// Encodes one EXR picture with all layers (32-bit floats, ZIP), and writes it to `path` like lam_image_save. With the
+// same OpenEXR library, the same layers give the same bytes. Errors: LAM_BAD_ARGUMENT (sizes, formats, channels with
+// the same name), LAM_UNSUPPORTED (OpenEXR is not in this build, or not installed), LAM_LIMIT, LAM_CANNOT_WRITE.
 LAM_API bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error);
 LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const char *path, lam_error *error);
 
-// The pixel format that a file name asks for: LAM_RGBA32F for .pfm and .exr, LAM_RGBA8 for .png, .ppm, .jpg, .jpeg and
-// .webp. LAM_UNSUPPORTED for another extension, with a list of the writable ones.
+// Gets the pixel format for a file name: LAM_RGBA32F for .pfm and .exr, LAM_RGBA8 for .png, .ppm, .jpg, .jpeg and
+// .webp. Another extension fails with LAM_UNSUPPORTED and a list of the writable formats.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Returns the picture formats, from 0: the name, which is also an extension ("png"); another extension (NULL: none);
-// and one line about the stored numbers ("8 bits, sRGB, with alpha", or NULL if the format is only read). Every format
-// is read. The strings are static. Returns NULL if the index is out of range.
+// Return the picture formats, from 0: the name, which is also an extension ("png"); a second extension, or NULL; and
+// one line about the stored numbers ("8 bits, sRGB, with alpha"), or NULL if the format is only read. Every format can
+// be read. The strings are static. Return NULL if the index is out of range.
 LAM_API const char *lam_image_format_name(int format);
 LAM_API const char *lam_image_format_alias(int format);
 LAM_API const char *lam_image_format_written(int format);
 
-// Reads a picture: PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED without libwebp), BMP, TGA and binary
-// PPM into LAM_RGBA8 (16 bits are cut to 8, grey and palettes become RGB), PFM, EXR (scanlines; the first part) and
-// Radiance (.hdr) into LAM_RGBA32F, with alpha 1 where the file has none. The content determines the format; for a TGA
-// with an invalid header, the extension does. `path` is a regular file, or "-": standard input. The call ignores the
-// previous contents of `image` and does not free them; on failure it is zeroed. `control` may be NULL; its memory limit
-// counts the file and the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, more than 400
-// million pixels, memory, time), LAM_CANCELLED.
+// Reads a picture. PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED without libwebp), BMP, TGA and binary
+// PPM become LAM_RGBA8: 16 bits are cut to 8, grey and palettes become RGB. PFM, EXR (scanlines; the first part) and
+// Radiance (.hdr) become LAM_RGBA32F. Alpha is 1 if the file has none. The content determines the format; for a TGA
+// with an invalid header, the extension does. `path` is a regular file, or "-" for standard input. The call ignores the
+// previous contents of `image` and does not free them; on failure it zeroes the struct. `control` may be NULL; its
+// memory limit counts the file and the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535,
+// more than 400 million pixels, memory, time), LAM_CANCELLED.
 LAM_API bool lam_image_load(lam_image *image, const char *path, const lam_control *control, lam_error *error);
 
-// Reads a picture of any of these formats into LAM_RGBA32F, linear and premultiplied. The numbers of PNG (all 16 bits
-// if present), JPEG, WebP, BMP, TGA and PPM are decoded from sRGB, or used unchanged, 0…1, with LAM_COLOR_RAW; PFM, EXR
-// and Radiance are already linear. Otherwise as lam_image_load.
+// Reads a picture of any of these formats into LAM_RGBA32F, linear and premultiplied. PNG (all 16 bits if present),
+// JPEG, WebP, BMP, TGA and PPM are decoded from sRGB, or used unchanged, 0…1, with LAM_COLOR_RAW; PFM, EXR and Radiance
+// are already linear. In all other respects it works like lam_image_load.
 LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, const lam_control *control,
                                    lam_error *error);
 
-// Returns whether the file at `path` states that Lambent wrote it: PNG by its text "Software: lambent", PPM by the
+// Returns whether the file at `path` states that Lambent wrote it: PNG by the text "Software: lambent", PPM by the
 // comment "# lambent" in its second line, JPEG by the comment "lambent". Returns false for PFM and WebP, which cannot
-// store such a remark, and for a file that does not exist, is not regular or is not readable. Reads the beginning of
-// the file only.
+// store such a remark, and for a file that does not exist, is not regular or is not readable. Only the beginning of the
+// file is read.
 LAM_API bool lam_image_is_from_lambent(const char *path);
 
-// The difference of two pictures of the same size and format, over red, green, blue and alpha (1 in formats without it);
-// a channel's unit is 1 = full range (255 steps of a byte). The difference of a number and NaN, or of a number and an
-// infinity, is infinite.
+// The difference of two pictures of the same size and format, over red, green, blue and alpha (1 in formats without
+// it). Differences are fractions of the full range (255 steps of a byte). The difference between a number and NaN or
+// infinity is infinite.
 typedef struct lam_difference {
-    // Largest, mean and root mean square difference of a channel.
+    // The largest, mean and root mean square difference of a channel.
     double maximum, mean, rmse;
     // 20·log10(1 / rmse): infinity for equal pictures, −infinity for infinitely different ones.
     double psnr_db;
-    // Fraction of the pixels with a channel that differs by more than 1/255, by more than 2/255.
+    // Fraction of the pixels with a channel that differs by more than 1/255, and by more than 2/255.
     double share_over_1, share_over_2;
     LAM_RESERVED(8);
 } lam_difference;
 
-// Measures the difference of two pictures. Fails with LAM_BAD_ARGUMENT (sizes or formats differ).
+// Measures the difference of two pictures. Fails with LAM_BAD_ARGUMENT if sizes or formats differ.
 LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference, lam_error *error);
 
 // Draws the differences of two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour channel is
-// `gain` times the larger of the channel's own difference and alpha's, and alpha is 1. Black means equal. Bytes are
-// clamped at 255; floats are not clamped, and are infinite if lam_image_compare finds an infinite difference. `gain` ≥
-// 0 and finite. The call makes `difference` (without freeing its old contents), the caller frees it. Saved as PNG its
-// numbers are raw (lam_save_params). LAM_BAD_ARGUMENT, LAM_LIMIT.
+// `gain` times the larger of its own difference and alpha's difference, and alpha is 1. Black means equal. Bytes are
+// clamped at 255; floats are not clamped, and are infinite if lam_image_compare finds an infinite difference. `gain` is
+// finite and ≥ 0. The call makes `difference` without freeing its old contents; the caller frees it. A PNG of it stores
+// raw numbers (lam_save_params). Errors: LAM_BAD_ARGUMENT, LAM_LIMIT.
 LAM_API bool lam_image_difference(const lam_image *a, const lam_image *b, float gain, lam_image *difference,
                                   lam_error *error);
 

@@ -1,6 +1,6 @@
 // lambent/light.h: light sources and rigs (predefined sets of lights).
 //
-// docs/lighting.md has the equations. ⊙ multiplies channel by channel.
+// docs/lighting.md lists the equations. ⊙ multiplies channel by channel.
 #ifndef LAMBENT_LIGHT_H
 #define LAMBENT_LIGHT_H
 
@@ -12,23 +12,23 @@ extern "C" {
 
 // The kinds of light.
 typedef enum lam_light_type {
-    LAM_LIGHT_AMBIENT, // from everywhere: adds ka ⊙ ambient
-    // From a sky over a ground: adds ka ⊙ mix(ground, sky, ½ + ½ n·up).
+    LAM_LIGHT_AMBIENT, // uniform light: adds ka ⊙ ambient
+    // Light from sky and ground: adds ka ⊙ mix(ground, sky, ½ + ½ n·up).
     LAM_LIGHT_HEMISPHERE,
-    LAM_LIGHT_POINT,       // from a position, in all directions
-    LAM_LIGHT_DIRECTIONAL, // parallel, from infinitely far
-    LAM_LIGHT_SPOT,        // from a position, in a cone
+    LAM_LIGHT_POINT,       // from a point, in all directions
+    LAM_LIGHT_DIRECTIONAL, // parallel, from infinitely far away
+    LAM_LIGHT_SPOT,        // from a point, in a cone
     LAM_LIGHT_TYPE_COUNT
 } lam_light_type;
 
 // The name of a light type. lam_light_field lists its fields.
 typedef struct lam_light_type_info {
-    const char *word;    // in options, scene files and reports: "point"
+    const char *word;    // name in options, scene files and reports: "point"
     const char *summary; // one line
     LAM_RESERVED(8);
 } lam_light_type_info;
 
-// Returns NULL if there is no such kind.
+// Returns the description of a light type, or NULL if there is no such type.
 LAM_API const lam_light_type_info *lam_light_type_describe(lam_light_type type);
 
 // The space of a light's position, direction and up.
@@ -36,18 +36,18 @@ typedef enum lam_light_frame {
     LAM_FRAME_WORLD = 0, // the scene's space
     // Eye space: x to the right, y up, the camera looks along −z. The light moves with the camera.
     LAM_FRAME_CAMERA,
-    LAM_FRAME_OBJECT, // the space of a named object, which the light moves with
+    LAM_FRAME_OBJECT, // the space of a named object; the light moves with it
     // The space of the whole scene as created. The light moves with lam_scene_transform.
     LAM_FRAME_MODEL,
-    // The camera's axes, as in eye space, with the origin at the centre of the scene's box: the light keeps its side of
-    // the picture and its distance from the scene for every camera.
+    // The camera's axes, as in eye space, with the origin at the centre of the scene's box: the light stays on the same
+    // side of the picture and at the same distance from the scene for every camera.
     LAM_FRAME_VIEW,
 } lam_light_frame;
 
 // Attenuation with the distance d from the lit point to the light, in model units:
-//   1 / (constant + linear·d + quadratic·d²)
-// All three ≥ 0; all zero means 1, 0, 0. 0, 0, 1 is the inverse square law. Where the sum is 0, the light's terms
-// are 0.
+//  1 / (constant + linear·d + quadratic·d²)
+// All three are ≥ 0; all zero means 1, 0, 0. 0, 0, 1 is the inverse square law. If the sum is 0, the light's terms are
+// 0.
 typedef struct lam_attenuation {
     float constant, linear, quadratic;
 } lam_attenuation;
@@ -60,73 +60,74 @@ typedef struct lam_light {
     const char *name;      // UTF-8; NULL: unnamed
 
     lam_vec3 position; // point, spot
-    // Directional, spot: the direction that the light travels in, any length but 0.
+    // Directional, spot: the direction of travel of the light, of any nonzero length.
     lam_vec3 direction;
-    // La: all types but hemisphere. Neither attenuation nor the cone dims it (lam_draw_params.gl1 changes that).
+    // La, for all types but hemisphere. Neither attenuation nor the cone dims it, except with lam_draw_params.gl1.
     lam_rgb ambient;
     lam_rgb diffuse;             // Ld: point, directional, spot
     lam_rgb specular;            // Ls: point, directional, spot
     lam_attenuation attenuation; // point, spot
-    // Point, spot: > 0, in model units, multiplies the attenuation by max(min(1 − (d/range)⁴, 1), 0), the window of
-    // glTF's KHR_lights_punctual. 0: no range.
+    // Point, spot: the distance at which the light ends, in model units. It multiplies the attenuation by max(min(1 −
+    // (d/range)⁴, 1), 0), the window of glTF's KHR_lights_punctual. 0: no range.
     float range;
 
-    // The cone of a spot light with an edge (OpenGL 1): cos(angle)^exponent within `cutoff_rad` of the axis, the edge
-    // included, and 0 outside. `cutoff_rad` is a half angle in (0, π/2]; 0 or π: no edge, max(cos(angle), 0)^exponent.
+    // The cone of a spot light with a hard edge (OpenGL 1): cos(angle)^exponent within `cutoff_rad` of the axis, the
+    // edge included, and 0 outside. `cutoff_rad` is a half angle in (0, π/2]. 0 or π: no edge, max(cos(angle),
+    // 0)^exponent.
     float cutoff_rad;
-    float exponent; // ≥ 0; 0: even light within the cone
-    // The soft cone of a spot light (glTF's KHR_lights_punctual), used where `outer_rad` > 0, half angles with
-    // 0 ≤ inner < outer ≤ π/2:
-    //   clamp((cos(angle) − cos outer) / max(0.001, cos inner − cos outer), 0, 1)²
+    float exponent; // ≥ 0; 0: uniform light within the cone
+    // The soft cone of a spot light (glTF's KHR_lights_punctual), used if `outer_rad` > 0; half angles with 0 ≤ inner <
+    // outer ≤ π/2:
+    //  clamp((cos(angle) − cos outer) / max(0.001, cos inner − cos outer), 0, 1)²
     float inner_rad, outer_rad;
 
     lam_rgb sky;    // hemisphere: light from above
     lam_rgb ground; // hemisphere: light from below
     lam_vec3 up;    // hemisphere: towards the sky; zero: the scene's up axis
 
-    // With lam_draw_params.shadows. Point, directional, spot: the light passes through everything.
+    // Point, directional, spot: the light casts no shadows (lam_draw_params.shadows).
     bool no_shadows;
-    // Point, spot: the radius of the ball that emits the light, in world units, which softens shadows. 0: a point.
+    // Point, spot: the radius of the sphere that emits the light, in world units; a radius softens shadows. 0: a point.
     float radius;
     // Directional: the angular radius of the disc that emits the light (0.27 degrees for the sun). 0: a point.
     float angular_radius_rad;
-    // Point, directional, spot: the share of this light that ambient occlusion dims (lam_draw_params.occlusion), 0..1. 1
-    // suits large, soft lights. Ambient and hemisphere light is always dimmed.
+    // Point, directional, spot: the share of this light that ambient occlusion dims (lam_draw_params.occlusion), 0..1.
+    // 1 suits large, soft lights. Ambient and hemisphere light is always dimmed.
     float occluded;
     LAM_RESERVED(30);
 } lam_light;
 
-// Returns a white light of a type at the origin, direction (0, 0, −1): ambient 0 (LAM_LIGHT_AMBIENT: 0.2), diffuse and
-// specular 1, attenuation 1, 0, 0; spot: cutoff 45°, exponent 0; hemisphere: sky 0.4, ground 0.1.
+// Returns a white light of a type at the origin, with the direction (0, 0, −1), ambient 0 (LAM_LIGHT_AMBIENT: 0.2),
+// diffuse and specular 1, and attenuation 1, 0, 0. Spot: cutoff 45°, exponent 0. Hemisphere: sky 0.4, ground 0.1.
 LAM_API lam_light lam_light_default(lam_light_type type);
 
 // Checks a light's numbers against the ranges above. Fails with LAM_BAD_ARGUMENT, and the sentence names the field.
 LAM_API bool lam_light_check(const lam_light *light, lam_error *error);
 
-// Ready-made sets of lights.
+// Predefined sets of lights.
 typedef enum lam_rig {
     // The scene's own lights. If there are none: the studio; for physical materials, only the scene's environment, or
     // the built-in environment "studio".
     LAM_RIG_AUTO = 0,
-    LAM_RIG_NONE, // the scene's own lights only, even if it has none
-    // The default look: a near key light, a fill and a rim light that turn with the camera, and a hemisphere light. Ambient
-    // occlusion dims half of the key and all of the fill.
+    LAM_RIG_NONE, // only the scene's own lights, even if there are none
+    // The default look: a near key light, a fill and a rim light that move with the camera, and a hemisphere light.
+    // Ambient occlusion dims half of the key light and all of the fill light.
     LAM_RIG_STUDIO,
     LAM_RIG_HEADLIGHT, // one directional light from the eye
     // Key, fill and back light of a portrait, directional, fixed to the camera: diffuse and specular 0.8 from
     // (−1, 1, 1), 0.4 from (1, 0.25, 1), 0.6 from (0.5, 1, −1); ambient 0.05.
     LAM_RIG_THREE_POINT,
-    // One point light at (1, 2, 3), turned to the scene's up axis, times the radius of the scene's sphere from its centre (lam_scene_sphere): ambient
-    // 0.1, diffuse and specular 1, attenuation 1, 0, 0.
+    // One point light in the direction (1, 2, 3) from the centre of the scene's sphere (lam_scene_sphere), rotated to
+    // the scene's up axis and scaled by the radius: ambient 0.1, diffuse and specular 1, attenuation 1, 0, 0.
     LAM_RIG_LECTURE,
 } lam_rig;
 
 // The largest number of lights in a rig.
 enum { LAM_RIG_LIGHTS_MAX = 8 };
 
-// Writes the lights of a rig and returns their number, 0 for AUTO and NONE. Positions and attenuation are for a scene whose
-// sphere (LAM_FRAME_VIEW: whose box, by half of its diagonal) has its centre at the origin and radius 1;
-// lam_scene_rig_lights places them in a scene.
+// Writes the lights of a rig and returns their number, which is 0 for AUTO and NONE. Positions and attenuation are for
+// a scene whose sphere has its centre at the origin and radius 1; for LAM_FRAME_VIEW, half the diagonal of the box is
+// used as the radius. lam_scene_rig_lights places them in a scene.
 LAM_API int lam_rig_lights(lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
 #ifdef __cplusplus

@@ -22,8 +22,8 @@ typedef enum lam_rate {
     LAM_PER_TRIANGLE = 1, // one for each triangle
 } lam_rate;
 
-// A run of triangles with one name and one material: an OBJ group, an STL solid, a glTF primitive. The parts of a mesh
-// are in order, do not overlap, and cover all of its triangles.
+// A range of triangles with one name and one material: an OBJ group, an STL solid, a glTF primitive. The parts of a
+// mesh are in order, do not overlap, and cover all of its triangles.
 typedef struct lam_part {
     const char *name;        // UTF-8; NULL: unnamed
     uint32_t first_triangle; // index into the mesh's triangles
@@ -35,20 +35,20 @@ typedef struct lam_part {
 // A mesh of triangles, of lines or of points. lam_scene_add_mesh copies the arrays, and the scene owns the copies.
 //
 // At most one of triangle_count, line_count and point_count is not 0. Statements about triangles also apply to lines,
-// which have two corners, and to points, which have one. Corner c of line l has the number 2l + c, point p the number
-// p; index arrays have as many elements, and parts count lines or points. Lines are drawn lam_draw_params.line_width
-// pixels wide and points as squares of point_size; both face the eye, and are seen from all sides. They are lit by
-// their normals if they have any, which nobody makes for them; without, they have the diffuse colour and the emission,
-// unlit.
+// which have two corners, and to points, which have one. Corner c of line l has the number 2l + c, and point p has the
+// number p; index arrays have as many elements, and parts count lines or points. Lines are drawn
+// lam_draw_params.line_width pixels wide and points as squares of point_size; both face the eye and are visible from
+// all sides. They are lit if the mesh has normals, which are never computed for them; otherwise they show the diffuse
+// colour and the emission, unlit.
 //
 // Corner c of triangle t has the number i = 3t + c. Its position is element indices[i] of `positions`. Every other
 // attribute may have an index array of its own (3 per triangle), for files whose corners share positions but not
-// normals; where that array is NULL, `indices` serves. Where `indices` is NULL too, corner i uses element i.
+// normals; if that array is NULL, `indices` is used. If `indices` is NULL too, corner i uses element i.
 typedef struct lam_mesh {
     const char *name; // UTF-8; NULL: unnamed
-    // Added to every position, in double: keeps the detail of models far away from zero. A scene gives a mesh that lies
-    // more than 16 times its size from zero on some axis an origin near its middle, and its own copy of the positions
-    // becomes relative to that.
+    // Added to every position, in double precision, to keep the detail of models far away from zero. If a mesh is more
+    // than 16 times its size away from zero on some axis, the scene gives it an origin near its centre and stores a
+    // copy of the positions relative to this origin.
     double origin[3];
 
     const float *positions;  // 3 per vertex, finite
@@ -56,7 +56,7 @@ typedef struct lam_mesh {
     const uint32_t *indices; // 3 per triangle, each < vertex_count
     uint32_t triangle_count; // triangles of the mesh
 
-    // 3 per element, of any length: they are normalised when used. NULL: the scene makes smooth ones.
+    // 3 per element, of any length; they are normalised when used. NULL: the scene computes smooth normals.
     const float *normals;
     uint32_t normal_count;          // elements of `normals`
     const uint32_t *normal_indices; // 3 per triangle; NULL: `indices`
@@ -65,7 +65,7 @@ typedef struct lam_mesh {
     uint32_t texcoord_count;          // elements of `texcoords`
     const uint32_t *texcoord_indices; // 3 per triangle; NULL: `indices`
 
-    // A second set of them, for maps whose lam_texture_map.texcoords is 1.
+    // A second set of texture coordinates, for maps whose lam_texture_map.texcoords is 1.
     const float *second_texcoords;           // 2 per element; NULL: none
     uint32_t second_texcoord_count;          // elements of `second_texcoords`
     const uint32_t *second_texcoord_indices; // 3 per triangle; NULL: `indices`
@@ -79,11 +79,11 @@ typedef struct lam_mesh {
     const void *colors;
     uint32_t color_count;            // elements of `colors`
     lam_colors_format colors_format; // type of an element
-    lam_rate colors_rate;            // LAM_PER_TRIANGLE: triangle t has element t
+    lam_rate colors_rate;            // LAM_PER_TRIANGLE: triangle t uses element t
     const uint32_t *color_indices;   // 3 per triangle; NULL: `indices`
 
     // The smoothing group of each triangle, for normals that the library computes: triangles of different groups, and
-    // triangles of group 0, do not share normals. NULL: the crease angle alone decides.
+    // triangles of group 0, do not share normals. NULL: only the crease angle decides.
     const uint32_t *smoothing_groups;
 
     const lam_part *parts; // NULL: one unnamed part with the default material
@@ -92,45 +92,44 @@ typedef struct lam_mesh {
     uint32_t line_count;  // lines of a mesh of lines
     uint32_t point_count; // points of a mesh of points
 
-    // One for each triangle: bit k (of 0, 1, 2) is set where the edge from its corner k to the next was made by cutting a
-    // polygon into triangles. The wireframe leaves such edges out. NULL: every edge is the model's own.
+    // One byte for each triangle: bit k (0, 1, 2) is set if the edge from corner k to the next corner is inside a
+    // polygon that was split into triangles. The wireframe omits such edges. NULL: all edges are edges of the model.
     const uint8_t *inner_edges;
-    bool hidden; // true: no object of the mesh is drawn (lam_scene_hide_mesh)
+    bool hidden; // true: objects of this mesh are hidden (lam_scene_hide_mesh)
     LAM_RESERVED(29);
 } lam_mesh;
 
 // Parameters of a built-in shape. All zero: the defaults of the shape.
 typedef struct lam_shape_params {
-    double radius; // of the whole shape, model units; 0: 1
-    // Segments around, 3..16384; 0: the shape's own number, smooth at 1024 pixels. For gyroid and metaballs the cells
-    // along a side, at most 1024. teapot rounds up to a multiple of 4 for body and lid; handle and spout have half as
-    // many, at least 4.
+    double radius; // size of the whole shape, model units; 0: 1
+    // Segments around, 3..16384; 0: the shape's default, which is smooth at 1024 pixels. For gyroid and metaballs: the
+    // cells along a side, at most 1024. teapot rounds up to a multiple of 4 for body and lid; handle and spout have
+    // half as many, at least 4.
     int slices;
-    // Segments along, 1..16384; 0: the shape's own number. sphere needs 2, torus and torus-knot 3; teapot takes at most
-    // 4096 for each patch; gyroid and metaballs do not use it.
+    // Segments along, 1..16384; 0: the shape's default. sphere needs at least 2, torus and torus-knot 3; teapot allows
+    // at most 4096 for each patch; gyroid and metaballs ignore it.
     int stacks;
-    const lam_control *control; // for making the shape; NULL: none
+    const lam_control *control; // control of the construction; NULL: none
     LAM_RESERVED(8);
 } lam_shape_params;
 
-// Returns the built-in shapes, from 0: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot, gyroid,
-// metaballs. They have y up and are centred on the origin; with radius 1 each touches the cube from −1 to 1 from
-// inside.
+// Returns the number of built-in shapes: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot, gyroid,
+// metaballs. Their y axis points up and they are centred on the origin; with radius 1 each fits exactly into the cube
+// from −1 to 1.
 LAM_API int lam_shape_count(void);
 
-// Returns the name of a shape, and one line about it. The strings are static. Returns NULL if the index is out of
-// range.
+// Return the name of a shape and one line about it. The strings are static. Return NULL if the index is out of range.
 LAM_API const char *lam_shape_name(int shape);
 LAM_API const char *lam_shape_summary(int shape);
 
-// Returns the number of the shape with this name, or −1 if there is none.
+// Returns the index of the shape with this name, or −1 if there is none.
 LAM_API int lam_shape_find(const char *name);
 
 // A point of a parametric surface.
 typedef struct lam_surface_point {
     lam_vec3 p; // position
-    // The partial derivatives, whose cross product ∂p/∂u × ∂p/∂v points outward. If one vanishes (at a pole), the
-    // direction of its limit, or zero: then the neighbours decide.
+    // The partial derivatives, whose cross product ∂p/∂u × ∂p/∂v points outward. If one vanishes (at a pole), give the
+    // limit of its direction, or zero to use the neighbouring points.
     lam_vec3 dp_du, dp_dv;
 } lam_surface_point;
 
@@ -144,7 +143,7 @@ typedef struct lam_parametric {
     double u_min, u_max;        // range of u, u_min < u_max
     double v_min, v_max;        // range of v, v_min < v_max
     int u_segments, v_segments; // 1..16384
-    // The surface meets itself at the ends of u, of v: both ends share positions and normals.
+    // Whether the surface is closed in u and in v: both ends share positions and normals.
     bool u_closed, v_closed;
     LAM_RESERVED(8);
 } lam_parametric;
@@ -153,22 +152,22 @@ typedef struct lam_parametric {
 // derivatives.
 //
 // Parametric: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". Ends of a range that meet are
-// joined, and a line of the grid along which the surface has a crease separates normals.
+// joined. If the surface has a crease along a grid line, the normals on both sides of it are separate.
 //
-// Implicit: "a = 2; x^2 + y^2 + z^2 - a^2", the points where the expression is zero, or "x^2 + y^2 + z^2 = 4", where
-// both sides are equal. It is negative (the left side is the smaller one) inside.
+// Implicit: "a = 2; x^2 + y^2 + z^2 - a^2", the points at which the expression is zero, or "x^2 + y^2 + z^2 = 4", the
+// points at which both sides are equal. The expression (left side minus right side) is negative inside.
 typedef struct lam_formula {
     const char *text; // at most 4096 bytes
-    // Parametric: the ranges of u and v, each two constant expressions; NULL means "0..2pi".
+    // Parametric: the ranges of u and v, each two constant expressions; NULL: "0..2pi".
     const char *u, *v;
-    // Parametric: 1..16384; 0: 16..512, so that edges pass the surface by 1/4000 of its size at most.
-    // Implicit: u_segments is the number of cells along the longest side of the box, 2..1024; 0: 96. v_segments is 0.
+    // Parametric: 1..16384; 0: 16..512, so that edges deviate from the surface by at most 1/4000 of its size. Implicit:
+    // u_segments is the number of cells along the longest side of the box, 2..1024; 0: 96. v_segments is 0.
     int u_segments, v_segments;
-    // The front is where −(∂p/∂u × ∂p/∂v) or −∇f points; false: ∂p/∂u × ∂p/∂v or ∇f.
+    // true: the front faces the direction −(∂p/∂u × ∂p/∂v) or −∇f; false: ∂p/∂u × ∂p/∂v or ∇f.
     bool flip;
-    bool implicit; // the text is an implicit surface; false: a parametric one
-    // Implicit: the box that is searched, as u and v. NULL: a box around the surface, within −4..4, or within −16..16 if it is
-    // closed there and not within −4..4.
+    bool implicit; // true: an implicit surface; false: a parametric one
+    // Implicit: the box that is searched, in the format of u and v. NULL: a box around the surface, within −4..4, or
+    // within −16..16 if the surface is closed only there.
     const char *x, *y, *z;
     LAM_RESERVED(4);
 } lam_formula;
@@ -178,7 +177,7 @@ typedef struct lam_implicit {
     double (*value)(void *user, lam_vec3 p);      // the function
     lam_vec3 (*gradient)(void *user, lam_vec3 p); // its gradient, which points outward
     void *user;                                   // passed to both
-    // Two corners of the box that is searched; the surface is cut at its sides.
+    // Two corners of the box that is searched; the surface is cut at the box's sides.
     lam_vec3 minimum, maximum;
     int cells; // along the longest side of the box, 2..1024; 0: 96
     LAM_RESERVED(8);

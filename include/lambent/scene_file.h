@@ -1,4 +1,4 @@
-// lambent/scene_file.h: scene files: the settings of the picture in them, and writing them (docs/scene-file.md).
+// lambent/scene_file.h: the picture settings of scene files, and functions that write scene files (docs/scene-file.md).
 #ifndef LAMBENT_SCENE_FILE_H
 #define LAMBENT_SCENE_FILE_H
 
@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-// The settings that a scene file may have besides lam_draw_setting's: bits of lam_picture_settings.present.
+// The settings of a scene file that lam_draw_setting does not list: bits of lam_picture_settings.present.
 enum {
     LAM_SETTING_SIZE = 1 << 0,        // width, height
     LAM_SETTING_SAMPLES = 1 << 1,     // draw.samples
@@ -21,19 +21,19 @@ enum {
     LAM_SETTING_ENVIRONMENT = 1 << 8, // environment_…
 };
 
-// The picture that a scene file describes: its size, camera and way of drawing. lam_scene has the rest. Settings that
-// are not present are zero.
+// The picture that a scene file describes: its size, camera and drawing settings. lam_scene contains the rest. Settings
+// that the file does not contain are zero.
 typedef struct lam_picture_settings {
     unsigned present; // LAM_SETTING_…: the settings that the file has
-    // Bit i: the file has lam_draw_setting(i), whose value is in `draw`.
+    // Bit i: the file contains lam_draw_setting(i), whose value is in `draw`.
     uint64_t draw_present;
     int width, height; // pixels
-    lam_camera camera; // as lam_draw takes it
-    // The settings above that begin with "draw.", and the ones of draw_present. `rig` is LAM_RIG_NONE where
+    lam_camera camera; // as for lam_draw
+    // The settings above that begin with "draw.", and the settings of draw_present. `rig` is LAM_RIG_NONE if
     // LAM_SETTING_LIGHTS is present.
     lam_draw_params draw;
-    // The environment in one of three forms, NULL for the others. Paths can be opened from the current folder, except
-    // the paths of a scene file in memory, which are as written. The strings live as long as the scene.
+    // The environment in one of three forms; the others are NULL. Paths can be opened from the current folder, but the
+    // paths of a scene file in memory are unchanged. The strings live as long as the scene.
     const char *environment_faces[6]; // six pictures: +x −x +y −y +z −z
     const char *environment_picture;  // one picture: equirectangular or a cross
     const char *environment_built_in; // the name of a built-in environment
@@ -41,19 +41,19 @@ typedef struct lam_picture_settings {
     LAM_RESERVED(16);
 } lam_picture_settings;
 
-// The settings of a scene that was loaded from a scene file. False, and all zero, for any other scene.
+// Gets the settings of a scene that was loaded from a scene file. Returns false and all zero for any other scene.
 LAM_API bool lam_scene_picture_settings(const lam_scene *scene, lam_picture_settings *settings);
 
-// Writes a scene file from which lam_scene_load (with models_anywhere if a file lies outside of the folder of `path`)
-// and lam_scene_picture_settings make the same picture again. It has models by their names relative to that folder,
-// shapes, materials, transforms, all lights (also of settings->draw.rig), and the settings present in `settings` (NULL:
-// none). Either the whole file appears or none. Errors: LAM_UNSUPPORTED (a mesh that neither came from a file nor is a
-// built-in shape), LAM_CANNOT_WRITE, LAM_LIMIT.
+// Writes a scene file from which lam_scene_load (with models_anywhere if a file is outside the folder of `path`) and
+// lam_scene_picture_settings reproduce the picture. It contains models by their names relative to that folder, shapes,
+// materials, transforms, all lights (including the lights of settings->draw.rig), and the settings present in
+// `settings` (NULL: none). The file appears completely or not at all. Errors: LAM_UNSUPPORTED (a mesh that is neither
+// from a file nor a built-in shape), LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *settings, const char *path,
                             lam_error *error);
 
-// The bytes of that file, which is to lie at `path`. The caller frees `out` with lam_bytes_free. Errors as above; LAM_CANNOT_WRITE if the
-// folder of `path` cannot be found.
+// Makes the bytes of the scene file that lam_scene_save would write to `path`. The caller frees `out` with
+// lam_bytes_free. Errors as above; LAM_CANNOT_WRITE if the folder of `path` cannot be found.
 LAM_API bool lam_scene_encode(const lam_scene *scene, const lam_picture_settings *settings, const char *path,
                               lam_bytes *out, lam_error *error);
 

@@ -1,7 +1,7 @@
-// lambent/words.h: materials and lights as people write them: the values of the options of `lambent`.
+// lambent/words.h: materials and lights in text form: the values of the options of `lambent`.
 //
 // A text is at most 1023 bytes long. Errors are LAM_BAD_ARGUMENT, and the sentence states the text found and the
-// expected one. lam_color_parse (scene.h) and lam_camera_parse (camera.h) belong here too.
+// expected one. lam_color_parse (scene.h) and lam_camera_parse (camera.h) are similar.
 #ifndef LAMBENT_WORDS_H
 #define LAMBENT_WORDS_H
 
@@ -25,12 +25,12 @@ LAM_API bool lam_material_parse(const char *text, lam_color_mode mode, lam_mater
 // Returns the keys of lam_material_parse, from 0, or NULL if the index is out of range.
 LAM_API const char *lam_material_key(int index);
 
-// How lam_scene_add_light_text reads a light. All zero is the default.
+// Parameters of lam_scene_add_light_text. Zero is the default of each field.
 typedef struct lam_light_text_params {
-    lam_color_mode color; // of hexadecimal colours and names
-    // The camera of lights in the frame of the camera, whose targets and radii need it. NULL: lam_camera_default().
+    lam_color_mode color; // encoding of hexadecimal colours and names
+    // The camera that lights in the camera's frame refer to, for their targets and radii. NULL: lam_camera_default().
     const lam_camera *camera;
-    // The point that positions in `r` are counted from; it counts where `radius` is not 0.
+    // The origin of positions in `r`; used only if `radius` is not 0.
     lam_vec3 centre;
     // The length `r`. 0: radius and centre of lam_scene_sphere for the whole scene.
     double radius;
@@ -38,16 +38,17 @@ typedef struct lam_light_text_params {
 } lam_light_text_params;
 
 // Adds a light to a scene as a text says, such as "spot:position=-2r/3r/2r,cutoff=20,color=#ffeecc":
-//   ambient, hemisphere, point, directional or spot, then after ':' the keys of scene files (lam_light_field), and
-//   target=x/y/z           the point that it shines at; for a spot the middle of the scene unless there is a direction
-//   position=x/y/z/w       w = 0: a directional light from there
-//   color=…,intensity=…    diffuse and specular at once; ambient, sky and ground of their types
-//   frame=world|camera|object|object:NAME, name=…
-// Angles are in degrees. A number with r, "2r", is in radii of the scene's sphere: in positions and targets from its
-// centre, in ranges and in the second and third number of an attenuation as a length. A point or spot light without a
-// position is at 1r/2r/3r (rotated to the scene's up axis), in the camera's frame at the eye.
+//  ambient, hemisphere, point, directional or spot, then after ':' the keys of scene files (lam_light_field), and
+//  target=x/y/z           the point that it shines at; for a spot without a direction, the centre of the scene
+//  position=x/y/z/w       w = 0: a directional light from there
+//  color=…,intensity=…    diffuse and specular at once; ambient, sky and ground of their types
+//  frame=world|camera|object|object:NAME, name=…
+// Angles are in degrees. A number with r, "2r", is in radii of the scene's sphere: positions and targets are relative
+// to its centre; ranges, and the second and third number of an attenuation, are lengths. A point or spot light without
+// a position is at 1r/2r/3r (rotated to the scene's up axis), or at the eye in the camera's frame.
 //
-// Returns the light's index, −1 on failure. `params` may be NULL. `scene` NULL: the text is checked, and 0 is returned.
+// Returns the light's index, or −1 on failure. `params` may be NULL. If `scene` is NULL, the text is checked, and 0 is
+// returned.
 LAM_API int lam_scene_add_light_text(lam_scene *scene, const char *text, const lam_light_text_params *params,
                                      lam_error *error);
 

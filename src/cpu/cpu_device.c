@@ -1,4 +1,4 @@
-// cpu_device.c: the software device, and the order of a frame's steps.
+// cpu_device.c: the software device, and the sequence of steps of a frame.
 #include "device_type.h"
 
 #include "behind.h"
@@ -63,14 +63,14 @@ static void vertex_task(void *user, size_t index, int thread)
     (void)thread;
     struct cpu_frame *cpu = user;
     if (work_continues(&cpu->work))
-        cpu->kernels->vertex_transform(&cpu->raster, &cpu->vertex_pieces[index]);
+        cpu->kernels->vertex_transform(&cpu->raster, &cpu->vertex_chunks[index]);
 }
 
 static void triangle_task(void *user, size_t index, int thread)
 {
     struct cpu_frame *cpu = user;
     if (work_continues(&cpu->work))
-        cpu->kernels->bin_triangles(&cpu->raster, &cpu->bins[thread], &cpu->triangle_pieces[index]);
+        cpu->kernels->bin_triangles(&cpu->raster, &cpu->bins[thread], &cpu->triangle_chunks[index]);
     work_add(&cpu->work, cpu->bins[thread].work);
     cpu->bins[thread].work = 0;
 }
@@ -94,12 +94,11 @@ static void behind_task(void *user, size_t index, int thread)
     if (work_continues(&cpu->work))
         draw_tile(cpu, index, thread);
     cpu->target.behind->glass[index] = state->layers.glass;
-    if (state->layers.glass) // its pixels are counted when it is drawn with them
+    if (state->layers.glass) // glass pixels are counted when they are drawn with glass
         state->pixels_covered = covered;
 }
 
-// Draws the picture behind rough and thick glass, which the tiles of the frame then read: what glass shows of it may lie in any
-// tile.
+// Draws the picture behind rough and thick glass before the tiles of the frame, because glass may show any part of it.
 static bool draw_behind(struct cpu_frame *cpu, struct behind *behind, struct buffer *memory, lam_error *error)
 {
     const lam_image *image = cpu->target.image;
@@ -119,7 +118,7 @@ static bool draw_behind(struct cpu_frame *cpu, struct behind *behind, struct buf
     return true;
 }
 
-// Draws the one tile with the explained pixel once more; its values are recorded.
+// Draws the tile with the explained pixel once more, recording its values.
 static void record_tile(struct cpu_frame *cpu, struct recorder *recorder)
 {
     const lam_explanation *out = recorder->out;
@@ -175,7 +174,7 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
     }
 }
 
-// Makes what lights physical materials: the environment prefiltered, or directions to sample it by.
+// Prepares the light for physical materials: the prefiltered environment, or directions for sampling it.
 static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->shade.frame;
@@ -189,7 +188,7 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
                                     frame->settings.reference, &memory->reference, cpu->call, error);
 }
 
-// Pictures that are smaller than this count as so large: they take little time with any number of layers.
+// Smaller pictures count as this large: they take little time with any number of layers.
 enum { WORK_PIXELS = 256 * 256 };
 
 static uint64_t work_limit(const lam_image *image, const struct call_control *call)
@@ -212,7 +211,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
                    .work = &cpu.work,
                    .tiles_across = (image->width + TILE - 1) / TILE,
                    .tiles_down = (image->height + TILE - 1) / TILE,
-                   // 65536 pixels to each side of the window's middle: snapped coordinates then fit 26 bits.
+                   // 65536 pixels on each side of the window's centre, so that snapped coordinates fit 26 bits.
                    .guard = {65536.0f, 65536.0f},
                    .bins = device->bins,
                    .thread_count = device->thread_count},
@@ -246,11 +245,11 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         output_empty(&cpu.target);
 
     clock = now_ns();
-    pool_run(device->pool, cpu.vertex_piece_count, vertex_task, &cpu);
+    pool_run(device->pool, cpu.vertex_chunk_count, vertex_task, &cpu);
     base->report.vertices_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
         return false;
-    pool_run(device->pool, cpu.triangle_piece_count, triangle_task, &cpu);
+    pool_run(device->pool, cpu.triangle_chunk_count, triangle_task, &cpu);
     base->report.triangles_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
         return false;

@@ -1,4 +1,4 @@
-// cpu_frame.c: sets a frame up: memory of the threads, pieces of work, products.
+// cpu_frame.c: sets up a frame: memory of the threads, parallel tasks, products.
 #include "cpu_frame.h"
 
 #include "fail.h"
@@ -9,7 +9,7 @@
 
 // --- the arrays of a thread
 
-// Suballocates a block in parts that are aligned to 64 bytes. Without a block it only counts.
+// Suballocates parts of a block, aligned to 64 bytes. Without a block it only computes the size.
 struct suballocator {
     char *block;
     size_t used;
@@ -120,9 +120,9 @@ static bool set_up_threads(struct cpu_frame *cpu, struct buffer *heads, lam_erro
             return false;
         struct thread_bins *bins = &cpu->bins[i];
         bins->heads = (struct bin_block **)heads->data + of_thread * (size_t)i;
-        bins->blocks.current = bins->pieces.current = 0;
-        bins->blocks.used = bins->pieces.used = 0;
-        bins->piece_count = 0;
+        bins->blocks.current = bins->clipped.current = 0;
+        bins->blocks.used = bins->clipped.used = 0;
+        bins->clipped_count = 0;
         bins->triangles_binned = bins->work = 0;
     }
     return true;
@@ -131,41 +131,42 @@ static bool set_up_threads(struct cpu_frame *cpu, struct buffer *heads, lam_erro
 uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins)
 {
     return (uint64_t)thread->shading.ray_layers.capacity * sizeof *thread->shading.ray_layers.list +
-           thread->storage.capacity + slabs_bytes(&bins->blocks) + slabs_bytes(&bins->pieces);
+           thread->storage.capacity + slabs_bytes(&bins->blocks) + slabs_bytes(&bins->clipped);
 }
 
 void thread_free(struct thread_state *thread, struct thread_bins *bins)
 {
     slabs_free(&bins->blocks);
-    slabs_free(&bins->pieces);
+    slabs_free(&bins->clipped);
     buffer_free(&thread->storage);
     free(thread->shading.ray_layers.list);
 }
 
-// --- pieces of work
+// --- parallel tasks
 
-// How many vertices are transformed and stored before triangles are binned: those that triangles share (corners.inc).
+// Returns the number of vertices that are transformed and stored before triangles are binned: vertices that triangles
+// share (corners.inc).
 static uint32_t vertices_of(const lam_mesh *mesh) { return mesh->indices ? mesh->vertex_count : 0; }
 
-static size_t pieces_of(uint32_t count, uint32_t size) { return ((size_t)count + size - 1) / size; }
+static size_t chunks_of(uint32_t count, uint32_t size) { return ((size_t)count + size - 1) / size; }
 
-static void fill_pieces(struct piece *pieces, size_t *at, int draw, uint32_t count, uint32_t size)
+static void fill_chunks(struct chunk *chunks, size_t *at, int draw, uint32_t count, uint32_t size)
 {
     for (uint32_t first = 0; first < count; first += size)
-        pieces[(*at)++] = (struct piece){(uint32_t)draw, first, count - first < size ? count - first : size};
+        chunks[(*at)++] = (struct chunk){(uint32_t)draw, first, count - first < size ? count - first : size};
 }
 
-// Lists the pieces of work and reserves memory for the vertices.
-static bool list_pieces(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
+// Lists the parallel tasks and reserves memory for the vertices.
+static bool list_chunks(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->raster.frame;
     uint64_t vertices = 0;
-    size_t vertex_pieces = 0, triangle_pieces = 0;
+    size_t vertex_chunks = 0, triangle_chunks = 0;
     for (int i = 0; i < frame->draw_count; i++) {
         const lam_mesh *mesh = frame->draws[i].mesh;
         vertices += vertices_of(mesh);
-        vertex_pieces += pieces_of(vertices_of(mesh), VERTEX_PIECE);
-        triangle_pieces += pieces_of(mesh->triangle_count, TRIANGLE_PIECE);
+        vertex_chunks += chunks_of(vertices_of(mesh), VERTEX_CHUNK);
+        triangle_chunks += chunks_of(mesh->triangle_count, TRIANGLE_CHUNK);
     }
     if (vertices > INT32_MAX)
         return fail(error, LAM_LIMIT, "the scene has %llu vertices, at most %d can be drawn at once",
@@ -174,28 +175,28 @@ static bool list_pieces(struct cpu_frame *cpu, struct frame_memory *memory, lam_
     bool follows_files = !cpu->call->control.triangle_limit && limit < LAM_TRIANGLE_LIMIT;
     if (follows_files && !call_check_triangles(cpu->call, "the scene", vertices, "vertices", error))
         return false;
-    size_t pieces = vertex_pieces + triangle_pieces;
-    if (!buffer_reserve(&memory->pieces,
-                        pieces * sizeof(struct piece) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t), cpu->call,
+    size_t chunks = vertex_chunks + triangle_chunks;
+    if (!buffer_reserve(&memory->chunks,
+                        chunks * sizeof(struct chunk) + ((size_t)frame->draw_count + 1) * sizeof(uint32_t), cpu->call,
                         error) ||
         !buffer_reserve(&memory->vertices, ((size_t)vertices * 3 + 1) * sizeof(float), cpu->call, error))
         return false;
-    struct piece *list = memory->pieces.data;
-    uint32_t *first_vertex = (uint32_t *)(list + pieces), next = 0;
-    size_t v = 0, t = vertex_pieces;
+    struct chunk *list = memory->chunks.data;
+    uint32_t *first_vertex = (uint32_t *)(list + chunks), next = 0;
+    size_t v = 0, t = vertex_chunks;
     for (int i = 0; i < frame->draw_count; i++) {
         const lam_mesh *mesh = frame->draws[i].mesh;
         first_vertex[i] = next;
         next += vertices_of(mesh);
-        fill_pieces(list, &v, i, vertices_of(mesh), VERTEX_PIECE);
-        fill_pieces(list, &t, i, mesh->triangle_count, TRIANGLE_PIECE);
+        fill_chunks(list, &v, i, vertices_of(mesh), VERTEX_CHUNK);
+        fill_chunks(list, &t, i, mesh->triangle_count, TRIANGLE_CHUNK);
     }
     cpu->raster.vertices = memory->vertices.data;
     cpu->raster.first_vertex = first_vertex;
-    cpu->vertex_pieces = list;
-    cpu->vertex_piece_count = vertex_pieces;
-    cpu->triangle_pieces = list + vertex_pieces;
-    cpu->triangle_piece_count = triangle_pieces;
+    cpu->vertex_chunks = list;
+    cpu->vertex_chunk_count = vertex_chunks;
+    cpu->triangle_chunks = list + vertex_chunks;
+    cpu->triangle_chunk_count = triangle_chunks;
     return true;
 }
 
@@ -214,7 +215,7 @@ static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, l
 bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->raster.frame;
-    if (!list_pieces(cpu, memory, error))
+    if (!list_chunks(cpu, memory, error))
         return false;
     if (frame->settings.occlusion == LAM_OCCLUSION_RAYS) {
         if (!buffer_reserve(&memory->occlusion, sizeof(struct occlusion_pattern), cpu->call, error))
@@ -222,7 +223,7 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
         occlusion_pattern_fill(memory->occlusion.data, frame->settings.occlusion_samples);
         cpu->shade.occlusion_pattern = memory->occlusion.data;
     } else if (frame->settings.occlusion == LAM_OCCLUSION_SCREEN) {
-        // Once fragments are kept, the transformed vertices are no longer needed.
+        // If fragments are kept, the transformed vertices are no longer needed.
         struct scratch_memory lent = {0};
         if (keeps_fragments(cpu) && !frame->makes_normals)
             lent = (struct scratch_memory){.memory = memory->vertices.data, .capacity = memory->vertices.capacity};
@@ -235,14 +236,14 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
 
 uint64_t frame_memory_bytes(const struct frame_memory *memory)
 {
-    return memory->vertices.capacity + memory->pieces.capacity + memory->products.capacity + memory->lights.capacity +
+    return memory->vertices.capacity + memory->chunks.capacity + memory->products.capacity + memory->lights.capacity +
            memory->bins.capacity + memory->reference.capacity + memory->occlusion.capacity + memory->behind.capacity;
 }
 
 void frame_memory_free(struct frame_memory *memory)
 {
     buffer_free(&memory->vertices);
-    buffer_free(&memory->pieces);
+    buffer_free(&memory->chunks);
     buffer_free(&memory->products);
     buffer_free(&memory->lights);
     buffer_free(&memory->bins);

@@ -1,13 +1,15 @@
-// cpu_frame.h: one frame of the CPU device, and the state of a thread. Seen only by the functions that call the steps;
-// a step sees the parts that it reads and writes (kernels.h).
+// cpu_frame.h: one frame of the CPU device, and the state of a thread. Only the functions that call the steps see it; a
+// step receives the parts that it reads and writes (kernels.h).
 //
-//   vertices   positions → pixel x, y and depth key of shared vertices     vertex_transform.inc
-//   triangles  index triples, or positions → tile bins                     bin_triangles.inc, corners.inc, clip.c
-//   tiles      bins → depth key and triangle number of every sample        cover*.inc, occlusion.inc
-//              translucent triangles → layers over the samples, blended    translucent_fragments.inc, blend.c
-//              samples → fragments (a pixel and a triangle that it shows)  visibility_resolve.inc, fragments.c
-//              fragments → colours                                         shade.inc
-//              colours → pixels of the picture                             resolve.inc
+//
+//  vertices   positions → pixel x, y and depth key of shared vertices     vertex_transform.inc
+//  triangles  index triples, or positions → tile bins                     bin_triangles.inc, corners.inc, clip.c
+//  tiles      bins → depth key and triangle number of every sample        cover*.inc, occlusion.inc
+//             translucent triangles → layers over the samples, blended    translucent_fragments.inc, blend.c
+//             samples → fragments (a pixel and a triangle that it shows)  visibility_resolve.inc, fragments.c
+//             fragments → colours                                         shade.inc
+//             colours → pixels of the picture                             resolve.inc
+//
 #ifndef CPU_FRAME_H
 #define CPU_FRAME_H
 
@@ -23,15 +25,15 @@
 #include "shade_frame.h"
 #include "shading_batch.h"
 
-// A thread's own state. Only its bins, which all threads read, lie elsewhere (struct raster_frame).
+// A thread's own state. Its bins are stored elsewhere (struct raster_frame), because all threads read them.
 struct thread_state {
     struct tile_samples samples;
-    struct fragments fragments; // of the translucent surfaces, then of the opaque ones
-    struct layer_rows layers;   // allocated, like the next, only for frames with translucent surfaces
+    struct fragments fragments; // fragments of translucent surfaces first, then of opaque ones
+    struct layer_rows layers;   // like the next member, only allocated for frames with translucent surfaces
     struct blend_scratch blend;
     struct shading shading;
     struct pixel_sums sums;
-    struct buffer storage; // holds the arrays
+    struct buffer storage; // memory of the arrays
     uint64_t coverage_ns, lighting_ns, resolve_ns, pixels_covered;
 };
 
@@ -42,12 +44,12 @@ struct cpu_frame {
     const struct kernels *kernels;
     struct call_control *call;
     struct pool *pool;
-    struct thread_bins *bins; // of each thread
+    struct thread_bins *bins; // the bins of each thread
     struct thread_state *threads;
-    const struct piece *vertex_pieces, *triangle_pieces;
-    size_t vertex_piece_count, triangle_piece_count;
-    struct screen_occlusion occlusion;      // with ambient occlusion
-    struct fragment_store *fragment_stores; // of each tile; NULL: each tile is drawn in one go
+    const struct chunk *vertex_chunks, *triangle_chunks;
+    size_t vertex_chunk_count, triangle_chunk_count;
+    struct screen_occlusion occlusion;      // if the frame has ambient occlusion
+    struct fragment_store *fragment_stores; // one per tile; NULL if each tile is drawn in one pass
     enum failure failure;
     struct work work;
 };
@@ -65,19 +67,20 @@ static inline struct tile tile_number(const struct cpu_frame *cpu, size_t index)
 
 // Memory that the device keeps from frame to frame.
 struct frame_memory {
-    struct buffer vertices;  // x, y and key of the vertices of meshes with indices
-    struct buffer pieces;    // and the first vertex of each draw
+    struct buffer vertices;  // x, y and key of the vertices of indexed meshes
+    struct buffer chunks;    // chunks of parallel tasks, and the first vertex of each draw
     struct buffer products;  // materials × lights
     struct buffer lights;    // the rows of light_bounds
-    struct buffer bins;      // heads of all threads' bins
-    struct buffer reference; // directions
+    struct buffer bins;      // list heads of all threads' bins
+    struct buffer reference; // sampled directions
     struct buffer occlusion; // planes of struct screen_occlusion, or a struct occlusion_pattern
     struct buffer behind;    // the picture behind glass
     struct light_bounds light_bounds;
     struct environment_samples samples;
 };
 
-// Sets up the lists, products and threads of a frame. False: out of memory, or too many vertices or materials.
+// Sets up the lists, products and threads of a frame. Returns false if memory runs out, or there are too many vertices
+// or materials.
 bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error);
 
 uint64_t frame_memory_bytes(const struct frame_memory *memory);
@@ -85,7 +88,7 @@ void frame_memory_free(struct frame_memory *memory);
 uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins);
 void thread_free(struct thread_state *thread, struct thread_bins *bins);
 
-// Takes a tile through all steps, with the state of one thread.
+// Runs all steps for a tile, with the state of one thread.
 void draw_tile(struct cpu_frame *cpu, size_t index, int thread);
 
 #endif

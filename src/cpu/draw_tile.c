@@ -1,4 +1,4 @@
-// draw_tile.c: one tile through all steps, from its bins to the picture.
+// draw_tile.c: runs all steps for one tile, from its bins to the picture.
 #include "cpu_frame.h"
 
 #include "behind.h"
@@ -16,8 +16,8 @@ static void shade(const struct cpu_frame *cpu, struct thread_state *thread, cons
         recording_kernels.record_fragments(cpu, thread, tile);
 }
 
-// Draws the layers over the pixels of `area`. A thread holds at most LAYERS_MAX fragments: an area with more is drawn in
-// halves, down to single pixels, whose fragments must fit.
+// Draws the layers over the pixels of `area`. A thread stores at most LAYERS_MAX fragments: an area with more is drawn
+// in halves, down to single pixels, whose fragments must fit.
 static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile,
                         const struct rectangle *area)
 {
@@ -38,7 +38,7 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
             other.left = (one.right = area->left + width / 2 - 1) + 1;
         else
             other.top = (one.bottom = area->top + height / 2 - 1) + 1;
-        draw_layers(cpu, thread, tile, &one); // at most 12 deep
+        draw_layers(cpu, thread, tile, &one); // at most 12 levels of recursion
         draw_layers(cpu, thread, tile, &other);
         return;
     }
@@ -102,7 +102,7 @@ static void resolve_into(const struct resolve_target *target, const struct cpu_f
             recording_kernels.record_pixel(cpu, thread, tile);
         return;
     }
-    if (output == LAM_OUTPUT_CLIPPED) { // resolved into floats first
+    if (output == LAM_OUTPUT_CLIPPED) { // resolved to floats first
         lam_image image = {
             .width = tile->width, .height = tile->height, .format = LAM_RGBA32F, .pixels = thread->sums.unclipped};
         struct resolve_target apart = {.frame = target->frame, .image = &image};
@@ -136,7 +136,7 @@ static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *threa
                             (char *)image_row(converted, tile->y * TILE + y) + left);
 }
 
-// A tile without glass is the same in the picture behind glass, whose sums are there already.
+// A tile without glass is identical in the picture behind glass, which already contains its sums.
 static void take_behind(const struct behind *behind, struct thread_state *thread, const struct tile *tile)
 {
     for (int y = 0; y < tile->height; y++) {
@@ -147,7 +147,7 @@ static void take_behind(const struct behind *behind, struct thread_state *thread
                 thread->sums.sum[c][y * TILE + x] = from[4 * x + c];
     }
     thread->fragments.count = 0;
-    thread->samples.translucent_triangles = 1; // the sums are begun
+    thread->samples.translucent_triangles = 1; // the sums are already started
 }
 
 void draw_tile(struct cpu_frame *cpu, size_t index, int number)
@@ -178,7 +178,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
         if (thread->samples.translucent_triangles) {
             thread->coverage_ns += now_ns() - start;
             blend_tile(cpu, thread, &tile);
-            if (output_is_value(cpu->raster.frame->settings.output)) // they are in the visibility buffer now
+            if (output_is_value(cpu->raster.frame->settings.output)) // now in the visibility buffer
                 thread->samples.translucent_triangles = 0;
             start = now_ns();
         }

@@ -1,4 +1,4 @@
-// isa.c: the instruction sets that the CPU device can be asked for.
+// isa.c: the selectable instruction sets of the CPU device.
 #include "isa.h"
 
 #include "cpu_features.h"

@@ -1,10 +1,10 @@
-// isa.h: the kernels of an instruction set.
+// isa.h: the kernels for an instruction set.
 #ifndef ISA_H
 #define ISA_H
 
 #include <lambent/device.h>
 
-// NULL: not in this build, or not on this processor.
+// Returns NULL if the instruction set is missing in this build or on this processor.
 const struct kernels *kernels_of(lam_isa isa);
 lam_isa widest_isa(void);
 

@@ -1,5 +1,6 @@
-// kernels.c: the text of all kernels, compiled once for each instruction set with LANES and ISA defined (meson.build); and once with
-// RECORDING, for the shading of one pixel that keeps its numbers. (What only the drawing calls is left out of that one by the compiler.)
+// kernels.c: all kernels, compiled once for each instruction set with LANES and ISA defined (meson.build); and once
+// with RECORDING, for shading one pixel and recording its values. (The compiler removes the functions that only drawing
+// calls from that version.)
 #include "kernels.h"
 
 #include "clip.h"

@@ -1,5 +1,6 @@
-// kernels.h: the table of hot functions. One text, compiled once for each instruction set (kernels.c); every one gives
-// the same bits as `scalar`. The parameters of a step are all that it sees: const where it only reads.
+// kernels.h: the table of performance-critical functions. One source, compiled once for each instruction set
+// (kernels.c); all versions are bit-identical to `scalar`. A step accesses only its parameters, which are const if it
+// only reads them.
 #ifndef KERNELS_H
 #define KERNELS_H
 
@@ -12,7 +13,7 @@ struct cpu_frame;
 struct fragment_store;
 struct fragments;
 struct layer_rows;
-struct piece;
+struct chunk;
 struct pixel_sums;
 struct raster_frame;
 struct rectangle;
@@ -32,74 +33,76 @@ struct kernels {
     const char *name;
     int lanes;
 
-    // Writes x, y and depth key of the piece's vertices into raster->vertices. A vertex that needs clipping gets a NaN
-    // that names the planes (clip.h). Pieces may be transformed in any order, by any threads. Only meshes with indices
-    // have any.
-    void (*vertex_transform)(const struct raster_frame *raster, const struct piece *piece);
+    // Writes x, y and depth key of the task's vertices into raster->vertices. A vertex that needs clipping gets a NaN
+    // that encodes the planes (clip.h). Any threads may process the tasks in any order. Only indexed meshes have vertex
+    // tasks.
+    void (*vertex_transform)(const struct raster_frame *raster, const struct chunk *chunk);
 
-    // Appends the piece's triangles to the bins of the tiles that they touch, and clips the ones that need it. Drops
-    // triangles that are outside of the window, have no area, are culled or have no sample in their box. All vertices
-    // of the draw must have been transformed, if its mesh has indices.
-    void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct piece *piece);
+    // Appends the task's triangles to the bins of the tiles that they touch, and clips triangles that need it. Drops
+    // triangles that are outside the window, have no area, are culled or have no sample in their box. If the mesh is
+    // indexed, all vertices of the draw must have been transformed.
+    void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct chunk *chunk);
 
-    // Clears the tile's samples, then draws the opaque triangles of all threads' bins: for each sample the nearest key,
-    // of equal keys the lowest triangle number. Counts the translucent triangles.
+    // Clears the tile's samples, then draws the opaque triangles of all threads' bins: each sample keeps the nearest
+    // key, of equal keys the lowest triangle number. Counts the translucent triangles.
     void (*cover_tile)(const struct raster_frame *raster, struct tile_samples *samples, const struct tile *tile);
 
-    // Lists the fragments of translucent triangles within `area` of the tile, apart from samples behind an opaque
-    // triangle: id, pixel, sample, and their layer rows. False: there are more than LAYERS_MAX.
+    // Lists the fragments of translucent triangles within `area` of the tile, except samples behind an opaque triangle:
+    // id, pixel, sample, and their layer rows. Returns false if there are more than LAYERS_MAX.
     bool (*translucent_fragments)(const struct raster_frame *raster, const struct tile_samples *samples,
                                   struct fragments *fragments, struct layer_rows *rows, const struct tile *tile,
                                   const struct rectangle *area);
 
-    // Takes the samples of masked surfaces whose opacity is below the cutoff out of the rows of listed fragments, and sets
-    // rows->masked where there are such surfaces.
+    // Removes the samples of masked surfaces whose opacity is below the cutoff from the rows of listed fragments, and
+    // sets rows->masked if there are such surfaces.
     void (*mask_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct layer_rows *rows,
                            struct shading *shading, const struct tile *tile);
 
     // Lists the opaque fragments of the tile's pixels inside the picture: id, pixel, weight, sample. The fragments of a
-    // pixel are consecutive, in the order of the nearest sample that shows them. Returns how many pixels have any.
+    // pixel are consecutive, in the order of the nearest sample that shows them. Returns the number of pixels with
+    // fragments.
     uint64_t (*visibility_resolve)(const struct sample_pattern *pattern, const struct tile_samples *samples,
                                    struct fragments *fragments, const struct tile *tile);
 
-    // Stores the fragments that visibility_resolve has listed in memory of the arena. store->lowest and `highest` are
-    // the limits of their triangle numbers. False: out of memory.
+    // Stores the fragments from visibility_resolve in memory of the arena. store->lowest and `highest` are the limits
+    // of their triangle numbers. Returns false if memory runs out.
     bool (*save_fragments)(struct fragment_store *store, const struct fragments *fragments, int samples,
                            uint32_t highest, struct arena *arena);
-    // Lists the stored fragments again: the same id, pixel, weight and sample.
+    // Restores the stored fragments: id, pixel, weight and sample.
     void (*load_fragments)(const struct fragment_store *store, struct fragments *fragments, int samples);
 
     // Fills in the colours of grouped fragments.
     void (*shade_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct shading *shading,
                             const struct tile *tile);
 
-    // Lights the vertices of a run by themselves, into shading->vertices.color and .rest (vertex_colors.h).
+    // Lights the vertices of a run into shading->vertices.color and .rest (vertex_colors.h).
     void (*light_vertices)(const struct shade_frame *shade, struct shading *shading, const struct vertex_run *run);
 
-    // Writes the distances of a covered tile's surfaces into the rows of ambient occlusion, whose steps follow.
+    // Writes the distances of a covered tile's surfaces into the rows of ambient occlusion, which is computed
+    // afterwards.
     void (*depth_of_tile)(const struct raster_frame *raster, const struct tile_samples *samples,
                           const struct tile *tile, struct screen_occlusion *occlusion);
     const struct occlusion_kernels *occlusion;
 
-    // Sums the fragments' colours into their pixels, weighted by samples, under the blended layers if the tile has any,
+    // Sums the fragments' colours in their pixels, weighted by samples, under the blended layers if the tile has any,
     // and writes the tile to the picture. Pixels without fragments get target->empty_pixel.
     void (*resolve)(const struct resolve_target *target, const struct fragments *fragments,
                     const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
 
-    // Sets target->empty_pixel to the background, encoded.
+    // Sets target->empty_pixel to the encoded background.
     void (*resolve_empty)(struct resolve_target *target);
 };
 
-// The shading of `scalar` once more, with hooks that keep the numbers of one pixel (record.inc).
+// The shading of `scalar` with hooks that record the values of one pixel (record.inc).
 struct recording_kernels {
-    // Records the explained pixel's fragments once they are shaded.
+    // Records the explained pixel's fragments after they are shaded.
     void (*record_fragments)(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile);
-    // The pixel, once it is resolved.
+    // Records the pixel after it is resolved.
     void (*record_pixel)(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile);
 };
 
 extern const struct recording_kernels recording_kernels;
-// A module for the web may be linked without plain C: every browser has SIMD (web/meson.build).
+// A web module may be linked without the scalar version: every browser has SIMD (web/meson.build).
 #if defined(__wasm_simd128__)
 extern const struct kernels kernels_scalar __attribute__((weak));
 #else

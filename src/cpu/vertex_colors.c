@@ -1,4 +1,4 @@
-// vertex_colors.c: the memory of the shading of vertices alone.
+// vertex_colors.c: the memory for lighting vertices only.
 #include "vertex_colors.h"
 
 #include "isa.h"
@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-// The arrays, one after the other in one block.
+// The consecutive arrays in one block.
 struct arrays {
     struct shading_batch batch; // first: it is aligned to cache lines
     struct shadow_rows shadows;

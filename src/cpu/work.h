@@ -1,5 +1,5 @@
-// work.h: the work of a frame that grows with what a file puts over a pixel: layers, lights, opaque surfaces. It is
-// counted, so that a small file cannot ask for hours, and it is stopped where the call must end.
+// work.h: counts the work of a frame that grows with the layers, lights and opaque surfaces over a pixel, so that a
+// small file cannot cause hours of drawing, and stops it if the call must end.
 #ifndef WORK_H
 #define WORK_H
 
@@ -9,22 +9,22 @@ enum failure {
     FAILED_NOT = 0,
     FAILED_MEMORY, // out of memory
     FAILED_LAYERS, // more than LAYERS_MAX translucent triangles over one pixel
-    FAILED_WORK,   // more layers over each pixel on average than the call may have (lam_control.layer_limit)
+    FAILED_WORK,   // more layers per pixel on average than the call allows (lam_control.layer_limit)
 };
 
-// Units of work, about a nanosecond each with AVX2: measured with four samples to a pixel.
+// Units of work, about a nanosecond each with AVX2, measured with four samples per pixel.
 enum {
     WORK_LAYER = 96,    // a translucent fragment
     WORK_LIGHT = 3,     // a light at a point
-    WORK_MASK = 24,     // a sample whose opacity is looked up, before it counts as a layer
+    WORK_MASK = 24,     // a sample whose opacity is looked up before it counts as a layer
     WORK_OPAQUE = 3,    // an opaque triangle at a pixel
     WORK_SET_UP = 32,   // a triangle in a tile
-    WORK_STEP = 1 << 20 // what is counted before it is added up: a few milliseconds
+    WORK_STEP = 1 << 20 // units counted before they are added, a few milliseconds
 };
 
 struct work {
     struct call_control *call;
-    enum failure *failure; // set by any worker, atomically
+    enum failure *failure; // set atomically by any worker
     uint64_t limit, done;  // units; `done` is accessed atomically
 };
 
@@ -38,7 +38,7 @@ static inline bool work_continues(const struct work *work)
     return !__atomic_load_n(work->failure, __ATOMIC_RELAXED) && call_should_continue(work->call);
 }
 
-// Adds units. Whether a frame fails depends on the sum alone, not on the threads. False: the frame must end.
+// Adds units. Whether a frame fails depends only on the sum, not on the threads. Returns false if the frame must end.
 static inline bool work_add(struct work *work, uint64_t units)
 {
     if (__atomic_add_fetch(&work->done, units, __ATOMIC_RELAXED) > work->limit)
@@ -46,7 +46,7 @@ static inline bool work_add(struct work *work, uint64_t units)
     return work_continues(work);
 }
 
-// Adds what was counted in `units`, which becomes 0, once it is a step's. False: the frame must end.
+// Adds the counted `units`, which become 0, once they amount to a step. Returns false if the frame must end.
 static inline bool work_step(struct work *work, uint64_t *units)
 {
     uint64_t counted = *units;

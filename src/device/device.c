@@ -1,4 +1,4 @@
-// device.c: the front of all devices: checks arguments, builds the frame, fills the report.
+// device.c: the common entry points of all devices: they check arguments, build the frame and fill the report.
 #include "device_type.h"
 
 #include "fail.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// Memory that a device of any type keeps.
+// Returns the bytes that a device of any type keeps.
 static uint64_t own_memory(const lam_device *device)
 {
     return device->frame.storage.capacity + hierarchy_bytes(&device->hierarchy) + edges_bytes(&device->edges);
@@ -17,7 +17,8 @@ static uint64_t own_memory(const lam_device *device)
 // Finds the edges that are drawn over the picture.
 static bool find_edges(lam_device *device, struct call_control *call, lam_error *error)
 {
-    // Of rays side by side, at most; LAM_ISA_AUTO: of a device that has no instruction set of its own.
+    // The number of rays that are traced together, at most; LAM_ISA_AUTO: for devices without an instruction set of
+    // their own.
     static const int lanes[LAM_ISA_COUNT] = {
         [LAM_ISA_AUTO] = 16,   [LAM_ISA_SCALAR] = 1, [LAM_ISA_SSE4] = 4, [LAM_ISA_AVX2] = 8,
         [LAM_ISA_AVX512] = 16, [LAM_ISA_NEON] = 4,   [LAM_ISA_WASM] = 4};
@@ -38,8 +39,8 @@ static bool find_edges(lam_device *device, struct call_control *call, lam_error 
     return true;
 }
 
-// Draws the frame, and edges over it. Surfaces that are not drawn still hide edges: the frame is built once with them
-// and once without.
+// Draws the frame, and edges over it. Surfaces that are not drawn still hide edges, so the frame is built once with
+// them and once without.
 static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                        const lam_draw_params *params, lam_image *target, struct call_control *call, lam_error *error)
 {
@@ -67,7 +68,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     if (!image_check(image, "lam_draw", error))
         return false;
     lam_draw_params drawn = *params;
-    if (!format_has_alpha(image->format)) { // the background over black
+    if (!format_has_alpha(image->format)) { // composited over black
         lam_rgba *back = &drawn.background;
         *back = (lam_rgba){back->r * back->a, back->g * back->a, back->b * back->a, 1};
     }
@@ -76,8 +77,8 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     struct call_control call;
     call_start(&call, control);
     call.input_bytes = scene->input_bytes;
-    call.control.expansion_limit = UINT64_MAX; // drawing takes memory for the picture more than for the files
-    // The device's existing memory counts towards the budget.
+    call.control.expansion_limit = UINT64_MAX; // only the file reader needs this limit
+    // Memory that the device already uses counts towards the budget.
     uint64_t held = device->type->memory(device) + own_memory(device);
     memset(&device->report, 0, sizeof device->report);
     if (!call_charge(&call, held))

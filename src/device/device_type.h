@@ -1,5 +1,5 @@
-// device_type.h: the interface that a device implements. The front (device.c) checks arguments and builds the frame for
-// all of them.
+// device_type.h: the interface that every device implements. The entry points in device.c check arguments and build the
+// frame for all of them.
 #ifndef DEVICE_TYPE_H
 #define DEVICE_TYPE_H
 
@@ -10,10 +10,11 @@ struct pool;
 struct recorder;
 
 struct device_type {
-    // Draws the frame into the image, of any format and stride (pixels.h). Fills device->report's times and counts, except frame_ms and total_ms.
+    // Draws the frame into the image, which has any format and stride (pixels.h). Fills the times and counters of
+    // device->report, except frame_ms and total_ms.
     bool (*draw)(struct lam_device *device, const struct frame *frame, lam_image *image, struct call_control *call,
                  lam_error *error);
-    // Bytes held from frame to frame.
+    // Returns the bytes kept from frame to frame.
     uint64_t (*memory)(const struct lam_device *device);
     void (*free)(struct lam_device *device); // frees the device itself too
     bool makes_normals;                      // can draw frames whose makes_normals is set
@@ -23,13 +24,13 @@ struct device_type {
 struct lam_device {
     const struct device_type *type;
     char name[96];
-    lam_isa isa; // AUTO and 0 threads for devices to which neither applies
+    lam_isa isa; // AUTO and 0 threads if they do not apply
     int threads;
-    struct pool *pool; // NULL: it works on the calling thread alone
+    struct pool *pool; // NULL if only the calling thread works
     struct frame frame;
-    struct hierarchy_memory hierarchy; // of edges, and of the CPU device's shadows
+    struct hierarchy_memory hierarchy; // used for edges and for the CPU device's shadows
     struct edge_memory edges;
-    struct recorder *recorder; // records one pixel (recorder.h); NULL: none
+    struct recorder *recorder; // records one pixel (recorder.h), or NULL
     lam_frame_report report;
 };
 

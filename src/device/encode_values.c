@@ -1,5 +1,5 @@
-// encode_values.c: pixels with values of the surfaces in place of colours, encoded in 8 bits as lam_output in
-// lambent/device.h defines. Plain C, the same code for all devices.
+// encode_values.c: writes pixels that contain surface properties instead of colours, encoded in 8 bits as lam_output in
+// lambent/device.h defines. All devices use this plain C code.
 #include "encode_values.h"
 
 #define LANES 4
@@ -7,11 +7,11 @@
 
 #include <string.h>
 
-static float clamped(float x, float low, float high) { return x > high ? high : x > low ? x : low; } // NaN: low
+static float clamped(float x, float low, float high) { return x > high ? high : x > low ? x : low; } // NaN gives low
 
 static uint8_t code_byte(float x) { return (uint8_t)(clamped(x, 0, 1) * 255.0f + 0.5f); }
 
-// A colour that distinguishes neighbouring triangles; each channel is at least 48, unlike black.
+// Returns a colour that distinguishes neighbouring triangles. Each channel is at least 48, unlike black.
 static void color_of_ids(const float v[3], uint8_t out[4])
 {
     uint64_t h = ((uint64_t)v[1] << 40 | (uint64_t)v[2] << 24 | (uint64_t)v[0]) + 1;
@@ -21,7 +21,8 @@ static void color_of_ids(const float v[3], uint8_t out[4])
         out[c] = (uint8_t)(48 + (h >> (40 + 8 * c) & 0xff) * 207 / 255);
 }
 
-// 1 at the scene's nearest vertex, 0 at its farthest. A scene that is flatter than the rounding of depths is all near.
+// Returns 1 at the scene's nearest vertex and 0 at its farthest. A scene that is flatter than the rounding of depths is
+// all near.
 static float depth_code(const struct frame *frame, float depth)
 {
     float far = frame->depth_far, range = far - frame->depth_near;
@@ -88,7 +89,7 @@ void encode_empty(const struct frame *frame, lam_pixel_format format, void *to)
         write_pixels(frame, (struct pixel_lanes){zero, zero, zero, zero}, format, to, 1);
 }
 
-// The excess of the picture's pixel over 0…1, or in 8 bits a colour that marks it.
+// Writes the excess of the picture's pixel over 0…1, or in 8 bits a colour that marks it.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to)
 {
     float out[4] = {0}, straight[3];

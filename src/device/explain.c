@@ -58,7 +58,7 @@ void *recorder_alloc(struct recorder *recorder, size_t count, size_t size)
     return memory;
 }
 
-// By cross and scalar product: accurate for small angles too.
+// Returns the angle from cross and dot product, which is accurate for small angles too.
 static double angle_between(lam_vec3 a, lam_vec3 b)
 {
     if (v3_dot(a, a) == 0 || v3_dot(b, b) == 0)
@@ -66,7 +66,8 @@ static double angle_between(lam_vec3 a, lam_vec3 b)
     return math_atan2(v3_length(v3_cross(a, b)), v3_dot(a, b));
 }
 
-// A point of eye space in world space and in an object's mesh; the rectangles of lines and points lie in eye space.
+// Transforms a point from eye space to world space and to the object's mesh; the rectangles of lines and points are in
+// eye space.
 static void leave_eye_space(const lam_camera *camera, const lam_object *object, lam_explained_point *point)
 {
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up), to_world, to_mesh;
@@ -76,7 +77,7 @@ static void leave_eye_space(const lam_camera *camera, const lam_object *object, 
     point->mesh_position = mat4_point(&to_mesh, point->world_position);
 }
 
-// Returns a coordinate as a place in the picture, 0…1.
+// Returns a texture coordinate after wrapping, 0…1.
 static double wrapped(double s, lam_wrap wrap)
 {
     if (wrap == LAM_WRAP_CLAMP)
@@ -104,7 +105,7 @@ static void complete_map(lam_explained_map *map, const lam_texture_map *given)
     map->row = (float)(wrapped(at_t, given->wrap_t) * map->height);
 }
 
-// Adds values that follow from the recorded ones.
+// Compute values that follow from the recorded ones.
 static const lam_mat4 identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
 static void complete_angles(lam_explained_point *point)
@@ -117,7 +118,7 @@ static void complete_angles(lam_explained_point *point)
     }
 }
 
-// --- the way of a triangle from its mesh to the window
+// --- positions of a triangle from its mesh to the window
 
 static lam_explained_place place_of(const struct frame_draw *draw, lam_vec3 origin, lam_vec3 p, int width, int height)
 {
@@ -132,7 +133,7 @@ static lam_explained_place place_of(const struct frame_draw *draw, lam_vec3 orig
     }
     const double w = pixel[3];
     out.eye_position = v3(eye[0], eye[1], eye[2]);
-    out.clip[0] = 2 * pixel[0] / width - w; // the frame's rows are in pixels, y down
+    out.clip[0] = 2 * pixel[0] / width - w; // the frame's matrix gives pixels, y down
     out.clip[1] = w - 2 * pixel[1] / height;
     out.clip[2] = pixel[2];
     out.clip[3] = w;
@@ -173,7 +174,7 @@ static void complete_matrices(struct recorder *recorder, lam_explained_fragment 
     fragment->matrices = matrices;
 }
 
-// The places have the normals already.
+// Completes the positions, whose normals are already set.
 static void complete_places(struct recorder *recorder, lam_explained_fragment *fragment, const struct frame *frame)
 {
     const struct frame_draw *draw = draw_of(frame, fragment);
@@ -237,7 +238,7 @@ struct explanation {
     struct arena arena;
 };
 
-// The frame's lights may be gone with its next picture.
+// Copies the frame's lights, because the next picture may overwrite them.
 static void copy_lights(struct recorder *recorder, const struct frame *frame)
 {
     lam_light *lights = recorder_alloc(recorder, (size_t)frame->light_count, sizeof *lights);
@@ -302,7 +303,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     *out = (lam_explanation){.x = x, .y = y, .width = width, .height = height, .format = format};
     struct recorder recorder = {.out = out};
     arena_start(&recorder.arena, NULL);
-    lam_draw_params surfaces = params ? *params : (lam_draw_params){0}; // lines over them have no light
+    lam_draw_params surfaces = params ? *params : (lam_draw_params){0}; // wireframe and edges are not lit
     surfaces.wireframe = surfaces.no_surfaces = false;
     surfaces.edges = 0;
     device->recorder = &recorder;
@@ -318,7 +319,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     out->stops = params ? params->exposure : 0;
     copy_lights(&recorder, &device->frame);
     complete(&recorder, scene, camera, &device->frame);
-    explanation->arena = recorder.arena; // which has grown
+    explanation->arena = recorder.arena; // copied back because it has grown
     if (recorder.failed) {
         lam_explanation_free(out);
         fail(error, LAM_LIMIT, "out of memory");

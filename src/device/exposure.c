@@ -1,4 +1,4 @@
-// exposure.c: the exposure that suits a frame, from the luminance of its covered pixels.
+// exposure.c: finds the exposure that suits a frame, from the luminance of its covered pixels.
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
@@ -7,11 +7,11 @@
 
 #include <stdlib.h>
 
-// The luminance that is found, and the share of the pixels that are at most as bright.
+// The target luminance, and the share of the pixels that are at most as bright.
 #define TARGET 0.8
 #define SHARE  0.95
 
-enum { SIDE_MAX = 512 }; // of the picture that is measured
+enum { SIDE_MAX = 512 }; // the largest side of the measured picture
 
 static int ascending(const void *a, const void *b)
 {
@@ -19,7 +19,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The luminances (Rec. 709) of the covered pixels of a picture of premultiplied floats, in its place; returns their number.
+// Replaces a picture of premultiplied floats by the luminances (Rec. 709) of its covered pixels, and returns their
+// number.
 static size_t luminances(lam_image *image)
 {
     float *pixels = image->pixels;
@@ -34,7 +35,7 @@ static size_t luminances(lam_image *image)
     return count;
 }
 
-// Thirds of a stop, nearest to the factor TARGET / luminance.
+// Rounds the factor TARGET / luminance to thirds of a stop.
 static double stops_for(double luminance)
 {
     int thirds = -300, last = 300;
@@ -60,7 +61,7 @@ bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_came
     drawn.output = LAM_OUTPUT_PICTURE;
     drawn.light_cutoff = -1;
     drawn.ground = LAM_GROUND_NONE;
-    drawn.shadows |= params && params->ground; // as a ground has them
+    drawn.shadows |= params && params->ground; // a ground implies shadows
     drawn.wireframe = drawn.no_surfaces = false;
     drawn.edges = 0;
     int longer = width > height ? width : height;

@@ -1,4 +1,4 @@
-// null_device.c: a device that draws nothing: it fills the picture with zeros.
+// null_device.c: a device that draws nothing and fills the picture with zeros.
 #include "device_type.h"
 
 #include "fail.h"

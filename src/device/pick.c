@@ -1,4 +1,4 @@
-// pick.c: lam_pick: one ray through the triangles of a frame.
+// pick.c: lam_pick: traces one ray through the triangles of a frame.
 #include "frame.h"
 #include "opacity.h"
 
@@ -10,13 +10,13 @@
 
 #include <string.h>
 
-// A ray in the space of a mesh's positions: at `from` + s `along` the distance from the eye is s.
+// A ray in the space of a mesh's positions: the point `from` + s `along` has the distance s from the eye.
 struct pick_ray {
     lam_vec3 from, along;
 };
 
 struct pick_hit {
-    int draw; // −1: none
+    int draw; // the index of the draw, or −1
     uint32_t triangle;
     bool back;
     double distance;
@@ -26,12 +26,12 @@ static struct pick_ray eye_ray(const lam_camera *camera, const lam_pick_pixel *p
 {
     const bool flat = camera->ortho_half_height > 0;
     const double half = flat ? camera->ortho_half_height : math_tan(camera->fovy_rad / 2),
-                 unit = 2 * half / pixel->height, // of a pixel
+                 unit = 2 * half / pixel->height, // size of a pixel
         x = (pixel->x + 0.5 - 0.5 * pixel->width) * unit, y = (0.5 * pixel->height - pixel->y - 0.5) * unit;
     return flat ? (struct pick_ray){v3(x, y, 0), v3(0, 0, -1)} : (struct pick_ray){v3(0, 0, 0), v3(x, y, -1)};
 }
 
-// The ray in the space of a draw's mesh. False: the draw is so flat that nothing of it can be seen.
+// Transforms the ray to the space of a draw's mesh. Returns false if the draw is so flat that it is invisible.
 static bool mesh_ray(const struct frame_draw *draw, const struct pick_ray *eye, struct pick_ray *out)
 {
     lam_mat4 to_eye = lam_mat4_identity(), to_mesh;
@@ -44,7 +44,7 @@ static bool mesh_ray(const struct frame_draw *draw, const struct pick_ray *eye, 
     return true;
 }
 
-// Whether a ray meets the box of a mesh, a little enlarged.
+// Returns whether a ray meets the box of a mesh, slightly enlarged.
 static bool meets_box(const lam_mesh *mesh, const struct scene_extent *extent, const struct pick_ray *ray)
 {
     const double from[3] = {ray->from.x, ray->from.y, ray->from.z},
@@ -74,8 +74,8 @@ static lam_vec3 corner(const lam_mesh *mesh, size_t corner)
     return v3((double)p[0], (double)p[1], (double)p[2]);
 }
 
-// Where a ray meets a triangle (Möller and Trumbore, 1997): the distance and the weights of corners 1 and 2. *facing: below 0
-// the triangle shows its front. False: it does not meet it.
+// Intersects a ray with a triangle (Möller and Trumbore, 1997) and gets the distance and the weights of corners 1 and
+// 2. *facing is below 0 if the front of the triangle is visible. Returns false if there is no intersection.
 static bool meet(const struct pick_ray *ray, const lam_mesh *mesh, uint32_t triangle, double *facing, double at[3])
 {
     const size_t first = 3 * (size_t)triangle;
@@ -95,7 +95,7 @@ static bool meet(const struct pick_ray *ray, const lam_mesh *mesh, uint32_t tria
 static bool search_draw(const struct frame *frame, int index, const struct pick_ray *ray, struct call_control *call,
                         struct pick_hit *hit)
 {
-    enum { CHECK = 1 << 16 }; // triangles between two looks at the call's limits
+    enum { CHECK = 1 << 16 }; // triangles between two checks of the call's limits
     const struct frame_draw *draw = &frame->draws[index];
     for (uint32_t t = 0; t < draw->mesh->triangle_count; t++) {
         double facing, at[3];
@@ -154,7 +154,7 @@ bool lam_pick(const lam_scene *scene, const lam_camera *camera, const lam_draw_p
         return fail(error, LAM_BAD_ARGUMENT, "lam_pick: the pixel (%d, %d) lies outside of the picture of %d×%d pixels",
                     pixel->x, pixel->y, pixel->width, pixel->height);
     lam_draw_params plain = params ? *params : (lam_draw_params){0};
-    plain.rig = LAM_RIG_NONE; // lights, ground and lines are no surfaces of the scene
+    plain.rig = LAM_RIG_NONE; // lights, ground and lines are not pickable
     plain.output = LAM_OUTPUT_COVERAGE;
     plain.ground = LAM_GROUND_NONE;
     plain.occlusion = LAM_OCCLUSION_OFF;

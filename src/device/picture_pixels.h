@@ -1,5 +1,5 @@
-// picture_pixels.h: linear light to the pixels of a picture, LANES at a time: over the background, encoded. The same
-// code for all devices. Include with LANES defined (lanes.h).
+// picture_pixels.h: converts linear light to the pixels of a picture, LANES at a time: it composites over the
+// background and encodes. All devices use this code. Define LANES before including it (lanes.h).
 #ifndef PICTURE_PIXELS_H
 #define PICTURE_PIXELS_H
 
@@ -28,7 +28,7 @@ LANE_FN struct pixel_lanes toned(const struct frame *frame, struct pixel_lanes p
     return (struct pixel_lanes){c.x * p.a, c.y * p.a, c.z * p.a, p.a};
 }
 
-// Premultiplied colours, exposed or toned, over the background.
+// Composites premultiplied colours, exposed or toned, over the background.
 LANE_FN struct pixel_lanes over_background(const struct frame *frame, struct pixel_lanes p)
 {
     const lam_rgba *back = &frame->settings.background;
@@ -57,7 +57,7 @@ LANE_FN inum to_rgba8(const struct frame *frame, struct pixel_lanes p)
     return r | shift_left(g, 8) | shift_left(b, 16) | shift_left(a, 24);
 }
 
-// to_rgba8 for opaque pixels: no background shows, and division by an alpha of 1 is exact.
+// Does the same as to_rgba8 for opaque pixels, over which no background is visible; dividing by an alpha of 1 is exact.
 LANE_FN inum opaque_to_rgba8(const struct frame *frame, struct pixel_lanes p)
 {
     int raw = frame->settings.color == LAM_COLOR_RAW;

@@ -1,9 +1,8 @@
-// samples.c: the positions of samples in a pixel: Direct3D's standard multisample patterns (D3D11 functional
-// specification, "Multisample patterns"), which graphics processors use.
+// samples.c: the sample positions in a pixel: Direct3D's standard multisample patterns (D3D11 functional specification,
+// "Multisample patterns"), which graphics processors use.
 #include "samples.h"
 
-// by_distance: sample numbers from the nearest to the farthest of the centre; of equal distances the lowest
-// number first.
+// by_distance: sample indices from the nearest to the farthest of the centre; equal distances are in ascending order.
 static const struct sample_pattern patterns[] = {
     {.count = 1, .x = {0}, .y = {0}, .min = 0, .max = 0, .by_distance = {0}},
     {.count = 2, .x = {4, -4}, .y = {4, -4}, .min = -4, .max = 4, .by_distance = {0, 1}},

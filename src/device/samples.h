@@ -1,4 +1,4 @@
-// samples.h: the positions of samples in a pixel.
+// samples.h: the sample positions in a pixel.
 #ifndef SAMPLES_H
 #define SAMPLES_H
 
@@ -6,11 +6,11 @@
 
 enum { SAMPLES_MAX = 16 };
 
-// Positions of samples, in 1/16 pixel from the pixel's centre (y down), and their order by distance from it.
+// Sample positions in 1/16 pixel from the pixel's centre (y down), and their order by distance from it.
 struct sample_pattern {
     int count;
     int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];
-    int8_t min, max; // of all x and y
+    int8_t min, max; // the range of all x and y
     uint8_t by_distance[SAMPLES_MAX];
 };
 const struct sample_pattern *sample_pattern(int samples);

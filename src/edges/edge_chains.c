@@ -1,18 +1,19 @@
-// edge_chains.c: chains of edges, so that dashes run along a curve of many short edges and do not begin anew at each.
+// edge_chains.c: links edges to chains, so that dashes run along a curve of many short edges instead of restarting at
+// each edge.
 //
-// One thread links them, in the order of the edges: the dashes are the same for any number of threads.
-#include "edge_pieces.h"
+// One thread links them, in the order of the edges, so the dashes do not depend on the number of threads.
+#include "edge_tasks.h"
 
 #include "linear.h"
 
 #include <stdlib.h>
 
-enum { CHECK_INTERVAL = 1 << 14, TOGETHER_MAX = 16 }; // ends at one corner among which pairs are looked for
+enum { CHECK_INTERVAL = 1 << 14, TOGETHER_MAX = 16 }; // the most ends at one corner that are compared in pairs
 
 // An end of a line at a corner of the mesh.
 struct end {
     float p[3];
-    uint32_t end; // twice the number of the edge, and 0 or 1
+    uint32_t end; // twice the index of the edge, plus 0 or 1
 };
 
 static int compare_places(const struct end *x, const struct end *y)
@@ -37,19 +38,19 @@ static struct end end_of(const lam_mesh *mesh, const struct mesh_edge *edge, uin
     return (struct end){{p[0], p[1], p[2]}, end};
 }
 
-// Returns the cosine of the turn from a line that arrives at one end to a line that leaves from another.
+// Returns the cosine of the angle between a line that arrives at one end and a line that leaves from another.
 static double straightness(const struct edge_measure *measures, uint32_t a, uint32_t b)
 {
     const struct edge_measure *m = &measures[a >> 1], *n = &measures[b >> 1];
     double ax = m->x[a & 1] - m->x[~a & 1], ay = m->y[a & 1] - m->y[~a & 1];
     double bx = n->x[~b & 1] - n->x[b & 1], by = n->y[~b & 1] - n->y[b & 1];
     double size = m->length * n->length;
-    // A line seen from its end has no direction: it continues any other.
+    // A line seen end-on has no direction: it continues any other line.
     return size > 1e-6 ? (ax * bx + ay * by) / size : 1;
 }
 
-// Pairs the ends at one corner, the straightest pair first. Two lines without others at a vertex continue each other at
-// any turn: silhouettes of a fine mesh zigzag.
+// Pairs the ends at one corner, the straightest pair first. If a vertex has exactly two lines, they are always paired,
+// because silhouettes of a fine mesh zigzag.
 static void link_corner(struct edge_measure *measures, const struct end *ends, uint32_t count)
 {
     if (count > TOGETHER_MAX)
@@ -77,7 +78,7 @@ static void link_corner(struct edge_measure *measures, const struct end *ends, u
     }
 }
 
-// Places all edges of the chain of an edge, from its beginning; a closed one begins beside the edge.
+// Places all edges of an edge's chain, from its beginning; a closed chain begins next to the edge.
 static void place_chain(struct edge_measure *measures, uint32_t edge)
 {
     uint32_t first = 2 * edge; // the end at which the chain is entered

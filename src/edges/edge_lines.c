@@ -1,5 +1,6 @@
-// edge_lines.c: tasks of the edges: selects drawn edges, clips them to the picture, and finds their visible parts.
-#include "edge_pieces.h"
+// edge_lines.c: the tasks that draw edges: they select the drawn edges, clip them to the picture, and find their
+// visible parts.
+#include "edge_tasks.h"
 
 #include "fail.h"
 #include "linear.h"
@@ -13,12 +14,12 @@ enum {
     HALVINGS = 4, // the end of a visible part is found to 1/32 of a pixel
 };
 
-// Of one thread.
+// The scratch memory of one thread.
 struct scratch {
-    struct edge_line lines[EDGE_PIECE];
+    struct edge_line lines[EDGES_PER_TASK];
     struct edge_point points[POINTS];
     uint8_t hidden[POINTS];
-    // The border of a visible part: between the shares from and to.
+    // The end of a visible part, between the shares from and to.
     struct change {
         double from, to;
         uint8_t hidden; // at `from`
@@ -30,29 +31,30 @@ struct scratch {
 
 size_t edge_scratch_bytes(void) { return (sizeof(struct scratch) + 63) / 64 * 64; }
 
-// --- which edges
+// --- selecting edges
 
 static double dot(const double a[3], const double b[3]) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
 
-static void position(const struct edge_piece *piece, uint32_t corner, double p[3])
+static void position(const struct edge_task *task, uint32_t corner, double p[3])
 {
-    const lam_mesh *mesh = piece->draw->mesh;
-    frame_to_world(piece->draw, mesh->positions + 3 * (size_t)(mesh->indices ? mesh->indices[corner] : corner), p);
-    ray_point(piece->view->hierarchy, p, p);
+    const lam_mesh *mesh = task->draw->mesh;
+    frame_to_world(task->draw, mesh->positions + 3 * (size_t)(mesh->indices ? mesh->indices[corner] : corner), p);
+    ray_point(task->view->hierarchy, p, p);
 }
 
-// A triangle's normal of any length, in the hierarchy's space and on the side that its winding says, and whether that faces the eye.
-static bool faces_eye(const struct edge_piece *piece, uint32_t triangle, double n[3])
+// Computes a triangle's normal of any length, in the hierarchy's space and on the side given by its winding. Returns
+// whether it faces the eye.
+static bool faces_eye(const struct edge_task *task, uint32_t triangle, double n[3])
 {
-    const struct edge_view *view = piece->view;
+    const struct edge_view *view = task->view;
     double p[3][3], to_eye[3];
     for (uint32_t k = 0; k < 3; k++)
-        position(piece, 3 * triangle + k, p[k]);
+        position(task, 3 * triangle + k, p[k]);
     for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i++) {
         n[i] = (p[1][j] - p[0][j]) * (p[2][k] - p[0][k]) - (p[1][k] - p[0][k]) * (p[2][j] - p[0][j]);
         to_eye[i] = view->frame->orthographic ? view->eye[i] : view->eye[i] - p[0][i];
     }
-    for (int i = 0; i < 3 && piece->draw->mirrored; i++)
+    for (int i = 0; i < 3 && task->draw->mirrored; i++)
         n[i] = -n[i];
     return dot(n, to_eye) > 0;
 }
@@ -62,25 +64,25 @@ static bool is_culled(const struct frame_draw *draw, bool front)
     return draw->cull == (front ? LAM_CULL_FRONT : LAM_CULL_BACK);
 }
 
-// Returns the style that an edge is drawn in, or −1 if it is not.
-static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge)
+// Returns the style of an edge, or −1 if it is not drawn.
+static int style_of(const struct edge_task *task, const struct mesh_edge *edge)
 {
-    const lam_draw_params *settings = &piece->view->frame->settings;
+    const lam_draw_params *settings = &task->view->frame->settings;
     int plain = settings->wireframe && !(edge->kind & EDGE_INNER) ? EDGE_STYLE_WIREFRAME : -1;
-    bool culls = piece->draw->cull != LAM_CULL_NONE;
+    bool culls = task->draw->cull != LAM_CULL_NONE;
     if (!settings->edges && !culls)
         return plain;
     double a[3], b[3];
-    bool front[2] = {faces_eye(piece, edge->corner / 3, a), false};
-    front[1] = edge->kind & EDGE_OPEN ? front[0] : faces_eye(piece, edge->other / 3, b);
-    if (culls && !(edge->kind & EDGE_SHARED) && is_culled(piece->draw, front[0]) && is_culled(piece->draw, front[1]))
+    bool front[2] = {faces_eye(task, edge->corner / 3, a), false};
+    front[1] = edge->kind & EDGE_OPEN ? front[0] : faces_eye(task, edge->other / 3, b);
+    if (culls && !(edge->kind & EDGE_SHARED) && is_culled(task->draw, front[0]) && is_culled(task->draw, front[1]))
         return -1;
     unsigned kinds = 0;
     if (edge->kind & (EDGE_OPEN | EDGE_SHARED)) {
         kinds = edge->kind & EDGE_OPEN ? LAM_EDGES_BOUNDARY : LAM_EDGES_CREASE;
     } else {
         double turn = edge->kind & EDGE_ALIKE ? -1 : 1, size = math_sqrt(dot(a, a)) * math_sqrt(dot(b, b));
-        kinds |= size > 0 && turn * dot(a, b) < piece->view->frame->edges.min_cosine * size ? LAM_EDGES_CREASE : 0;
+        kinds |= size > 0 && turn * dot(a, b) < task->view->frame->edges.min_cosine * size ? LAM_EDGES_CREASE : 0;
     }
     if (edge->kind & EDGE_INNER)
         kinds = 0;
@@ -91,7 +93,7 @@ static int style_of(const struct edge_piece *piece, const struct mesh_edge *edge
 
 // --- clipping to the picture
 
-// Cuts a line off where a·q falls below 0; `a` at its two ends. False: nothing is left of 0 … 1.
+// Clips a line where a·q is below 0; `a` is given at its two ends. Returns false if nothing of 0 … 1 remains.
 static bool cut(double at_0, double at_1, double range[2])
 {
     if (at_0 >= 0 && at_1 >= 0)
@@ -106,7 +108,7 @@ static bool cut(double at_0, double at_1, double range[2])
     return range[0] < range[1];
 }
 
-// A position's place in the window: X·w, Y·w, z, w.
+// Computes a position's window coordinates X·w, Y·w, z, w.
 static void to_window(const struct edge_view *view, const double p[3], double q[4])
 {
     const struct hierarchy *h = view->hierarchy;
@@ -119,13 +121,13 @@ static void to_window(const struct edge_view *view, const double p[3], double q[
     }
 }
 
-// Returns the height of a triangle over a line, pixels, from the corner that the line has not; a great one where that
-// is not before the eye.
-static double height_over(const struct edge_piece *piece, uint32_t corner, const struct edge_line *line)
+// Returns the height of a triangle over one of its edges in pixels, from the corner that is not on the edge. If that
+// corner is not in front of the eye, the result is large.
+static double height_over(const struct edge_task *task, uint32_t corner, const struct edge_line *line)
 {
     double p[3], q[4];
-    position(piece, edge_end(edge_end(corner)), p);
-    to_window(piece->view, p, q);
+    position(task, edge_end(edge_end(corner)), p);
+    to_window(task->view, p, q);
     if (!(q[3] > 1e-30) || !(line->length > 0))
         return 1e30;
     double dx = q[0] / q[3] - line->x[0], dy = q[1] / q[3] - line->y[0];
@@ -133,27 +135,27 @@ static double height_over(const struct edge_piece *piece, uint32_t corner, const
     return (across < 0 ? -across : across) / line->length;
 }
 
-// If both triangles at an edge of the wireframe are narrower than FADE widths, the line is drawn thinner, in
-// proportion, down to the share 1/FADE: a fine mesh is an even grey, and not a black that hides the surface.
+// If both triangles of a wireframe edge are narrower than FADE widths, the line is drawn thinner in proportion, down to
+// 1/FADE of its width. A fine mesh then looks evenly grey instead of black.
 enum { FADE = 5 };
-static double half_width(const struct edge_piece *piece, const struct mesh_edge *edge, const struct edge_line *line)
+static double half_width(const struct edge_task *task, const struct mesh_edge *edge, const struct edge_line *line)
 {
-    double width = piece->view->frame->edges.width[line->style];
+    double width = task->view->frame->edges.width[line->style];
     if (line->style != EDGE_STYLE_WIREFRAME)
         return width / 2;
-    double a = height_over(piece, edge->corner, line), b = height_over(piece, edge->other, line);
+    double a = height_over(task, edge->corner, line), b = height_over(task, edge->other, line);
     double share = (a > b ? a : b) / (FADE * width), least = 1.0 / FADE;
     return (share < least ? least : share < 1 ? share : 1) * width / 2;
 }
 
-// Sets up the line of an edge, but for its points. Returns false if it is outside of the picture.
-static bool set_line(const struct edge_piece *piece, const struct mesh_edge *edge, int style, struct edge_line *line)
+// Sets up the line of an edge, except for its points. Returns false if it is outside the picture.
+static bool set_line(const struct edge_task *task, const struct mesh_edge *edge, int style, struct edge_line *line)
 {
-    const struct edge_view *view = piece->view;
+    const struct edge_view *view = task->view;
     const struct frame_edges *edges = &view->frame->edges;
     double p[2][3], q[2][4], range[2] = {0, 1}, margin = edges->width[style] + 1;
-    position(piece, edge->corner, p[0]);
-    position(piece, edge_end(edge->corner), p[1]);
+    position(task, edge->corner, p[0]);
+    position(task, edge_end(edge->corner), p[1]);
     for (int k = 0; k < 2; k++)
         to_window(view, p[k], q[k]);
     double tiny[2] = {q[0][3] - 1e-30, q[1][3] - 1e-30}; // w > 0
@@ -177,7 +179,7 @@ static bool set_line(const struct edge_piece *piece, const struct mesh_edge *edg
     double dx = line->x[1] - line->x[0], dy = line->y[1] - line->y[0];
     line->length = math_sqrt(dx * dx + dy * dy);
     line->style = style;
-    line->half = half_width(piece, edge, line);
+    line->half = half_width(task, edge, line);
     line->start = 0;
     line->reversed = false;
     return true;
@@ -185,7 +187,7 @@ static bool set_line(const struct edge_piece *piece, const struct mesh_edge *edg
 
 // --- visible parts
 
-static bool add_part(struct edge_piece *piece, const struct edge_line *line, double from, double to)
+static bool add_part(struct edge_task *task, const struct edge_line *line, double from, double to)
 {
     struct edge_stroke stroke = {.half = line->half, .style = line->style};
     const double ends[2] = {from, to};
@@ -194,18 +196,18 @@ static bool add_part(struct edge_piece *piece, const struct edge_line *line, dou
         stroke.y[k] = line->y[0] + (line->y[1] - line->y[0]) * ends[k];
         stroke.round[k] = line->whole[k] && ends[k] == k;
     }
-    return edge_stroke_add(piece->strokes, stroke, piece->view->loop->call);
+    return edge_stroke_add(task->strokes, stroke, task->view->loop->call);
 }
 
-// Dashes of 5 widths and gaps of 3, widths below a pixel taken as one, counted along the chain of the line.
-static bool add_dashes(struct edge_piece *piece, const struct edge_line *line, double from, double to)
+// Adds dashes of 5 widths and gaps of 3, measured along the chain of the line; widths below a pixel count as one.
+static bool add_dashes(struct edge_task *task, const struct edge_line *line, double from, double to)
 {
     if (line->reversed) {
         double end = 1 - from;
         from = 1 - to;
         to = end;
     }
-    double width = piece->view->frame->edges.width[line->style], unit = width > 1 ? width : 1, period = 8 * unit;
+    double width = task->view->frame->edges.width[line->style], unit = width > 1 ? width : 1, period = 8 * unit;
     double first = line->start + from * line->length, last = line->start + to * line->length;
     for (int64_t n = (int64_t)(first / period); (double)n * period < last; n++) {
         double a = (double)n * period, b = a + 5 * unit;
@@ -213,27 +215,27 @@ static bool add_dashes(struct edge_piece *piece, const struct edge_line *line, d
         b = b < last ? b : last;
         double x = a == first ? from : (a - line->start) / line->length,
                y = b == last ? to : (b - line->start) / line->length;
-        if (a < b && !(line->reversed ? add_part(piece, line, 1 - y, 1 - x) : add_part(piece, line, x, y)))
+        if (a < b && !(line->reversed ? add_part(task, line, 1 - y, 1 - x) : add_part(task, line, x, y)))
             return false;
     }
     return true;
 }
 
-static bool add_run(struct edge_piece *piece, const struct edge_line *line, double from, double to, bool hidden)
+static bool add_run(struct edge_task *task, const struct edge_line *line, double from, double to, bool hidden)
 {
     if (!hidden)
-        return add_part(piece, line, from, to);
-    return piece->view->frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || add_dashes(piece, line, from, to);
+        return add_part(task, line, from, to);
+    return task->view->frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || add_dashes(task, line, from, to);
 }
 
-// Halves the stretches in which lines change, all of them side by side.
-static void narrow_changes(struct edge_piece *piece, struct scratch *s, uint32_t count)
+// Bisects the intervals in which visibility changes, for all lines at once.
+static void narrow_changes(struct edge_task *task, struct scratch *s, uint32_t count)
 {
     for (int round = 0; round < HALVINGS; round++) {
         for (uint32_t i = 0; i < count; i++)
             s->middles[i].share = 0.5 * (s->changes[i].from + s->changes[i].to);
-        piece->rays_of(piece->view, s->lines, s->middles, count, s->middle_hidden);
-        piece->rays += count;
+        task->rays_of(task->view, s->lines, s->middles, count, s->middle_hidden);
+        task->rays += count;
         for (uint32_t i = 0; i < count; i++) {
             if (s->middle_hidden[i] == s->changes[i].hidden)
                 s->changes[i].from = s->middles[i].share;
@@ -243,13 +245,13 @@ static void narrow_changes(struct edge_piece *piece, struct scratch *s, uint32_t
     }
 }
 
-// Decides about the lines at hand, and draws them.
-static bool flush(struct edge_piece *piece, struct scratch *s)
+// Determines the visibility of the collected lines, and draws them.
+static bool flush(struct edge_task *task, struct scratch *s)
 {
     uint32_t changes = 0;
     if (s->point_count) {
-        piece->rays_of(piece->view, s->lines, s->points, s->point_count, s->hidden);
-        piece->rays += s->point_count;
+        task->rays_of(task->view, s->lines, s->points, s->point_count, s->hidden);
+        task->rays += s->point_count;
         for (uint32_t l = 0; l < s->line_count; l++) {
             const struct edge_line *line = &s->lines[l];
             for (uint32_t i = line->first; i + 1 < line->first + line->count; i++)
@@ -258,43 +260,43 @@ static bool flush(struct edge_piece *piece, struct scratch *s)
                     s->changes[changes++] = (struct change){s->points[i].share, s->points[i + 1].share, s->hidden[i]};
                 }
         }
-        narrow_changes(piece, s, changes);
+        narrow_changes(task, s, changes);
     }
-    bool ok = should_continue(piece->view->loop);
+    bool ok = should_continue(task->view->loop);
     for (uint32_t l = 0, next = 0; l < s->line_count && ok; l++) {
         const struct edge_line *line = &s->lines[l];
         bool hidden = line->count && s->hidden[line->first];
         double from = 0;
         for (; next < changes && s->middles[next].line == l && ok; next++, hidden = !hidden) {
             double to = 0.5 * (s->changes[next].from + s->changes[next].to);
-            ok = add_run(piece, line, from, to, hidden);
+            ok = add_run(task, line, from, to, hidden);
             from = to;
         }
-        ok = ok && add_run(piece, line, from, 1, hidden);
+        ok = ok && add_run(task, line, from, 1, hidden);
     }
     s->line_count = s->point_count = 0;
     return ok;
 }
 
-bool edge_piece_draw(struct edge_piece *piece, void *memory)
+bool edge_task_draw(struct edge_task *task, void *memory)
 {
     struct scratch *s = memory;
-    bool shows_all = piece->view->frame->settings.hidden_lines == LAM_HIDDEN_LINES_SHOW;
+    bool shows_all = task->view->frame->settings.hidden_lines == LAM_HIDDEN_LINES_SHOW;
     s->line_count = s->point_count = 0;
-    for (uint32_t e = 0; e < piece->count; e++) {
+    for (uint32_t e = 0; e < task->count; e++) {
         struct edge_line *line = &s->lines[s->line_count];
-        int style = style_of(piece, &piece->edges[e]);
-        if (style < 0 || !set_line(piece, &piece->edges[e], style, line))
+        int style = style_of(task, &task->edges[e]);
+        if (style < 0 || !set_line(task, &task->edges[e], style, line))
             continue;
-        piece->drawn++;
-        if (piece->measures) {
-            line->start = piece->measures[e].start;
-            line->reversed = piece->measures[e].reversed;
+        task->drawn++;
+        if (task->measures) {
+            line->start = task->measures[e].start;
+            line->reversed = task->measures[e].reversed;
         }
         line->first = s->point_count;
         line->count = 0;
         if (!shows_all) {
-            // One point for each pixel of its length, each in the middle of its share.
+            // One point per pixel of its length, each in the middle of its interval.
             line->count = line->length < 1                 ? 1
                           : line->length < POINTS_PER_LINE ? (uint32_t)(line->length + 0.5)
                                                            : POINTS_PER_LINE;
@@ -302,19 +304,19 @@ bool edge_piece_draw(struct edge_piece *piece, void *memory)
                 s->points[s->point_count++] = (struct edge_point){s->line_count, (i + 0.5) / line->count};
         }
         s->line_count++;
-        if (s->point_count > POINTS - POINTS_PER_LINE && !flush(piece, s))
+        if (s->point_count > POINTS - POINTS_PER_LINE && !flush(task, s))
             return false;
     }
-    return flush(piece, s);
+    return flush(task, s);
 }
 
-void edge_piece_measure(struct edge_piece *piece)
+void edge_task_measure(struct edge_task *task)
 {
-    for (uint32_t e = 0; e < piece->count; e++) {
-        struct edge_measure *m = &piece->measures[e];
+    for (uint32_t e = 0; e < task->count; e++) {
+        struct edge_measure *m = &task->measures[e];
         struct edge_line line;
-        *m = (struct edge_measure){.style = style_of(piece, &piece->edges[e]), .link = {NO_LINK, NO_LINK}};
-        if (m->style >= 0 && !set_line(piece, &piece->edges[e], m->style, &line))
+        *m = (struct edge_measure){.style = style_of(task, &task->edges[e]), .link = {NO_LINK, NO_LINK}};
+        if (m->style >= 0 && !set_line(task, &task->edges[e], m->style, &line))
             m->style = -1;
         if (m->style < 0)
             continue;

@@ -1,9 +1,10 @@
-// edge_pixels.c: strokes to coverage, and their colour over the picture.
+// edge_pixels.c: converts strokes to coverage, and blends their colour over the picture.
 //
-// A stroke covers of a pixel the area that a strip of its width covers of the square: seen across the strip, the square
-// is a trapezoid, the convolution of two boxes of the widths |cos| and |sin| of the strip's angle. So the sum of a
-// line's coverage along any row or column that crosses it is its width there, wherever it lies. At a crossing the
-// greatest coverage counts: edges that two triangles share, and corners, are no darker than the rest.
+// The coverage of a pixel is the area that a strip of the stroke's width shares with the square of the pixel. Seen
+// across the strip, the square is a trapezoid, the convolution of two boxes of the widths |cos| and |sin| of the
+// strip's angle. The sum of a line's coverage along any row or column that crosses it is therefore its width there, at
+// any position. At a crossing the largest coverage is used, so that edges shared by two triangles, and corners, are not
+// darker than the rest.
 #define LANES 1
 #include "edge_lines.h"
 
@@ -14,7 +15,7 @@
 
 #include <string.h>
 
-enum { BAND = 32 }; // rows of one piece of work
+enum { BAND = 32 }; // rows per task
 
 struct cover_job {
     struct edge_memory *memory;
@@ -24,7 +25,7 @@ struct cover_job {
 
 static double absolute_of(double x) { return x < 0 ? -x : x; }
 
-// Returns the share of a pixel that lies below x along an axis with the direction (ux, uy) from its centre.
+// Returns the share of a pixel that is below x along an axis with the direction (ux, uy) from its centre.
 static double share_below(double x, double ux, double uy)
 {
     double a = absolute_of(ux), b = absolute_of(uy), size = absolute_of(x), share = 1;
@@ -36,7 +37,7 @@ static double share_below(double x, double ux, double uy)
     return x < 0 ? 1 - share : share;
 }
 
-// Returns how much of the pixel around (x, y) a stroke covers. (ux, uy): its direction.
+// Returns a stroke's coverage of the pixel around (x, y). (ux, uy) is the stroke's direction.
 static double coverage_at(const struct edge_stroke *s, double x, double y, double ux, double uy, double length)
 {
     double dx = x - s->x[0], dy = y - s->y[0], along = dx * ux + dy * uy, across = dx * uy - dy * ux, whole = 1;
@@ -45,7 +46,7 @@ static double coverage_at(const struct edge_stroke *s, double x, double y, doubl
     if (!s->round[1])
         whole *= share_below(length - along, ux, uy);
     int end = along > length ? 1 : 0;
-    if ((along < 0 || end) && s->round[end]) { // across the ray from the end
+    if ((along < 0 || end) && s->round[end]) { // measured across the ray from the end
         double ex = x - s->x[end], ey = y - s->y[end];
         across = math_sqrt(ex * ex + ey * ey);
         ux = ex / across;
@@ -56,7 +57,7 @@ static double coverage_at(const struct edge_stroke *s, double x, double y, doubl
 
 static int clamped(double x, int limit) { return x <= 0 ? 0 : x >= limit ? limit : (int)x; }
 
-// The columns of a row that a stroke may touch: those within `reach` of the line through it, and of its box.
+// Finds the columns of a row that a stroke may touch: those within `reach` of its line, inside its box.
 static void columns(const struct edge_stroke *s, double y, double ux, double uy, double reach, int width, int *first,
                     int *last)
 {
@@ -127,7 +128,7 @@ bool edges_cover(struct edge_memory *memory, const struct frame *frame, struct p
     return should_continue(&job.loop) || loop_error(&job.loop, 0, error);
 }
 
-// --- over the picture
+// --- blending over the picture
 
 struct blend_job {
     const struct edge_memory *memory;
@@ -136,7 +137,7 @@ struct blend_job {
     float decoded[256]; // linear light of a byte
 };
 
-// A colour over a pixel, both linear and premultiplied.
+// Blends a colour over a pixel, both linear and premultiplied.
 static void over(float pixel[4], const lam_rgba *color, float coverage)
 {
     float a = color->a * coverage, left = 1 - a;

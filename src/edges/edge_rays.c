@@ -1,24 +1,24 @@
-// edge_rays.c: which points of edges are hidden, by LANES rays at a time to the eye. Compiled for several instruction
-// sets.
+// edge_rays.c: finds the hidden points of edges by tracing LANES rays to the eye at a time. Compiled for several
+// instruction sets.
 //
-// An edge lies in the planes of its own triangles, and of others where faces touch. They must not hide it: a triangle
-// hides a point only if its plane is farther from the point than positions in files are rounded. So a line along a
-// surface has no gaps, and none is drawn through a surface.
+// An edge is in the planes of its own triangles, and of touching faces, which must not hide it. Therefore a triangle
+// hides a point only if its plane is farther from the point than the rounding of positions in files. Lines along a
+// surface then have no gaps, and no line is visible through a surface.
 #include "edge_lines.h"
 
 #include "layer_kinds.h"
 #include "opacity.h"
 #include "ray_lanes.h"
 
-// In the hierarchy's space, whose larger half side is ½ to 1: floats have 2⁻²⁴ of their own size, coordinates up to 16
-// times the size of the model (lam_mesh.origin), and text files six digits.
+// A tolerance in the hierarchy's space, whose larger half side is ½ to 1: floats have a precision of 2⁻²⁴, coordinates
+// may be up to 16 times the size of the model (lam_mesh.origin), and text files have six digits.
 #define ROUNDING 0x1p-19
 
 #define JOIN_(a, b) a##_##b
 #define JOIN(a, b)  JOIN_(a, b)
 
-// Returns whether the triangle hides points behind it at the crossing with this lane's ray: it is not culled, and it is
-// opaque.
+// Returns whether the triangle hides points behind it at the intersection with this lane's ray: it is not culled, and
+// it is opaque there.
 static bool is_solid(const struct edge_view *view, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                      const struct ray_view *seen, int lane, double facing)
 {

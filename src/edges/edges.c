@@ -1,5 +1,5 @@
-// edges.c: the edges of a frame: listed once for a scene, found again for each view.
-#include "edge_pieces.h"
+// edges.c: the edges of a frame, listed once for a scene, with visibility computed for each view.
+#include "edge_tasks.h"
 
 #include "cpu_features.h"
 #include "fail.h"
@@ -14,7 +14,8 @@ edge_rays *edge_rays_for(int lanes) { return CPU_WIDEST(lanes, edge_rays_scalar,
 
 // --- the list of edges
 
-// Everything that a draw's edges depend on: equal pointers mean equal contents, since a scene never modifies its arrays.
+// Everything that a draw's edges depend on. Equal pointers mean equal contents, since a scene never modifies its
+// arrays.
 struct source {
     const float *positions;
     const uint32_t *indices;
@@ -105,51 +106,51 @@ static void set_view(struct edge_view *view, const struct frame *frame, const st
         view->every_hides &= frame->draws[i].cull == LAM_CULL_NONE;
 }
 
-// --- pieces
+// --- tasks
 
 struct search {
     struct edge_memory *memory;
     struct edge_view view;
     edge_rays *rays_of;
-    size_t *first_pieces; // of each draw, and one more
-    bool measures;        // the pieces are measured, not drawn
+    size_t *first_tasks;  // the first task of each draw, plus one at the end
+    bool measures;        // whether the tasks measure instead of drawing
     uint64_t drawn, rays; // atomic
 };
 
-static void piece_task(void *user, size_t index, int thread)
+static void run_task(void *user, size_t index, int thread)
 {
     struct search *search = user;
     const struct frame *frame = search->view.frame;
     int low = 0, high = frame->draw_count - 1;
     if (!should_continue(search->view.loop))
         return;
-    while (low < high) { // the last draw whose pieces begin at `index` or before
+    while (low < high) { // the last draw that begins at or before `index`
         int middle = (low + high + 1) / 2;
-        if (search->first_pieces[middle] <= index)
+        if (search->first_tasks[middle] <= index)
             low = middle;
         else
             high = middle - 1;
     }
     const struct source *source = (const struct source *)search->memory->sources.data + low;
-    uint32_t first = (uint32_t)(index - search->first_pieces[low]) * EDGE_PIECE, left = source->count - first;
+    uint32_t first = (uint32_t)(index - search->first_tasks[low]) * EDGES_PER_TASK, left = source->count - first;
     struct edge_measure *measures =
         frame->settings.hidden_lines == LAM_HIDDEN_LINES_DASH ? search->memory->measures.data : NULL;
-    struct edge_piece piece = {.view = &search->view,
-                               .draw = &frame->draws[low],
-                               .edges = (const struct mesh_edge *)search->memory->edges.data + source->first + first,
-                               .count = left < EDGE_PIECE ? left : EDGE_PIECE,
-                               .measures = measures ? measures + source->first + first : NULL,
-                               .rays_of = search->rays_of,
-                               .strokes = &search->memory->strokes[thread]};
+    struct edge_task task = {.view = &search->view,
+                             .draw = &frame->draws[low],
+                             .edges = (const struct mesh_edge *)search->memory->edges.data + source->first + first,
+                             .count = left < EDGES_PER_TASK ? left : EDGES_PER_TASK,
+                             .measures = measures ? measures + source->first + first : NULL,
+                             .rays_of = search->rays_of,
+                             .strokes = &search->memory->strokes[thread]};
     if (search->measures) {
-        edge_piece_measure(&piece);
+        edge_task_measure(&task);
         return;
     }
-    if (!edge_piece_draw(&piece, (char *)search->memory->scratch.data + (size_t)thread * edge_scratch_bytes()) &&
+    if (!edge_task_draw(&task, (char *)search->memory->scratch.data + (size_t)thread * edge_scratch_bytes()) &&
         should_continue(search->view.loop))
         no_memory(search->view.loop);
-    __atomic_fetch_add(&search->drawn, piece.drawn, __ATOMIC_RELAXED);
-    __atomic_fetch_add(&search->rays, piece.rays, __ATOMIC_RELAXED);
+    __atomic_fetch_add(&search->drawn, task.drawn, __ATOMIC_RELAXED);
+    __atomic_fetch_add(&search->rays, task.rays, __ATOMIC_RELAXED);
 }
 
 static bool reserve_threads(struct edge_memory *memory, int threads, struct call_control *call, lam_error *error)
@@ -165,8 +166,8 @@ static bool reserve_threads(struct edge_memory *memory, int threads, struct call
     return buffer_reserve(&memory->scratch, (size_t)threads * edge_scratch_bytes(), call, error);
 }
 
-// Measures all edges, and links them to chains along which dashes run.
-static bool find_chains(struct search *search, size_t pieces, struct pool *pool, struct call_control *call,
+// Measures all edges, and links them to chains for dashes.
+static bool find_chains(struct search *search, size_t task_count, struct pool *pool, struct call_control *call,
                         lam_error *error)
 {
     const struct frame *frame = search->view.frame;
@@ -178,7 +179,7 @@ static bool find_chains(struct search *search, size_t pieces, struct pool *pool,
     if (!buffer_reserve(&memory->measures, (count + 1) * sizeof(struct edge_measure), call, error))
         return false;
     search->measures = true;
-    pool_run(pool, pieces, piece_task, search);
+    pool_run(pool, task_count, run_task, search);
     search->measures = false;
     bool ok = should_continue(search->view.loop);
     for (int i = 0; i < frame->draw_count && ok; i++)
@@ -200,25 +201,25 @@ bool edges_find(struct edge_memory *memory, const struct frame *frame, const str
     if (!reserve_threads(memory, pool_threads(pool), call, error))
         return false;
     set_view(&search.view, frame, hierarchy, &loop);
-    size_t bytes = ((size_t)frame->draw_count + 1) * sizeof *search.first_pieces, pieces = 0;
-    search.first_pieces = malloc(bytes);
-    if (!search.first_pieces)
+    size_t bytes = ((size_t)frame->draw_count + 1) * sizeof *search.first_tasks, task_count = 0;
+    search.first_tasks = malloc(bytes);
+    if (!search.first_tasks)
         return fail_memory(error, bytes);
     const struct source *sources = memory->sources.data;
     for (int i = 0; i < frame->draw_count; i++) {
-        search.first_pieces[i] = pieces;
-        pieces += ((size_t)sources[i].count + EDGE_PIECE - 1) / EDGE_PIECE;
+        search.first_tasks[i] = task_count;
+        task_count += ((size_t)sources[i].count + EDGES_PER_TASK - 1) / EDGES_PER_TASK;
     }
     bool chained =
-        frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || find_chains(&search, pieces, pool, call, error);
+        frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || find_chains(&search, task_count, pool, call, error);
     if (chained)
-        pool_run(pool, pieces, piece_task, &search);
-    free(search.first_pieces);
+        pool_run(pool, task_count, run_task, &search);
+    free(search.first_tasks);
     if (!chained)
         return false;
     *counts = (struct edge_counts){search.drawn, search.rays};
     if (!should_continue(&loop))
-        return loop_error(&loop, sizeof(struct edge_stroke) * EDGE_PIECE, error);
+        return loop_error(&loop, sizeof(struct edge_stroke) * EDGES_PER_TASK, error);
     return edges_cover(memory, frame, pool, call, error);
 }
 

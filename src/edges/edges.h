@@ -1,7 +1,7 @@
-// edges.h: edges of surfaces as lines over a finished picture: wireframes and feature edges.
+// edges.h: draws edges of surfaces as lines over a finished picture: wireframes and feature edges.
 //
-// Both devices draw the same lines: rays from points of an edge to the eye decide the visible parts (edge_rays.c), and
-// the distance from a pixel's centre decides a line's coverage of it. docs/edges.md has the rules.
+// Both devices draw the same lines. Rays from points of an edge to the eye determine the visible parts (edge_rays.c),
+// and the distance from a pixel's centre determines the coverage of a line. docs/edges.md describes the rules.
 #ifndef EDGES_H
 #define EDGES_H
 
@@ -16,30 +16,30 @@ struct edge_strokes {
     size_t count, capacity;
 };
 
-// Kept from frame to frame.
+// The memory kept from frame to frame.
 struct edge_memory {
     // The edges of the draws' meshes, in the order of the draws, and their meshes.
     struct buffer edges, sources;
     int source_count;
-    struct scene_token *token; // held; NULL: none are listed
+    struct scene_token *token; // the scene of the list; NULL if nothing is listed
     struct edge_strokes *strokes;
-    struct buffer scratch;  // of the threads
-    struct buffer measures; // of the edges, where hidden lines are dashed
+    struct buffer scratch;  // temporary memory of the threads
+    struct buffer measures; // measures of the edges, if hidden lines are dashed
     int thread_count;
-    struct buffer coverage[EDGE_STYLES]; // one float for each pixel
-    bool styles[EDGE_STYLES];            // that the last frame has
+    struct buffer coverage[EDGE_STYLES]; // one float per pixel
+    bool styles[EDGE_STYLES];            // the styles in the last frame
 };
 
 struct edge_counts {
     uint64_t drawn, rays;
 };
 
-// Finds the lines of a frame with draws_edges: the coverage of its pixels. `hierarchy`: the frame's. `lanes`: the most that
-// rays may use.
+// Finds the lines of a frame with draws_edges, and their coverage of its pixels. `hierarchy` belongs to the frame.
+// `lanes` is the maximum for the rays.
 bool edges_find(struct edge_memory *memory, const struct frame *frame, const struct hierarchy *hierarchy, int lanes,
                 struct pool *pool, struct call_control *call, struct edge_counts *counts, lam_error *error);
 
-// Blends the lines that were found over the picture of the same frame, of any format: in linear light, the wireframe first.
+// Blends the lines over the picture of the same frame, of any format, in linear light, the wireframe first.
 void edges_blend(const struct edge_memory *memory, const struct frame *frame, lam_image *image, struct pool *pool);
 
 void edges_free(struct edge_memory *memory);

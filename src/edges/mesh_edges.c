@@ -1,5 +1,5 @@
-// mesh_edges.c: the edges of a mesh. Corners are welded into vertices by position. The edges from a vertex to higher
-// ones, in both directions, are sorted by the other end, so that equal edges are adjacent.
+// mesh_edges.c: finds the edges of a mesh. Corners are welded into vertices by position. For each vertex, the edges to
+// higher vertices, in both directions, are sorted by their other end, so that equal edges are adjacent.
 #include "mesh_edges.h"
 
 #include "corner_weld.h"
@@ -12,15 +12,15 @@ static bool is_inner(const lam_mesh *mesh, uint32_t corner)
     return mesh->inner_edges && mesh->inner_edges[corner / 3] >> (corner % 3) & 1;
 }
 
-// Returns the third vertex of the triangle whose edge leads from a corner.
+// Returns the third vertex of the triangle whose edge starts at a corner.
 static uint32_t apex_of(const struct corner_weld *weld, uint32_t corner)
 {
     return weld->of[corner - corner % 3 + (corner % 3 + 2) % 3];
 }
 
-// Returns the edge of `count` corners that lead along it. Triangles with the same three vertices are one face: files
-// may contain each face twice, once for either side. Of such twins the corner counts that leads against the first
-// face's.
+// Returns the edge that `count` corners start. Triangles with the same three vertices are one face, because files may
+// contain each face twice, once for each side. Of such a pair, the corner whose direction is opposite to the first
+// face's is used.
 static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *weld, const uint64_t *keys,
                                 uint32_t count)
 {
@@ -43,7 +43,8 @@ static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *
     return edge;
 }
 
-// The ends of the edge from a corner on, the lower first. Returns false if the triangle has equal corners.
+// Gets the ends of the edge that starts at a corner, the lower vertex first. Returns false if the triangle has equal
+// corners.
 static bool ends_of(const struct corner_weld *weld, uint32_t corner, uint32_t *low, uint32_t *high)
 {
     uint32_t first = corner - corner % 3;

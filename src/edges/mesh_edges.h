@@ -1,4 +1,4 @@
-// mesh_edges.h: the edges of a mesh's triangles, each once. They depend on the mesh alone, not on the view.
+// mesh_edges.h: lists the edges of a mesh's triangles, each once. They depend only on the mesh, not on the view.
 #ifndef MESH_EDGES_H
 #define MESH_EDGES_H
 
@@ -7,24 +7,24 @@
 #include <lambent/mesh.h>
 
 enum {
-    EDGE_INNER = 1,  // every triangle at it says so (lam_mesh.inner_edges): no edge of a polygon of the file
-    EDGE_OPEN = 2,   // one face is at it. Triangles with the same three vertices are one face
-    EDGE_SHARED = 4, // more than two are
-    EDGE_ALIKE = 8,  // both of its faces run along it in the same direction: they are wound differently
+    EDGE_INNER = 1,  // inside a polygon according to all of its triangles (lam_mesh.inner_edges)
+    EDGE_OPEN = 2,   // has one face; triangles with the same three vertices are one face
+    EDGE_SHARED = 4, // has more than two faces
+    EDGE_ALIKE = 8,  // both faces have the same direction along it, so they are wound differently
 };
 
-// An edge that leads from a corner of a triangle to the triangle's next corner, and where another triangle has it.
+// An edge from a corner of a triangle to the triangle's next corner, and its corner in another triangle.
 struct mesh_edge {
     uint32_t corner;
-    uint32_t other; // a corner as well; of EDGE_OPEN `corner` itself
-    uint32_t kind;  // of EDGE_…
+    uint32_t other; // a corner too; for EDGE_OPEN `corner` itself
+    uint32_t kind;  // EDGE_… bits
 };
 
 static inline uint32_t edge_end(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
-// Lists the edges of a mesh in `edges`, which has space for three of each triangle, and returns how many there are. Corners at the same
-// position are the same, whatever their indices. Triangles with two equal corners have no edges. *failed: out of memory, or the call must end, and
-// `error` is filled.
+// Lists the edges of a mesh in `edges`, which has space for three per triangle, and returns their number. Corners at
+// the same position are the same, whatever their indices are. Triangles with two equal corners have no edges. Sets
+// *failed and fills `error` if memory runs out or the call must end.
 uint32_t mesh_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct call_control *call, bool *failed,
                     lam_error *error);
 

@@ -7,8 +7,8 @@
 #include "pool.h"
 
 enum {
-    SMALLEST = 4,        // texels on a side of the last copy
-    WEIGHTED_BELOW = 128 // in larger cubes neighbouring texels have nearly equal solid angles
+    SMALLEST = 4,        // texels per side of the last copy
+    WEIGHTED_BELOW = 128 // in larger cubes, neighbouring texels have nearly equal solid angles
 };
 
 float texel_weight(int size, int s, int t)
@@ -71,7 +71,7 @@ static void shrink_row(void *user, size_t index, int thread)
             shrink_texel(work->from, face, s, t, size, cube_texel(work->to, face, s, t));
         return;
     }
-    float *out = cube_texel(work->to, face, 0, t); // the usual case, four texels to one
+    float *out = cube_texel(work->to, face, 0, t); // the common case: four texels become one
     const float *a = cube_texel(work->from, face, 0, 2 * t), *b = cube_texel(work->from, face, 0, 2 * t + 1);
     for (int s = 0; s < size; s++, a += 6, b += 6)
         for (int c = 0; c < 3; c++)
@@ -116,7 +116,7 @@ void cube_chain_free(struct cube_chain *chain)
 const struct lam_environment *cube_chain_near(const struct cube_chain *chain, double size)
 {
     int i = 0;
-    // The geometric mean of two neighbours is where the ratios are equal.
+    // At the geometric mean of two neighbouring sizes, both ratios are equal.
     while (i + 1 < chain->count && size * size < (double)chain->cube[i].size * (double)chain->cube[i + 1].size)
         i++;
     return &chain->cube[i];

@@ -1,4 +1,4 @@
-// cube_lookup.h: looks up LANES directions in a cube map. Include with LANES defined (lanes.h).
+// cube_lookup.h: looks up LANES directions in a cube map. Define LANES before including it (lanes.h).
 #ifndef CUBE_LOOKUP_H
 #define CUBE_LOOKUP_H
 
@@ -9,14 +9,14 @@ struct cube_color {
     num r, g, b;
 };
 
-// The point where a direction meets the cube, in texels of the bordered face, ½ … size + 1½. The zero vector gives an
-// arbitrary point.
+// The intersection of a direction with the cube, in texels of the bordered face, ½ … size + 1½. The zero vector gives
+// an arbitrary point.
 struct cube_place {
     inum face;
     num s, t;
 };
 
-// A direction seen from its face: the place is across ÷ major, down ÷ major.
+// A direction seen from its face: the point is across ÷ major, down ÷ major.
 struct cube_side {
     inum face;
     num across, down, major;
@@ -35,21 +35,21 @@ LANE_FN struct cube_side cube_side(num x, num y, num z)
     return side;
 }
 
-// Returns the place on a face from −1 to 1; NaN for the zero vector.
+// Returns the point on a face from −1 to 1; NaN for the zero vector.
 LANE_FN struct cube_place cube_point(num x, num y, num z)
 {
     struct cube_side side = cube_side(x, y, z);
     return (struct cube_place){side.face, side.across / side.major, side.down / side.major};
 }
 
-// OpenGL's table (4.6, 8.13): the axis with the largest magnitude selects the face. Of equal magnitudes either serves,
-// since the filter is continuous.
+// OpenGL's table (4.6, 8.13): the axis with the largest magnitude selects the face. If magnitudes are equal, either
+// face works, since the filter is continuous.
 LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
 {
     float half = 0.5f * (float)size, middle = half + 0.5f;
     num min = num_of(0.5f), max = num_of((float)size + 0.5f);
     struct cube_place place = cube_point(x, y, z);
-    // Clamped with NaN, 0/0, to the middle of the border.
+    // The clamp also replaces NaN, 0/0, by the centre of the border.
     place.s = min_of(max_of(place.s * half + middle, min), max);
     place.t = min_of(max_of(place.t * half + middle, min), max);
     return place;

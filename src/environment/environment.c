@@ -1,4 +1,4 @@
-// environment.c: builds cube maps from pictures: six faces, a cross, or an equirectangular picture.
+// environment.c: makes cube maps from pictures: six faces, a cross, or an equirectangular picture.
 #include "codec.h"
 #include "cube_map.h"
 #include "fail.h"
@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- the limits of the call
+// --- limits of the call
 
-// `call` may be NULL everywhere here.
+// `call` may be NULL in all functions of this section.
 static struct lam_environment *cube_within(struct call_control *call, int size, lam_error *error)
 {
     if (call && !call_charge(call, cube_bytes(size))) {
@@ -27,16 +27,16 @@ static bool continues(struct call_control *call, int row, lam_error *error)
     return row % 16 != 0 || call_should_continue(call) || call_error(call, error);
 }
 
-// --- faces from parts of a picture
+// --- faces from sections of a picture
 
-// A square of a linear picture that becomes a face; `turned` by 180°.
-struct piece {
+// A square section of a linear picture that becomes a face; `turned` by 180°.
+struct chunk {
     const lam_image *image;
     int x, y;
     bool turned;
 };
 
-static bool copy_face(struct lam_environment *cube, int face, const struct piece *piece, const char *name,
+static bool copy_face(struct lam_environment *cube, int face, const struct chunk *chunk, const char *name,
                       struct call_control *call, lam_error *error)
 {
     int n = cube->size;
@@ -44,9 +44,9 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
         if (!continues(call, t, error))
             return false;
         for (int s = 0; s < n; s++) {
-            int x = piece->x + (piece->turned ? n - 1 - s : s), y = piece->y + (piece->turned ? n - 1 - t : t);
+            int x = chunk->x + (chunk->turned ? n - 1 - s : s), y = chunk->y + (chunk->turned ? n - 1 - t : t);
             const float *from =
-                (const float *)piece->image->pixels + ((size_t)y * (size_t)piece->image->width + (size_t)x) * 4;
+                (const float *)chunk->image->pixels + ((size_t)y * (size_t)chunk->image->width + (size_t)x) * 4;
             for (int channel = 0; channel < 3; channel++)
                 if (!(from[channel] >= 0 && from[channel] <= 3e38f))
                     return fail(error, LAM_BAD_ARGUMENT, "%s: pixel %d, %d is %g, expected light of at least 0, finite",
@@ -57,7 +57,7 @@ static bool copy_face(struct lam_environment *cube, int face, const struct piece
     return true;
 }
 
-static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE_COUNT],
+static struct lam_environment *cube_of_chunks(const struct chunk chunks[LAM_FACE_COUNT],
                                               const char *const names[LAM_FACE_COUNT], int size,
                                               struct call_control *call, lam_error *error)
 {
@@ -68,7 +68,7 @@ static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE
     }
     struct lam_environment *cube = cube_within(call, size, error);
     for (int face = 0; cube && face < LAM_FACE_COUNT; face++) {
-        if (!copy_face(cube, face, &pieces[face], names[face], call, error)) {
+        if (!copy_face(cube, face, &chunks[face], names[face], call, error)) {
             lam_environment_free(cube);
             return NULL;
         }
@@ -81,16 +81,16 @@ static struct lam_environment *cube_of_pieces(const struct piece pieces[LAM_FACE
 static struct lam_environment *cube_of_faces(const lam_image *faces, const char *const names[LAM_FACE_COUNT],
                                              struct call_control *call, lam_error *error)
 {
-    struct piece pieces[LAM_FACE_COUNT];
+    struct chunk chunks[LAM_FACE_COUNT];
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
-        pieces[face] = (struct piece){.image = &faces[face]};
+        chunks[face] = (struct chunk){.image = &faces[face]};
         if (faces[face].width == faces[0].width && faces[face].height == faces[0].width)
             continue;
         fail(error, LAM_UNSUPPORTED, "%s: %d×%d pixels, expected %d×%d: faces of a cube are squares of one size",
              names[face], faces[face].width, faces[face].height, faces[0].width, faces[0].width);
         return NULL;
     }
-    return cube_of_pieces(pieces, names, faces[0].width, call, error);
+    return cube_of_chunks(chunks, names, faces[0].width, call, error);
 }
 
 // --- an equirectangular picture
@@ -98,8 +98,8 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
 typedef float pixel __attribute__((vector_size(16)));
 typedef float pixel_memory __attribute__((vector_size(16), aligned(4), may_alias));
 
-// The positions of longitudes and latitudes in the picture, in pixels from the centre of the first. Longitude 0 is −z,
-// latitude 0 +y.
+// Return the position of a longitude or latitude in the picture, in pixels from the centre of the first pixel.
+// Longitude 0 is −z, latitude 0 is +y.
 static double column_of(const lam_image *image, double longitude)
 {
     return (0.5 + longitude / (2 * PI)) * image->width - 0.5;
@@ -107,7 +107,8 @@ static double column_of(const lam_image *image, double longitude)
 
 static double row_of(const lam_image *image, double latitude) { return latitude / PI * image->height - 0.5; }
 
-// A row of a face. Texel s lies at columns[s] and rows[s], or with `below` as far from the last row as that is from the first.
+// Samples a row of a face. Texel s reads at columns[s] and rows[s]; with `below`, rows are mirrored: counted from the
+// last row of the picture instead of the first.
 static void sample_row(const lam_image *image, const double *columns, const double *rows, bool below,
                        struct lam_environment *cube, int face, int t)
 {
@@ -128,13 +129,13 @@ static void sample_row(const lam_image *image, const double *columns, const doub
               e = *(const pixel_memory *)(beneath + 4 * (size_t)right);
         a = a * (1 - across) + b * across;
         c = c * (1 - across) + e * across;
-        // Its fourth number lies in the next texel, or in the border, which is filled later.
+        // The fourth number overwrites the next texel, or the border, both of which are filled later.
         *(pixel_memory *)cube_texel(cube, face, s, t) = a * (1 - down) + c * down;
     }
 }
 
-// Rows t, above the middle, and size − 1 − t of the four faces around: texels of a column have one longitude, and the faces
-// share their latitudes. `rows`: for one row of a face.
+// Samples row t, above the middle, and row size − 1 − t of the four side faces: the texels of a column have one
+// longitude, and the faces share their latitudes. `rows` is memory for one row of a face.
 static void sample_around(const lam_image *image, struct lam_environment *cube, const double *const columns[4],
                           double *rows, int t)
 {
@@ -151,8 +152,8 @@ static void sample_around(const lam_image *image, struct lam_environment *cube, 
     }
 }
 
-// The same rows of the upper and the lower face. Their halves mirror each other: longitudes change their sign, and are taken from
-// a half turn. `memory`: for three rows.
+// Samples the same rows of the upper and the lower face. Their halves mirror each other: longitudes change their sign,
+// or are subtracted from a half turn. `memory` has space for three rows.
 static void sample_ends(const lam_image *image, struct lam_environment *cube, double *memory, int t)
 {
     int size = cube->size;
@@ -229,7 +230,7 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
     return cube;
 }
 
-// From one linear picture, by its aspect ratio.
+// Makes a cube from one linear picture, by its aspect ratio.
 static struct lam_environment *cube_of_image(const lam_image *image, const char *name, struct call_control *call,
                                              lam_error *error)
 {
@@ -247,19 +248,19 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
         return NULL;
     }
     int size = image->width / (lies ? 4 : 3);
-    struct piece pieces[LAM_FACE_COUNT];
+    struct chunk chunks[LAM_FACE_COUNT];
     const char *names[LAM_FACE_COUNT];
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
         const int *at = lies ? lying[face] : standing[face];
-        pieces[face] = (struct piece){image, at[0] * size, at[1] * size, stands && face == LAM_FACE_NZ};
+        chunks[face] = (struct chunk){image, at[0] * size, at[1] * size, stands && face == LAM_FACE_NZ};
         names[face] = name;
     }
-    return cube_of_pieces(pieces, names, size, call, error);
+    return cube_of_chunks(chunks, names, size, call, error);
 }
 
 // --- the caller's pictures
 
-// A linear copy, freed by the caller of this function.
+// Makes a linear copy, which the caller frees.
 static bool linear_copy(const lam_image *image, lam_color_mode color, lam_image *out, lam_error *error)
 {
     *out = (lam_image){0};
@@ -302,7 +303,7 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 
 // --- files
 
-// A file's picture, linear; the caller frees it with picture_free.
+// Reads a file's picture as linear numbers; the caller frees it with picture_free.
 static bool read_picture(const struct picture_source *source, int index, lam_color_mode color,
                          struct call_control *call, lam_image *image, const char **name, lam_error *error)
 {

@@ -1,20 +1,21 @@
-// environment_kernels.c: sums over many directions for LANES texels of a cube at a time. ISA and LANES are given by the build.
+// environment_kernels.c: sums over many directions for LANES texels of a cube at a time. The build defines ISA and
+// LANES.
 #include "environment_kernels.h"
 
 #include "cube_lookup.h"
 
-enum { ROW_MAX = 64 }; // texels on a side of cubes by cube_sums_row, a multiple of 16
+enum { ROW_MAX = 64 }; // texels per side of cubes from cube_sums_row, a multiple of 16
 
-// --- lobes as cells
+// --- lobes divided into cells
 
-// Two neighbouring texels of a row, red, green and blue each, and two numbers more, of PLACES places: the compiler's vectors round
-// each number as plain C does.
+// Two neighbouring texels of a row, red, green and blue each, and two unused numbers, for PLACES points. The compiler's
+// vectors round each number as scalar C does.
 #define PLACES (LANES == 16 ? 2 : 1)
 typedef float texel_pair __attribute__((vector_size(32)));
 typedef float texel_pair_memory __attribute__((vector_size(32), aligned(4), may_alias));
 typedef float texel_pairs __attribute__((vector_size(32 * PLACES)));
 
-// Lane i of `left` beside the first texel, of `right` beside the second.
+// Lane i of `left` for the first texel, and lane i of `right` for the second.
 #if LANES == 16
 #define BESIDE(left, right, i)                                                                                         \
     __builtin_shufflevector(left, right, i, i, i, LANES + i, LANES + i, LANES + i, i, i, i + 1, i + 1, i + 1,          \
@@ -34,7 +35,8 @@ LANE_FN texel_pairs texels_at(const float *texels, const int32_t *first)
 #endif
 }
 
-// Adds the light of LANES directions times a weight, bilinear: the two texels of the rows side by side, to be added at the end.
+// Adds the light of LANES directions times a weight, bilinear. The two texels of each row stay separate; they are added
+// at the end.
 LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environment *cube, num x, num y, num z,
                        float weight)
 {
@@ -42,7 +44,7 @@ LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environ
     float half = 0.5f * (float)cube->size, middle = half + 0.5f;
     num min = num_of(0.5f), max = num_of((float)cube->size + 0.5f);
     struct cube_side at = cube_side(x, y, z);
-    num scale = half / at.major; // the same as cube_place but for rounding
+    num scale = half / at.major; // the same as cube_place except for rounding
     num across = min_of(max_of(at.across * scale + middle, min), max);
     num down = min_of(max_of(at.down * scale + middle, min), max);
     inum column = int_of(across), row = int_of(down);
@@ -72,7 +74,7 @@ LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environ
 }
 
 struct frames {
-    num x[3], y[3], z[3]; // z: the direction of a texel; the others unit and perpendicular to it
+    num x[3], y[3], z[3]; // z: the direction of a texel; x and y: unit and perpendicular to it
 };
 
 LANE_FN void make_unit(num v[3])
@@ -88,7 +90,7 @@ LANE_FN void cross(const num a[3], const num b[3], num out[3])
         out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-// The frames of texels s … s + LANES − 1 of a row.
+// Returns the coordinate frames of texels s … s + LANES − 1 of a row.
 LANE_FN struct frames frames_of(int size, int face, int s, int t)
 {
     double start[3], step[3];
@@ -98,7 +100,7 @@ LANE_FN struct frames frames_of(int size, int face, int s, int t)
     for (int i = 0; i < 3; i++)
         f.z[i] = (float)start[i] + (float)step[i] * num_of_int(lane_numbers());
     make_unit(f.z);
-    // x is perpendicular to the axis from which the direction is farthest.
+    // x is perpendicular to the axis that is farthest from the direction.
     num a = f.z[0] * f.z[0], b = f.z[1] * f.z[1], c = f.z[2] * f.z[2], one = num_of(1), none = num_of(0);
     mask by_x = both(a <= b, a <= c), by_y = both(negate(by_x), b <= c);
     const num far[3] = {pick(by_x, one, none), pick(by_y, one, none), pick(either(by_x, by_y), none, one)};
@@ -108,7 +110,8 @@ LANE_FN struct frames frames_of(int size, int face, int s, int t)
     return f;
 }
 
-// A row of sums of the cells from `first` to `end`, and of a cube that holds the sums of others; NULL: none.
+// Computes a row: the sums of the cells from `first` to `end`, plus a cube that contains the sums of other cells (may
+// be NULL).
 static void prefilter_row(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t)
 {
@@ -151,7 +154,7 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
         for (size_t i = 0; i < sums->count; i++) {
             const struct opposite_texels *from = &sums->pair[i];
             num along = x * from->direction[0] + y * from->direction[1] + z * from->direction[2];
-            num cosine = absolute(along), weight = cosine; // of the one that is above the horizon
+            num cosine = absolute(along), weight = cosine; // the weight of the direction above the horizon
             mask behind = along < 0.0f;
             if (q > 0) {
                 num part = square / (1.0f - q * (1.0f + cosine));

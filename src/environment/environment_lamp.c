@@ -1,8 +1,8 @@
-// environment_lamp.c: the brightest lamp of an environment (environment_lamp.h).
+// environment_lamp.c: finds the brightest lamp of an environment (environment_lamp.h).
 //
-// Texels are bright that have more than BRIGHT times the mean luminance. Of the directions of a small cube that is the lamp's
-// about which the bright texels within LAMP_COSINE give the most light; those texels are the lamp. All sums are in double, in a
-// fixed order.
+// A texel is bright if its luminance exceeds BRIGHT times the mean. For each direction of a small cube, the light of
+// bright texels within LAMP_COSINE is summed; the direction with the largest sum is the lamp's, and these texels are
+// the lamp. All sums are in double, in a fixed order.
 #include "environment_lamp.h"
 
 #include "fail.h"
@@ -14,14 +14,14 @@
 #include <string.h>
 
 #define BRIGHT       3.0
-#define LAMP_COSINE  0.87 // of 29.5 degrees
-#define LEAST_SHARE  0.05 // of the mean light: less is no lamp
+#define LAMP_COSINE  0.87 // cosine of 29.5 degrees
+#define LEAST_SHARE  0.05 // as a share of the mean light; weaker lamps are ignored
 #define SOLID_ANGLE  12.566370614359172
-#define RADIUS_LEAST 0.0047 // the sun's
+#define RADIUS_LEAST 0.0047 // the radius of the sun
 enum { LAMP_SIZE = 64, CANDIDATE_SIZE = 8 };
 
 struct bright_texel {
-    double direction[3], light[3], luminance, share; // of the sphere
+    double direction[3], light[3], luminance, share; // share: fraction of the sphere
 };
 
 static double luminance_of(const float *rgb)
@@ -110,7 +110,7 @@ static void find_lamp(const struct lam_environment *cube, struct bright_texel *b
         lamp->direction[c] = sum[c] / length;
         lamp->color[c] = (float)(light[c] * SOLID_ANGLE / PI);
     }
-    // The mean of the cosines over an even disc of angular radius a is (1 + cos a) / 2.
+    // The mean of the cosines over a uniform disc of angular radius a is (1 + cos a) / 2.
     spread = 2 * length / total - 1;
     double radius = math_acos(spread);
     lamp->angular_radius_rad = (float)(radius > RADIUS_LEAST ? radius : RADIUS_LEAST);
@@ -153,7 +153,7 @@ bool environment_lamp(const struct lam_environment *cube, struct environment_lam
     return ok;
 }
 
-// Takes the lamp's light from the irradiance.
+// Subtracts the lamp's light from the irradiance.
 static void take_lamp(struct lam_environment *irradiance, const struct lam_environment *whole,
                       const struct environment_lamp *lamp)
 {
@@ -196,7 +196,7 @@ const struct environment_light *environment_light_without_lamp(const struct lam_
         size_t held;
         float *memory = rest ? pages_get_sparse(bytes, &held) : NULL;
         if (memory) {
-            // Not the whole struct: another thread may be adding levels to it, and to its `made`.
+            // The members are copied one by one, because another thread may be adding levels and changing `made`.
             memcpy(rest->level, whole->level, sizeof rest->level);
             rest->held = held;
             rest->texels = memory;

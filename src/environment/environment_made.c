@@ -1,4 +1,4 @@
-// environment_made.c: the built-in environments, computed from + − × ÷ √ alone: a sky and a studio.
+// environment_made.c: computes the built-in environments, a sky and a studio, from + − × ÷ √ only.
 #include "cube_map.h"
 #include "fail.h"
 #include "float_state.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 256 }; // texels on a face's side
+enum { SIDE = 256 }; // texels per side of a face
 
 struct rgb {
     double c[3];
@@ -21,7 +21,7 @@ static struct rgb mix(struct rgb a, struct rgb b, double share)
     return a;
 }
 
-// 0 below `low`, 1 above `high`, a smooth cubic between.
+// Returns 0 below `low`, 1 above `high`, and a smooth cubic between them.
 static double ramp(double low, double high, double x)
 {
     double t = (x - low) / (high - low);
@@ -29,7 +29,7 @@ static double ramp(double low, double high, double x)
     return t * t * (3 - 2 * t);
 }
 
-// x to the power 2^n.
+// Returns x to the power 2^n.
 static double squared(double x, int n)
 {
     for (; n > 0; n--)
@@ -37,8 +37,8 @@ static double squared(double x, int n)
     return x;
 }
 
-// Returns a clear afternoon: blue above, pale at the horizon, the sun a third up to the right in front (+X +Z), brown
-// ground.
+// Returns the light of a clear afternoon: blue above, pale at the horizon, the sun a third of the way up in front on
+// the right (+X +Z), brown ground.
 static struct rgb sky(lam_vec3 d)
 {
     static const struct rgb zenith = {{0.10, 0.24, 0.62}}, horizon = {{0.72, 0.80, 0.88}},
@@ -65,15 +65,16 @@ static void sky_row(int face, int t, float *texels)
     }
 }
 
-// A room, a cube about the origin, for the default picture of physical materials. The brightest lamp, at the ceiling,
-// lights the tops and casts short soft shadows on a ground; a large one in front and above lights the sides that are
-// seen first, a dim one at the right the third, so that the three faces of a cube differ. Metals mirror the bright
-// horizon between a dark floor and a dim wall; the lamp behind brightens the rims of black things. A level white
-// surface has 1.1 (irradiance / π), which the tone curve maps to 0.9. A face of the cube map is a wall of the room.
+// The studio for physical materials: a cubic room around the origin. The brightest lamp, at the ceiling, lights the
+// tops and casts short soft shadows on a ground. A large lamp in front and above lights the sides that face the viewer,
+// and a dim lamp at the right lights the third side, so that the three faces of a cube differ. Metals mirror the bright
+// horizon between a dark floor and a dim wall; the lamp behind brightens the rims of black objects. A level white
+// surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face of the cube map is a wall of the
+// room.
 struct lamp {
     double intensity;
     struct rgb color;
-    double center_s, center_t; // in the room's coordinates that run along the face's rows and columns
+    double center_s, center_t; // in room coordinates along the face's rows and columns
     double half_width, half_height;
 };
 #define WHITE {{1.00, 0.97, 0.92}}
@@ -84,14 +85,15 @@ static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {6.5, WHITE, -
                                                   [LAM_FACE_PZ] = {1.4, WHITE, -0.18, 0.36, 0.6, 0.71},
                                                   [LAM_FACE_NZ] = {2.7, COOL, 0.3, 0.35, 0.42, 0.4}};
 
-// 1 within half a width of 0, soft at its edges.
+// Returns 1 within half a width of 0, with a soft edge.
 static double soft_edge(double x, double half_width)
 {
     const double edge = 0.06;
     return ramp(-half_width - edge, -half_width, x < 0 ? x : -x);
 }
 
-// Returns the walls at a height in the room, −1 … 1: the floor's colour below, and a band of light at the horizon.
+// Returns the light of the walls at a height in the room, −1 … 1: the floor's colour below, and a bright band at the
+// horizon.
 static struct rgb wall_at(double height)
 {
     static const struct rgb floor_color = {{0.085, 0.0825, 0.08}}, wall = {{0.055, 0.0567, 0.0633}},
@@ -103,7 +105,7 @@ static struct rgb wall_at(double height)
     return light;
 }
 
-// The height is the same in a whole row of a face.
+// All texels of a row have the same height.
 static void studio_row(int face, int t, float *texels)
 {
     const struct lamp *lamp = &lamps[face];
@@ -124,7 +126,7 @@ static void studio_row(int face, int t, float *texels)
 
 static const struct {
     const char *name;
-    void (*row)(int face, int t, float *texels); // the texels of row t of a face
+    void (*row)(int face, int t, float *texels); // computes the texels of row t of a face
 } table[] = {{"sky", sky_row}, {"studio", studio_row}};
 enum { COUNT = sizeof table / sizeof *table };
 
@@ -154,7 +156,7 @@ lam_environment *lam_environment_built_in(const char *name, lam_error *error)
     return NULL;
 }
 
-// --- the studio of scenes without lights
+// --- the studio for scenes without lights
 
 struct lazy_environment {
     lock one_maker;

@@ -7,9 +7,9 @@
 #include "fail.h"
 #include "linear.h"
 
-enum { DENSITY_SIZE = 128 }; // about: of the copy of the environment by which bright directions are drawn
+enum { DENSITY_SIZE = 128 }; // approximate size of the copy used for importance sampling
 
-// Returns the bits of `i` behind the binary point, mirrored.
+// Returns the bits of `i` mirrored behind the binary point.
 static double radical_inverse(uint32_t i)
 {
     double value = 0, digit = 0.5;
@@ -26,7 +26,7 @@ static void draw_disc(struct disc_point *points, int count)
     }
 }
 
-// Returns the sum of the brightness of a row of a face times its texels' solid angles; `weights` receives the summands.
+// Returns the sum of brightness times solid angle over a row of a face; `weights` receives the summands.
 static double weigh_row(const struct lam_environment *cube, int face, int t, double *weights)
 {
     double sum = 0;
@@ -39,7 +39,7 @@ static double weigh_row(const struct lam_environment *cube, int face, int t, dou
     return sum;
 }
 
-// Returns the direction of a point of a face, which reaches from −1 to 1, and its light.
+// Returns the direction of a point of a face, which extends from −1 to 1, and its light.
 static struct sampled_light light_at(const struct lam_environment *cube, const float to_environment[3][3], int face,
                                      double across, double down, double density)
 {
@@ -58,15 +58,15 @@ static struct sampled_light light_at(const struct lam_environment *cube, const f
 struct drawing {
     const struct lam_environment *cube, *small;
     const float (*to_environment)[3];
-    double *rows, *weights, total; // of the small copy: brightness of each row, of the texels of one row, of all
+    double *rows, *weights, total; // the brightness of the small copy: per row, per texel of one row, and in total
 };
 
-// Draws the directions towards light. The first coordinate of the point set chooses the row, the second the texel in
-// it; the remainders of both are the position in the texel.
+// Draws directions towards light. The first coordinate of the point set selects the row, the second the texel in it;
+// the remainders of both give the position in the texel.
 static void draw_lights(const struct drawing *d, struct environment_samples *out)
 {
     int size = d->small->size, row = 0, weighed = -1;
-    double below = 0; // the sum of the rows before
+    double below = 0; // the sum of the previous rows
     for (int i = 0; i < out->light_count; i++) {
         double at = (i + 0.5) / out->light_count * d->total;
         while (row + 1 < LAM_FACE_COUNT * size && at >= below + d->rows[row])
@@ -87,7 +87,7 @@ static void draw_lights(const struct drawing *d, struct environment_samples *out
     }
 }
 
-// Fills the sums of the rows and the density.
+// Computes the sums of the rows and the density.
 static void weigh(struct drawing *d, float *density)
 {
     int size = d->small->size, rows = LAM_FACE_COUNT * size;
@@ -130,7 +130,7 @@ bool environment_samples_make(struct environment_samples *samples, const struct 
         draw_disc(samples->lobe, samples->lobe_count);
         draw_disc(samples->cosine, samples->cosine_count);
         weigh(&d, density);
-        if (!(d.total > 0)) // no light, no direction towards it
+        if (!(d.total > 0)) // without light there are no directions towards it
             samples->light_count = 0;
         draw_lights(&d, samples);
     }

@@ -1,4 +1,5 @@
-// prefiltered_lookup.h: looks up LANES directions in the levels of a prefiltered environment. Include with LANES defined.
+// prefiltered_lookup.h: looks up LANES directions in the levels of a prefiltered environment. Define LANES before
+// including it.
 #ifndef PREFILTERED_LOOKUP_H
 #define PREFILTERED_LOOKUP_H
 
@@ -30,8 +31,8 @@ LANE_FN struct cube_color level_look(const struct environment_light *light, inum
     return (struct cube_color){cube_mix(texels[0], s, t), cube_mix(texels[1], s, t), cube_mix(texels[2], s, t)};
 }
 
-// Returns the light around a direction at a level, 0 … ENVIRONMENT_LEVELS − 1 (prefilter_level), linear between two of
-// them.
+// Returns the light around a direction at a level, 0 … ENVIRONMENT_LEVELS − 1 (prefilter_level), interpolated between
+// two levels.
 LANE_FN struct cube_color prefiltered_look(const struct environment_light *light, num level, num x, num y, num z)
 {
     struct cube_place point = cube_point(x, y, z);

@@ -29,7 +29,7 @@ const struct exporter *exporter_find(const char *ending, const char *path, lam_e
     return NULL;
 }
 
-// --- the call
+// --- the public function
 
 // Stores the text as the first file.
 static bool finish(struct exporting *e, const char *ending)

@@ -8,7 +8,7 @@
 
 lam_vec3 export_turned(const struct exporting *e, lam_vec3 p)
 {
-    switch (e->from) { // to y up; of two opposite axes the second shows everything upside down
+    switch (e->from) { // first to y up; a negative axis is upside down
     case LAM_UP_X:
         p = v3(-p.y, p.x, p.z);
         break;
@@ -53,7 +53,7 @@ void export_number(struct text *text, double x)
     size_t length = 0;
     snprintf(digits, sizeof digits, (double)(float)x == x ? "%.9g" : "%.17g", x + 0.0);
     bool point = false;
-    for (const char *c = digits; *c; c++) { // with a point in every locale
+    for (const char *c = digits; *c; c++) { // use a point in every locale
         bool usual = (*c >= '0' && *c <= '9') || *c == '-' || *c == '+' || *c == 'e';
         if (usual || !point)
             plain[length++] = usual ? *c : '.';

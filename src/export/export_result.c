@@ -1,4 +1,4 @@
-// export_result.c: the result of an export: its files, and a sentence about each loss.
+// export_result.c: the result of an export: its files, and a sentence for each loss.
 #include "export.h"
 
 #include "fail.h"
@@ -127,7 +127,7 @@ void lam_export_free(lam_export *result)
         return;
     for (int i = 0; i < result->files.count; i++)
         lam_bytes_free(&((struct export_file *)result->files.items)[i].bytes);
-    struct arena arena = result->arena; // which holds the result itself
+    struct arena arena = result->arena; // it contains the result itself
     arena_free(&arena);
 }
 

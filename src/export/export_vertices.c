@@ -1,5 +1,5 @@
-// export_vertices.c: shares vertices between corners with equal attributes, for formats with one index for all
-// attributes of a corner. Also converts colours and textures for the writers.
+// export_vertices.c: merges corners with equal attributes into vertices, for formats with one index for all attributes
+// of a corner. It also converts colours and textures for the writers.
 #include "export.h"
 
 #include "srgb.h"
@@ -84,7 +84,7 @@ void export_color(const lam_mesh *mesh, size_t element, float color[4])
     }
 }
 
-// Returns the byte whose light is nearest: it is found by halving, since the curve grows.
+// Returns the byte whose light is nearest, by bisection, since the curve is monotonic.
 static uint8_t encoded(float light)
 {
     int low = 0, high = 255;
@@ -98,12 +98,12 @@ static uint8_t encoded(float light)
     return (uint8_t)low;
 }
 
-// Returns the number that OBJ and MTL have for a channel of light: sRGB-encoded below 1. Their reader rounds it to a
-// float and decodes it; of all floats between 0 and 1 this is the first whose light is not below, so that a colour
-// which came from such a file gets its own number. Most are bytes.
+// Returns the number that OBJ and MTL use for a channel of light: sRGB-encoded below 1. The reader rounds it to a float
+// and decodes it. This is the smallest float between 0 and 1 whose light is not below, so that a colour from such a
+// file gets its original number. Most are bytes.
 double export_encoded(float light)
 {
-    uint32_t low = 0, high = 0x3f800000; // the bits of 0 and 1
+    uint32_t low = 0, high = 0x3f800000; // bit patterns of 0 and 1
     if (!(light > 0) || light >= 1)
         return light > 0 ? (double)light : 0;
     float number = (float)(encoded(light) / 255.0);

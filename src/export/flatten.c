@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-// The sizes of a flat mesh, and its arrays while they are filled.
+// The sizes and arrays of a flat mesh while they are filled.
 struct flat {
     struct exporting *e;
     enum export_kind kind;
@@ -63,7 +63,7 @@ static bool is_identity(const lam_mat4 *m)
     return memcmp(m, &identity, sizeof identity) == 0;
 }
 
-// Coordinates far from zero are stored relative to an origin: the origin of the first object's mesh, for all objects.
+// Coordinates far from zero are stored relative to one origin, the origin of the first object's mesh.
 static void put_positions(struct flat *f, const lam_mesh *m, const lam_mat4 *transform, const double origin[3])
 {
     bool same = is_identity(transform) && memcmp(origin, m->origin, 3 * sizeof *origin) == 0;
@@ -116,7 +116,7 @@ static void put_corners(struct flat *f, const lam_mesh *m, bool mirrored)
     for (size_t i = 0; i < mesh_corners(m); i++) {
         size_t c = source_corner(f, i, mirrored), to = f->corners + i;
         f->index[to] = (uint32_t)f->vertices + export_element(NULL, m, c);
-        // A mesh without them refers to the element behind the last one.
+        // Meshes without normals use the element after the last one.
         f->normal_index[to] = m->normals ? (uint32_t)f->normals + export_element(m->normal_indices, m, c) : UINT32_MAX;
         f->texcoord_index[to] =
             m->texcoords ? (uint32_t)f->texcoords + export_element(m->texcoord_indices, m, c) : UINT32_MAX;
@@ -155,7 +155,7 @@ static void put_object(struct flat *f, const lam_mesh *m, const lam_object *obje
     f->corners += mesh_corners(m);
 }
 
-// Appends the elements to which meshes without an attribute refer, if there are such meshes.
+// Appends the elements for meshes that lack an attribute, if there are such meshes.
 static void put_missing(struct flat *f, size_t corners)
 {
     bool normals = false, texcoords = false;

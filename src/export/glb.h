@@ -1,4 +1,4 @@
-// glb.h: the state of writing a glTF file: the trees of its JSON, and the bytes of its buffer.
+// glb.h: the state of writing a glTF file: its JSON, and the bytes of its buffer.
 #ifndef GLB_H
 #define GLB_H
 
@@ -6,24 +6,24 @@
 
 #include <jansson.h>
 
-// The accessors for the arrays of a scene's mesh in the buffer; −1: none.
+// The indices of the accessors for the arrays of a scene's mesh, −1 if missing.
 struct glb_arrays {
     bool ready;
     int position, normal, texcoords[2], tangent, color;
-    int first_indices; // of its parts, one after the other
-    int first_mesh;    // the latest of the file's meshes that is made of it (glb_mesh.before); −1: none
+    int first_indices; // indices of its parts, consecutive
+    int first_mesh;    // the latest mesh of the file that uses it (glb_mesh.before), or −1
 };
 
 // A mesh of the file: a mesh of the scene with the materials of an object.
 struct glb_mesh {
-    int material; // the object's; −1: the parts' materials
+    int material; // the object's material; −1 if the parts' materials are used
     bool double_sided;
-    int before; // another one of the same mesh of the scene; −1: none
+    int before; // the previous one that uses the same mesh of the scene, or −1
 };
 
 struct glb_image {
     const lam_texture *texture;
-    int index; // in `images`; −1: it cannot be written
+    int index; // the index in `images`; −1 if it cannot be written
 };
 
 struct glb {
@@ -31,43 +31,41 @@ struct glb {
     json_t *root, *accessors, *views, *meshes, *materials, *nodes, *images, *textures, *samplers, *lights, *cameras,
         *used;
     struct text bytes;         // the buffer
-    struct glb_arrays *arrays; // of the scene's meshes
-    struct scene_list own;     // struct glb_mesh, of each of the file's
-    int *material_index
-        [2]; // by whether both sides are seen: of each material, then the default one; −1: not written yet
+    struct glb_arrays *arrays; // one per mesh of the scene
+    struct scene_list own;     // struct glb_mesh: one per mesh of the file
+    // indexed by double-sidedness: for each material and the default one; −1 if not written yet
+    int *material_index[2];
     struct scene_list pictures; // struct glb_image
-    int thumbnail;              // its image
-    bool failed;                // out of memory in a tree
+    int thumbnail;              // index of its image
+    bool failed;                // memory ran out in the JSON
 };
 
-// Sets a member or adds an element, and takes ownership of the value. If the value is NULL, records that memory ran
-// out.
+// Sets a member or adds an element, and takes ownership of the value. A NULL value records that memory ran out.
 void glb_set(struct glb *glb, json_t *object, const char *key, json_t *value);
-int glb_add(struct glb *glb, json_t *list, json_t *value); // returns its number
+int glb_add(struct glb *glb, json_t *list, json_t *value); // returns its index
 
-void glb_set_name(struct glb *glb, json_t *object, const char *name); // NULL, or not UTF-8: none
+void glb_set_name(struct glb *glb, json_t *object, const char *name); // no name if it is NULL or not UTF-8
 json_t *glb_floats(struct glb *glb, const float *numbers, int count);
 
-// Lists an extension in extensionsUsed, and returns its object in `object`, creating it if it is missing.
+// Lists an extension in extensionsUsed, and returns its object in `object`, which is created if it is missing.
 json_t *glb_extension(struct glb *glb, json_t *object, const char *name);
 
-// Appends bytes to the buffer, aligned to four, as a view. Returns its number. `target`: of the view, or 0 if there is
-// none.
+// Appends bytes to the buffer, aligned to four, as a view. Returns the index of the view. `target` is its target, or 0.
 int glb_add_view(struct glb *glb, const void *bytes, size_t size, int target);
 
 bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size_t size);
 
-// Returns the number of the file's mesh for an object. −1: out of memory.
+// Returns the index of the file's mesh for an object, or −1 if memory runs out.
 int glb_mesh_of(struct glb *glb, const lam_object *object);
 
-// Returns the number of a material (−1: the default one).
+// Returns the index of a material in the file. −1 is the default material.
 int glb_material(struct glb *glb, int material, bool double_sided);
 
-// Returns the object that refers to a map's texture, with its set and transform, or NULL if there is no map, or its
-// picture cannot be written.
+// Returns the JSON object for a map's texture, with its texture coordinates and transform. Returns NULL if there is no
+// map, or its picture cannot be written.
 json_t *glb_texture(struct glb *glb, const lam_texture_map *map);
 
-// Nodes: the scene's objects, lights and cameras.
+// Writes nodes: the scene's objects, lights and cameras.
 bool glb_nodes(struct glb *glb);
 
 #endif

@@ -8,7 +8,8 @@
 
 static float scale_of(const lam_texture_map *map) { return map->scale == 0 ? 1 : map->scale; }
 
-// Checks whether glTF can represent a map: its slot allows only one channel, without scale and offset.
+// Returns the map if glTF can represent it: its slot allows only one channel, without scale and offset. Otherwise
+// records a loss.
 static const lam_texture_map *usual(struct glb *glb, const lam_material *m, lam_map slot, int channel)
 {
     const lam_texture_map *map = m->maps[slot];
@@ -56,7 +57,8 @@ static void put_metallic(struct glb *glb, json_t *object, const lam_material *m)
     glb_set(glb, object, "pbrMetallicRoughness", pbr);
 }
 
-// KHR_materials_pbrSpecularGlossiness: the importer made f0 of its specular colour, and roughness of 1 − glossiness.
+// KHR_materials_pbrSpecularGlossiness: the importer converted its specular colour to f0, and glossiness to 1 −
+// roughness.
 static void put_glossy(struct glb *glb, json_t *object, const lam_material *m)
 {
     json_t *glossy = glb_extension(glb, object, "KHR_materials_pbrSpecularGlossiness");
@@ -146,7 +148,8 @@ static bool is_opaque(const lam_material *m)
 
 static void put_alpha(struct glb *glb, json_t *object, const lam_material *m, bool classic)
 {
-    // A classic material blends whatever its opacity is; glTF's viewers sort such surfaces, so it says so only if it must.
+    // A classic material may always blend. Viewers sort such surfaces of glTF, so the file declares blending only if it
+    // is needed.
     bool blends = m->alpha_mode == LAM_ALPHA_BLEND && !(classic && is_opaque(m));
     if (blends || m->alpha_mode == LAM_ALPHA_MASK)
         glb_set(glb, object, "alphaMode", json_string(blends ? "BLEND" : "MASK"));

@@ -1,4 +1,4 @@
-// glb_meshes.c: writes meshes in the form of glTF: one index for all attributes of a corner, and a primitive for each
+// glb_meshes.c: writes meshes in the layout of glTF: one index for all attributes of a corner, and a primitive for each
 // part.
 #include "glb.h"
 
@@ -6,7 +6,7 @@
 
 enum { FLOAT = 5126, UNSIGNED_INT = 5125, UNSIGNED_BYTE = 5121, ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963 };
 
-// Returns whether all attributes already have one number: as files of glTF and PLY are read.
+// Returns whether all attributes already share one index, as in meshes read from glTF and PLY files.
 static bool has_one_number(const lam_mesh *m)
 {
     bool own = m->normal_indices || m->texcoord_indices || m->second_texcoord_indices || m->tangent_indices ||
@@ -17,7 +17,7 @@ static bool has_one_number(const lam_mesh *m)
            (!m->tangents || m->tangent_count == m->vertex_count) && (!m->colors || m->color_count == m->vertex_count);
 }
 
-// The vertices to write: the vertices of the mesh, or shared ones.
+// The vertices to write: the mesh's own, or merged ones.
 struct vertices {
     const lam_mesh *mesh;
     bool as_they_are;
@@ -37,7 +37,7 @@ static int add_accessor(struct glb *glb, int view, int component, const char *ty
                              (json_int_t)count, "type", type));
 }
 
-// Returns an attribute of floats.
+// Writes an attribute of floats. Returns its accessor.
 static int add_floats(struct glb *glb, const struct vertices *v, const float *items, const uint32_t *own, int width)
 {
     static const char *const types[] = {NULL, NULL, "VEC2", "VEC3", "VEC4"};
@@ -59,7 +59,7 @@ static int add_floats(struct glb *glb, const struct vertices *v, const float *it
     return add_accessor(glb, view, FLOAT, types[width], v->count);
 }
 
-// The smallest and largest position, which the standard requires.
+// Sets the smallest and largest position, which the standard requires.
 static void set_bounds(struct glb *glb, const struct vertices *v, int accessor)
 {
     float low[3] = {0}, high[3] = {0};
@@ -79,7 +79,7 @@ static uint32_t color_of(const struct vertices *v, uint32_t vertex)
     return v->as_they_are ? vertex : export_color_element(v->mesh, v->shared.corners[vertex]);
 }
 
-// Colours are linear in glTF: linear bytes remain bytes.
+// Colours in glTF are linear; linear bytes remain bytes.
 static int add_colors(struct glb *glb, const struct vertices *v)
 {
     const lam_mesh *m = v->mesh;
@@ -126,7 +126,7 @@ static void add_indices(struct glb *glb, const struct vertices *v, struct glb_ar
     free(numbers);
 }
 
-// Writes the arrays of a mesh, once.
+// Writes the arrays of a mesh, if that has not happened yet.
 static bool write_arrays(struct glb *glb, int index)
 {
     const lam_mesh *m = scene_mesh(glb->e->scene, index);

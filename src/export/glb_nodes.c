@@ -1,9 +1,9 @@
-// glb_nodes.c: writes objects, lights (KHR_lights_punctual) and cameras as nodes, each with its own matrix.
+// glb_nodes.c: writes objects, lights (KHR_lights_punctual) and cameras as nodes with a matrix.
 #include "glb.h"
 
 #include "linear.h"
 
-// Multiplies all matrices by a rotation of the scene's up axis to y.
+// Rotates a matrix from the scene's up axis to y.
 static lam_mat4 placed(const struct glb *glb, lam_mat4 m)
 {
     lam_mat4 turn = lam_mat4_identity();
@@ -64,7 +64,7 @@ static bool add_object(struct glb *glb, const lam_object *object)
 
 // --- lights
 
-// A frame whose third axis is −direction, of its length; the others have that length too.
+// Returns a frame whose third axis is −direction and whose other axes have the same length.
 static lam_mat4 looking(lam_vec3 position, lam_vec3 direction)
 {
     lam_mat4 m = lam_mat4_identity();
@@ -97,7 +97,8 @@ static void lose_fields(struct glb *glb, const lam_light *l)
         export_lose(glb->e, "cones of spot lights with an exponent become soft ones of the same angle");
 }
 
-// Candela and lux: a white surface of Lambert's law returns 1/π of the light in glTF, and all of it here.
+// Intensities are candela and lux: in glTF, a white Lambertian surface returns 1/π of the light; here it returns all of
+// it.
 static json_t *light(struct glb *glb, const lam_light *l)
 {
     static const char *const words[LAM_LIGHT_TYPE_COUNT] = {
@@ -159,7 +160,7 @@ static void add_camera(struct glb *glb, const lam_camera *c, const char *name)
         m.m[0][0] = x.x, m.m[1][0] = x.y, m.m[2][0] = x.z;
         m.m[0][1] = y.x, m.m[1][1] = y.y, m.m[2][1] = y.z;
     }
-    if (!(near_plane > 0) && !(far_plane > 0)) { // fitted to the scene: glTF needs a number
+    if (!(near_plane > 0) && !(far_plane > 0)) { // fitted to the scene, but glTF needs a number
         lam_vec3 centre;
         double radius;
         lam_scene_sphere(glb->e->scene, -1, &centre, &radius);

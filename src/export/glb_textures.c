@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// Two pictures with equal bytes are stored once: a picture that a file uses both as colours and as numbers was read
+// Pictures with equal bytes are stored once, because a picture that a file uses both as colours and as numbers was read
 // twice.
 static bool is_same(const lam_texture *a, const lam_texture *b)
 {
@@ -17,7 +17,7 @@ static bool is_same(const lam_texture *a, const lam_texture *b)
            memcmp(a->bytes, b->bytes, (size_t)x->width * (size_t)x->height * (size_t)a->channels) == 0;
 }
 
-// Returns the number of a texture's image, or −1 if it cannot be written.
+// Returns the index of a texture's image, or −1 if it cannot be written.
 static int image_of(struct glb *glb, const lam_texture *texture)
 {
     for (int i = 0; i < glb->pictures.count; i++) {
@@ -41,7 +41,7 @@ static int image_of(struct glb *glb, const lam_texture *texture)
 
 static int wrap_code(lam_wrap wrap) { return wrap == LAM_WRAP_CLAMP ? 33071 : wrap == LAM_WRAP_MIRROR ? 33648 : 10497; }
 
-// Returns the number of the sampler; −1: the default one, which repeats and filters between levels.
+// Returns the index of the sampler, or −1 for the default, which repeats and filters between levels.
 static int sampler_of(struct glb *glb, const lam_texture_map *map)
 {
     static const int minify[2][3] = {{9987, 9985, 9729}, {9986, 9984, 9728}}; // linear, nearest; by lam_mip
@@ -72,7 +72,7 @@ static int texture_of(struct glb *glb, const lam_texture_map *map, int image)
     return glb_add(glb, glb->textures, object);
 }
 
-// KHR_texture_transform: the matrix (c·sx, s·sy, x; −s·sx, c·sy, y) as offset, rotation and scale.
+// Writes KHR_texture_transform: the matrix (c·sx, s·sy, x; −s·sx, c·sy, y) as offset, rotation and scale.
 static void put_transform(struct glb *glb, json_t *info, const lam_texture_map *map)
 {
     double m[2][3];

@@ -1,4 +1,4 @@
-// glb_tree.c: builds the trees of a glTF file's JSON, and its buffer.
+// glb_tree.c: builds the JSON of a glTF file, and its buffer.
 #include "glb.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// glb_write.c: writes the container of a scene in binary glTF 2.0.
+// glb_write.c: writes a scene as a binary glTF 2.0 file.
 #include "glb.h"
 
 #include "fail.h"
@@ -43,7 +43,7 @@ static void set_list(struct glb *glb, json_t *object, const char *key, json_t *l
         glb_set(glb, object, key, json_incref(list));
 }
 
-// asset.thumbnail: an index into `images` (draft of glTF 2.1).
+// Adds asset.thumbnail: an index into `images` (draft of glTF 2.1).
 static bool add_thumbnail(struct glb *glb)
 {
     const lam_image *picture = glb->e->params->thumbnail;

@@ -174,7 +174,7 @@ static bool put_material(struct exporting *e, struct text *text, const lam_mater
     return put_maps(e, text, m, pictures, flips);
 }
 
-// Returns the name of a material, which no other has.
+// Makes a name for a material that no other material has.
 static const char *name_of(struct exporting *e, const char *const *names, int index)
 {
     const lam_material *m = export_material(e, index);
@@ -192,7 +192,7 @@ static const char *name_of(struct exporting *e, const char *const *names, int in
     return arena_string(e->arena, name);
 }
 
-// Finds the materials that the parts use, and whether t runs downwards in their texture coordinates. Returns the number
+// Finds the materials that the parts use, and whether their texture coordinates need flipping in t. Returns the number
 // of these materials.
 static int find_used(struct exporting *e, bool *used, bool *flips)
 {
@@ -222,7 +222,7 @@ bool mtl_write(struct exporting *e, struct mtl_names *out)
         return export_no_memory(e, sizeof *pictures);
     *out = (struct mtl_names){.names = names, .count = materials};
     int count = find_used(e, used, &out->flips);
-    if (count == used[materials]) // only the default material
+    if (count == used[materials]) // only the default material is used
         return true;
     struct text text = {0};
     bool ok = true;

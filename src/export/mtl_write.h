@@ -5,10 +5,10 @@
 #include "export.h"
 
 struct mtl_names {
-    const char *file;         // of the materials; NULL: there is none
-    const char *const *names; // of each material of the scene, then of the default one; NULL: it is not used
+    const char *file;         // the file of the materials, or NULL
+    const char *const *names; // the names of the scene's materials, then of the default one; NULL if not used
     int count;
-    // The texture coordinates follow glTF, with t downwards: t is written as 1 − t.
+    // The texture coordinates follow glTF, in which t points down, so t is written as 1 − t.
     bool flips;
 };
 

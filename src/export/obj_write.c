@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// The numbers of the next vertex, texture coordinate and normal, from 1. Numbers continue from one kind of items to the
+// The indices of the next vertex, texture coordinate and normal, from 1. They continue from one kind of items to the
 // next.
 struct firsts {
     unsigned long position, texcoord, normal;
@@ -17,8 +17,8 @@ static void put_vector(struct text *text, const char *word, lam_vec3 p)
     export_line(text, word, (double[3]){p.x, p.y, p.z}, 3);
 }
 
-// Collects the colour of each vertex; NULL: there are none. OBJ stores one colour for each position, so a vertex whose
-// corners have different colours gets none.
+// Collects the colour of each vertex; *out is NULL if there are none. OBJ stores one colour per position, so a vertex
+// whose corners have different colours gets none.
 static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
 {
     *out = NULL;

@@ -67,7 +67,7 @@ static const char *unit_of(const struct exporting *e)
     return "millimeter";
 }
 
-// The materials of the parts in the order of their first use; `numbers` receives each one's place.
+// Adds the materials of the parts in the order of their first use; `numbers` receives the index of each.
 static bool add_materials(struct exporting *e, struct text *text, const lam_mesh *m, int *numbers)
 {
     int count = 0, materials = e->scene->materials.count;
@@ -157,7 +157,7 @@ static const char relations[] =
 
 static bool add_entry(const struct library *zip, zip_t *archive, const char *name, const void *bytes, size_t size)
 {
-    enum { FIRST_DAY = 0x21 }; // of 1980, so that the same model gives the same bytes
+    enum { FIRST_DAY = 0x21 }; // 1 January 1980, so that the same model gives the same bytes
     zip_source_t *source = zip->zip_source_buffer(archive, bytes, size, 0);
     zip_int64_t index = source ? zip->zip_file_add(archive, name, source, ZIP_FL_ENC_UTF_8) : -1;
     if (source && index < 0)
@@ -167,12 +167,12 @@ static bool add_entry(const struct library *zip, zip_t *archive, const char *nam
 
 static bool read_back(const struct library *zip, zip_source_t *source, struct text *text)
 {
-    char piece[16384];
+    char chunk[16384];
     if (zip->zip_source_open(source) != 0)
         return false;
     zip_int64_t got;
-    while ((got = zip->zip_source_read(source, piece, sizeof piece)) > 0)
-        text_add_part(text, piece, (size_t)got);
+    while ((got = zip->zip_source_read(source, chunk, sizeof chunk)) > 0)
+        text_add_part(text, chunk, (size_t)got);
     zip->zip_source_close(source);
     return got == 0 && !text->failed;
 }

@@ -14,13 +14,13 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// Triangle numbers leave the top bit to the device.
+// Devices use the top bit of triangle numbers for other purposes.
 #define TRIANGLES_MAX 0x7fffffffu
 
 static float rounded(double x) { return (float)x; }
 
-// Samples per pixel of pictures of up to TINY_SIDE² pixels, of up to SMALL_SIDE², and of larger ones. With fewer
-// samples, thin wires break into dashes.
+// Samples per pixel of pictures up to TINY_SIDE² pixels, up to SMALL_SIDE², and larger. With fewer samples, thin wires
+// break into dashes.
 enum { TINY_SIDE = 256, TINY_SAMPLES = 16, SMALL_SIDE = 512, SMALL_SAMPLES = 8, LARGE_SAMPLES = 4 };
 
 int lam_default_samples(int width, int height)
@@ -31,8 +31,8 @@ int lam_default_samples(int width, int height)
                                                : LARGE_SAMPLES;
 }
 
-// Sets the planes to enclose all objects, with a margin. With perspective the near distance is at least 1/10000 of the
-// far one.
+// Sets the planes to enclose all objects with a margin. In perspective, the near distance is at least 1/10000 of the
+// far distance.
 static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthographic, double *near_plane,
                        double *far_plane)
 {
@@ -55,7 +55,7 @@ static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthog
     *far_plane = farthest + margin;
     *near_plane = nearest - margin;
     if (!orthographic) {
-        if (*far_plane <= 0) // every object is behind the eye
+        if (*far_plane <= 0) // all objects are behind the eye
             *far_plane = 1;
         if (*near_plane < *far_plane * 1e-4)
             *near_plane = *far_plane * 1e-4;
@@ -73,7 +73,7 @@ static lam_mat4 to_pixels(const lam_mat4 *projection, int width, int height)
     return m;
 }
 
-// Places a mesh under the transform of an object.
+// Sets up the draw of a mesh with the transform of an object.
 static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_object *object, uint32_t first_id,
                        const lam_mat4 *view, const lam_mat4 *pixel)
 {
@@ -114,21 +114,21 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
 
 static int material_index(int scene_index) { return scene_index < 0 ? 0 : scene_index + 1; }
 
-// Returns whether some point of a material is translucent or masked. `varies`: by the mesh's colours.
+// Returns whether a material has translucent or masked points. `varies` means that the mesh's colours have alphas.
 static bool sees_through(const lam_material *material, bool varies)
 {
     varies |= material->maps[LAM_MAP_OPACITY] || texture_map_translucent(material->maps[LAM_MAP_DIFFUSE]);
     return material->alpha_mode != LAM_ALPHA_OPAQUE && (varies || material->diffuse.a < 1);
 }
 
-// Returns whether light goes through a material.
+// Returns whether a material transmits light.
 static bool transmits(const struct frame *frame, int material, lam_reflection model)
 {
     return frame_is_physical(model) && frame_layers(frame, frame->materials[material]) & LAYER_TRANSMISSION;
 }
 
-// Returns whether what is behind a material is blurred or bent: not at an index of 1, which is that of air, nor at 0,
-// which lets no light in.
+// Returns whether a material blurs or refracts the picture behind it. An index of refraction of 1 (air) or 0 (which
+// admits no light) does not.
 static bool refracts(const struct frame *frame, int material, lam_reflection model)
 {
     const lam_material *m = frame->materials[material];
@@ -170,7 +170,7 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
         bool masks = frame->materials[front]->alpha_mode == LAM_ALPHA_MASK ||
                      (!draw->one_sided && frame->materials[back]->alpha_mode == LAM_ALPHA_MASK);
         bool passes_rays = translucent;
-        if (output_is_value(frame->settings.output)) // overdraw counts triangles
+        if (output_is_value(frame->settings.output)) // overdraw counts triangles, not lines
             translucent = translucent && masks && frame->settings.output != LAM_OUTPUT_OVERDRAW;
         bool shows = !output_is_value(frame->settings.output);
         frame->transmits |= passes && shows;
@@ -192,8 +192,8 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
     }
 }
 
-// Adds the ground as the frame's last triangles, lit like the scene: under an environment that lights physical materials it is
-// one of them, else it is matt.
+// Adds the ground as the frame's last triangles. It is lit like the scene: as a physical material under an environment
+// that lights such materials, otherwise as a matt classic one.
 static bool add_ground(struct frame *frame, uint64_t next, bool physical, const lam_mat4 *view, const lam_mat4 *pixel,
                        struct call_control *call, lam_error *error)
 {
@@ -244,7 +244,7 @@ static bool add_ground(struct frame *frame, uint64_t next, bool physical, const 
 // Reserves storage for the frame's arrays, and divides it among them.
 static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct call_control *call, lam_error *error)
 {
-    size_t objects = (size_t)scene->objects.count + 1, ranges = 1, strokes = 0, // with the ground
+    size_t objects = (size_t)scene->objects.count + 1, ranges = 1, strokes = 0, // the ground included
         lights = (size_t)scene->lights.count + LAM_RIG_LIGHTS_MAX + 1;
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
@@ -279,7 +279,7 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
 // Returns whether an output contains the light of the environment.
 static bool shows_reflection(lam_output output) { return output_is_picture(output) || output == LAM_OUTPUT_REFLECTION; }
 
-// Returns whether physical materials are lit as such.
+// Returns whether physical materials are lit with a physical model.
 static bool uses_physical(const struct frame *frame)
 {
     return frame->settings.reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->settings.reflection);
@@ -307,7 +307,7 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     return true;
 }
 
-// Facet normals need not be computed before lighting, if each is read only for points of its own triangle.
+// Facet normals need no computation before lighting if each is used only for points of its own triangle.
 static void leave_facets(struct frame *frame)
 {
     if (!frame->makes_normals || frame->settings.shading != LAM_SHADING_PHONG || frame_has_rays(frame))
@@ -333,7 +333,7 @@ static bool has_color_maps(const struct frame *frame)
     return false;
 }
 
-// Selects the method of ambient occlusion, after the lights are known.
+// Selects the method of ambient occlusion. The lights must be known.
 static void set_occlusion(struct frame *frame, const lam_scene *scene, bool physical)
 {
     lam_draw_params *settings = &frame->settings;
@@ -344,7 +344,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
         wanted |= lam_scene_light(scene, i)->occluded > 0;
     for (int i = 0; i < frame->rig_count; i++)
         wanted |= frame->rig[i].occluded > 0;
-    bool lit = false; // some opaque surface is lit
+    bool lit = false; // whether an opaque surface is lit
     for (int i = 0; i < frame->range_count; i++)
         lit |= frame->ranges[i].reflection != LAM_REFLECTION_NONE &&
                (!frame->ranges[i].translucent || frame->draws[frame->ranges[i].draw].ground);
@@ -370,7 +370,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     if (frame->cavity_radius > 0 && settings->occlusion == LAM_OCCLUSION_OFF)
         settings->occlusion = LAM_OCCLUSION_SCREEN;
     if (!(half > 0))
-        settings->occlusion = LAM_OCCLUSION_OFF; // a scene without extent
+        settings->occlusion = LAM_OCCLUSION_OFF; // the scene has no extent
 }
 
 static void resolve_settings(struct frame *frame, const lam_draw_params *params, int width, int height)
@@ -392,7 +392,7 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
         settings->reflection = LAM_REFLECTION_AUTO;
 }
 
-// Sets the planes of the projection, and the distances that --show depth shows black and white.
+// Sets the planes of the projection, and the distances that --show depth shows as black and white.
 static void set_planes(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, double near_plane,
                        double far_plane)
 {
@@ -455,12 +455,13 @@ static void leave_normals(struct frame *frame)
         frame->makes_normals = false;
 }
 
-// What is behind glass: the background, and where points of eye space are in the picture.
+// Sets the background for glass, and the matrix from eye space to the picture.
 static void set_glass(struct frame *frame, const lam_mat4 *pixel)
 {
     static const lam_rgba white = {1, 1, 1, 1};
     bool clear =
-        frame->settings.background.a <= 0 && output_is_picture(frame->settings.output); // a single term excludes it
+        // a single term excludes the background
+        frame->settings.background.a <= 0 && output_is_picture(frame->settings.output);
     const lam_rgba *back = clear ? &white : &frame->settings.background;
     for (int c = 0; c < 3; c++)
         frame->glass_background[c] = (&back->r)[c] * back->a / frame->exposure;
@@ -525,7 +526,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     set_tone(frame, physical);
     frame->environment_lights = physical && frame->environment && shows_reflection(frame->settings.output);
     leave_normals(frame);
-    // If a classic model lights the materials that the environment would light, they are lit by the studio rig.
+    // If the materials that the environment would light are lit by a classic model, the studio rig lights them.
     bool by_rig = settings->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
     if (!frame_lights_build(frame, scene, by_rig ? LAM_RIG_STUDIO : settings->rig,
                             output_is_one_light(frame->settings.output) ? settings->output_light : -1, &view, error))

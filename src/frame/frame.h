@@ -11,7 +11,7 @@
 
 #include <lambent/device.h>
 
-// One object: a mesh under a transform.
+// One object: a mesh with a transform.
 struct frame_draw {
     const lam_mesh *mesh;
     int object; // index in the scene
@@ -21,10 +21,10 @@ struct frame_draw {
     float eye[3][4];     // mesh positions to eye space
     float normal[3][3];  // mesh normals to eye space, up to a positive factor
     float tangent[3][3]; // mesh directions to eye space, up to a positive factor
-    // With rays only: mesh positions to world space, mesh normals to world space up to a positive factor.
+    // With rays only: transforms of mesh positions and normals to world space; the normals up to a positive factor.
     double world[3][4], world_normal[3][3];
-    // With rays only: how far along each axis of the world a vertex may be from where its file means it, if the numbers there
-    // are right to one unit in the last place of a float: 2⁻²³ Σ_j |world_ij| max |x_j|.
+    // With rays only: the largest error of a vertex along each world axis, if the numbers in its file are exact to one
+    // unit in the last place of a float: 2⁻²³ Σ_j |world_ij| max |x_j|.
     double rounding[3];
     bool mirrored; // the transform reverses the winding
     bool one_sided;
@@ -35,9 +35,9 @@ struct frame_draw {
     // shadows.
     bool ground;
     lam_cull cull;
-    // > 0: the mesh has no normals; the device computes the needed ones, with this crease angle.
+    // > 0: the mesh has no normals; the device computes the visible ones with this crease angle.
     double crease_rad;
-    // The same with a crease at every edge, where each point has its facet's normal and nothing else reads it.
+    // As crease_rad, with a crease at every edge: each point uses its facet's normal, and nothing else reads it.
     bool facets;
 };
 
@@ -46,31 +46,32 @@ struct frame_draw_range {
     uint32_t first_id, count;
     int draw;
     int front, back;           // indices into materials
-    bool translucent;          // some opacity may be below 1, or it transmits: the triangles are blended or masked
-    lam_reflection reflection; // of both sides; never AUTO
-    bool passes_rays;          // translucent, whatever the output
-    bool transmits;            // light goes through it (LAYER_TRANSMISSION), and the output shows it
+    bool translucent;          // an opacity may be below 1, or it transmits: the triangles are blended or masked
+    lam_reflection reflection; // the model for both sides, never AUTO
+    bool passes_rays;          // translucent for rays, for every output
+    bool transmits;            // the material transmits light (LAYER_TRANSMISSION), and the output shows that
 };
 
 // A point, directional or spot light in eye space.
 struct frame_light {
     int kind, falloff; // LIGHT_…, FALLOFF_…
     float position[3];
-    float axis[3]; // unit, in the direction in which the light travels
+    float axis[3]; // unit, direction of travel of the light
     float attenuation[3];
-    float inverse_range; // 0: none
+    float inverse_range; // 0 if there is none
     float cos_cutoff, exponent;
     float cos_outer, inverse_width;
-    float ambient[3]; // with gl1: the light's own ambient term, which the frame's sum then leaves out
+    float ambient[3]; // the light's own ambient term with gl1; otherwise it is part of the frame's sum
     float diffuse[3], specular[3];
-    float occluded; // share that ambient occlusion dims
-    int light;      // index in the scene; −1: a light of the rig
+    float occluded; // share of the light that ambient occlusion dims
+    int light;      // the index in the scene; −1 for a light of the rig
     const lam_light *source;
     // With shadows only.
     bool casts_shadows;
     double world_position[3]; // point, spot
-    double world_axis[3];     // unit, the direction in which the light travels
-    double radius;            // point, spot: of the ball; directional: of the disc at distance 1; 0: a point
+    double world_axis[3];     // unit, direction of travel of the light
+    // the radius of a sphere (point, spot) or of a disc at distance 1 (directional); 0 is a point
+    double radius;
 };
 
 // Sets the kind, falloff, attenuation, range and cone of a light, and zeroes position, axis and colours.
@@ -79,80 +80,86 @@ void frame_light_init(struct frame_light *out, const lam_light *light);
 struct frame_hemisphere {
     float up[3]; // unit, eye space
     float sky[3], ground[3];
-    int light; // as in frame_light
+    int light; // same as in frame_light
     const lam_light *source;
 };
 
 // The ground under the scene (frame_ground.h).
 struct frame_ground {
-    lam_ground kind; // NONE: there is none, or its under side is seen
-    // World space: the place under the middle of the scene, and unit vectors.
+    lam_ground kind; // NONE if there is no ground, or only its underside is visible
+    // World space: the point under the scene's centre, and unit vectors.
     lam_vec3 middle, right, up, front;
-    double whole, end;                          // distances from the middle at which fading begins and ends
+    double whole, end;                          // distances from `middle` at which fading begins and ends
     double square;                              // the side of a square
     float eye_middle[3], eye_up[3], eye_height; // eye space: the plane's points p have p·eye_up = eye_height
     lam_mesh mesh;
     lam_material material;
-    uint32_t first_id; // of its triangles, the frame's last
+    uint32_t first_id; // the first of its triangles, which are the frame's last
     struct buffer memory;
 };
 
 // The edges of surfaces that the frame draws as lines (src/edges).
 enum { EDGE_STYLE_WIREFRAME = 0, EDGE_STYLE_FEATURE, EDGE_STYLES };
 struct frame_edges {
-    double min_cosine; // between the normals of two faces that make no crease
+    double min_cosine; // smallest cosine between the normals of two faces without a crease
     double width[EDGE_STYLES];
     lam_rgba color[EDGE_STYLES]; // linear, not premultiplied
     double pixel[4][4];          // world space to pixels, as frame_draw.pixel
 };
 
 struct frame {
-    struct scene_token *token; // the scene's; not retained
+    struct scene_token *token; // the scene's token, without a reference
     int width, height;
-    // The draw parameters, each with a value in place of 0 for its default. Decided here, and never AUTO: samples, tone, stage,
-    // occlusion; `shadows`: a light casts shadows, and the output shows it; `reflection` may be AUTO, the material's own
-    // (frame_draw_range.reflection); a light_cutoff of 0 skips no light. edge_angle_rad and occlusion_radius stay as given.
+    // The draw parameters with defaults resolved. samples, tone, stage and occlusion are never AUTO. `shadows` is set
+    // if a light casts shadows and the output shows it. `reflection` may be AUTO, the material's own model
+    // (frame_draw_range.reflection). A light_cutoff of 0 skips no light. edge_angle_rad and occlusion_radius are
+    // unchanged.
     lam_draw_params settings;
     float exposure;            // 2^stops
-    int point_triangles;       // of each point (frame_strokes.h)
-    double eye_to_world[3][4]; // with rays only
-    bool draws_edges;          // then `edges` is set
+    int point_triangles;       // triangles per point (frame_strokes.h)
+    double eye_to_world[3][4]; // only set with rays
+    bool draws_edges;          // `edges` is set
     struct frame_edges edges;
-    bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer LAM_VIEWER_INFINITE
+    bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer is LAM_VIEWER_INFINITE
     bool orthographic;
-    float pixel_size;       // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
-    float occlusion_radius; // eye units; 0: none at this radius
-    float cavity_radius;    // eye units; 0: no cavity
-    bool ridges;            // the cavity's ridges are lighter
-    bool translucent;       // any range is
-    bool passes_rays;       // any range does
-    bool masked;            // and one has a material of LAM_ALPHA_MASK
-    bool tints_rays;        // any range transmits, whatever the output: the material colours the light that passes
-    bool transmits;         // and one has LAYER_TRANSMISSION: layers let each channel through by a share of its own
-    bool refracts;          // and one is rough or thick: it blurs and bends what is behind it (src/cpu/shade/behind.h)
-    bool makes_normals;     // a draw has a crease_rad, and the output needs its normals
-    // What transmitting layers are in front of if no surface is behind them: colour times alpha over the exposure, and alpha.
-    // White if the background is transparent and the output the picture: the colour of glass is then that over white, the alpha 1 − its smallest channel.
+    float pixel_size;       // size of a pixel in eye units, at distance 1 or, if orthographic, everywhere
+    float occlusion_radius; // eye units; 0 if there is none at this radius
+    float cavity_radius;    // eye units; 0 if there is no cavity
+    bool ridges;            // cavity shading lightens ridges
+    bool translucent;       // whether any range is translucent
+    bool passes_rays;       // whether any range has passes_rays
+    bool masked;            // whether any range has a material of LAM_ALPHA_MASK
+    // whether any range transmits for any output, so that its material colours the passing light
+    bool tints_rays;
+    bool transmits; // whether any range transmits, so that layers need a transmittance per channel
+    // whether any range is rough or thick glass, which blurs and refracts the picture behind it
+    // (src/cpu/shade/behind.h)
+    bool refracts;
+    bool makes_normals; // whether a draw has a crease_rad, and the output needs its normals
+    // The background of transmitting layers without a surface behind them: colour times alpha divided by the exposure,
+    // and alpha. It is white if the background is transparent and the output is the picture: glass then has its colour
+    // over white, and the alpha 1 − its smallest channel.
     float glass_background[4];
     float eye_pixel[3][4]; // eye space to pixels: rows X·w, Y·w, w
-    // Depth key of a point: perspective 1/w; orthographic (1 − z/w)/2. Larger is nearer; affine in the window.
+    // The depth key of a point: 1/w in perspective; (1 − z/w)/2 if orthographic. Larger is nearer; it is affine in the
+    // window.
     float near_plane, far_plane;
-    // LAM_OUTPUT_DEPTH: the range of distances for 8 bits: the scene's vertices between the planes.
+    // LAM_OUTPUT_DEPTH: the range of distances for 8 bits: the scene's vertices, clipped to the planes.
     float depth_near, depth_far;
 
     struct frame_draw *draws;
     int draw_count;
-    struct frame_draw_range *ranges; // by first_id, without gaps
+    struct frame_draw_range *ranges; // sorted by first_id, without gaps
     int range_count;
     uint32_t triangle_count;
-    // 0: the default material; 1 + i: the scene's; then, where some are the back of a front that another kind of model
-    // lights, all of them again for such backs; then, where unlit lines or points have emission, all of them again for
-    // these. Each is of the kind that its model lights.
+    // The default material, then material i of the scene at 1 + i. All materials are repeated if a front is lit by one
+    // kind of model and its back by the other, and once more if unlit lines or points have emission. Each copy has the
+    // kind that its model lights.
     const lam_material **materials;
-    int material_count, scene_material_count; // all; without those backs
-    lam_material *converted;                  // materials of the other kind than the scene's
+    int material_count, scene_material_count; // all materials; without those for backs
+    lam_material *converted;                  // materials converted to the other kind
     int converted_count;
-    lam_mesh *stroke_meshes; // one for each draw of lines or points
+    lam_mesh *stroke_meshes; // one per draw of lines or points
     int stroke_mesh_count;
     struct frame_light *lights;
     int light_count;
@@ -160,45 +167,47 @@ struct frame {
     int hemisphere_count;
     float ambient[3]; // La_global + Σ La of all lights (gl1: of lights without a position only)
 
-    const lam_environment *environment; // NULL: none
-    bool environment_lights;            // it lights a range of a physical model (environment_light.h)
-    float to_environment[3][3];         // directions in eye space to the environment's axes
+    const lam_environment *environment; // may be NULL
+    bool environment_lights;            // whether it lights a range with a physical model (environment_light.h)
+    float to_environment[3][3];         // from eye space to the environment's axes
 
-    // Its brightest lamp is a light of its own that casts shadows: rig[rig_count], and not in the environment's diffuse light.
+    // The environment's brightest lamp is a separate light that casts shadows: rig[rig_count]. The environment's
+    // diffuse light excludes it.
     bool lamp_apart;
 
     lam_light rig[LAM_RIG_LIGHTS_MAX + 1];
     int rig_count;
     lam_material default_material;
     struct frame_ground ground;
-    struct buffer storage; // of the arrays
-    struct buffer strokes; // of the arrays of stroke_meshes
+    struct buffer storage; // memory of the arrays
+    struct buffer strokes; // memory of the arrays of stroke_meshes
     size_t strokes_used;   // bytes
 };
 
-// Fails with LAM_BAD_ARGUMENT, a number is out of its range (frame_check.c).
+// Checks a camera's numbers (frame_check.c). Fails with LAM_BAD_ARGUMENT.
 bool frame_camera_check(const lam_camera *camera, lam_error *error);
 bool frame_params_check(const lam_draw_params *params, lam_error *error);
 
 // Returns the reflection model that lights a material; never AUTO.
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
 
-// Returns whether rays are sent from lit points; edges send others (draws_edges).
+// Returns whether lit points send rays; edges send other rays (draws_edges).
 static inline bool frame_has_rays(const struct frame *frame)
 {
     return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
 }
 
-// Fills in the data of draws and lights that rays need, once those are built, and whether any light casts shadows.
+// Fills the data of draws and lights that rays need, after these are built, and determines whether any light casts
+// shadows.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
 
-// Decides about edges, and fills in their data; `pixel`: eye space to pixels.
+// Determines the edges to draw, and fills their data. `pixel` is the matrix from eye space to pixels.
 void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
 
 // Returns whether shadow rays meet a draw's triangles.
 static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }
 
-// A position of a draw's mesh in world space.
+// Transforms a position of a draw's mesh to world space.
 static inline void frame_to_world(const struct frame_draw *draw, const float from[3], double to[3])
 {
     double x = (double)from[0], y = (double)from[1], z = (double)from[2];
@@ -209,64 +218,64 @@ static inline void frame_to_world(const struct frame_draw *draw, const float fro
 // Returns whether a model lights physical materials.
 bool frame_is_physical(lam_reflection model);
 
-// Returns the greatest number of materials that frame_materials_build and frame_back_material convert to the other
-// kind.
+// Returns the most materials that frame_materials_build and frame_back_material convert to the other kind.
 size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene);
 void frame_materials_build(struct frame *frame, const lam_scene *scene);
-// Returns the layers of a material that the frame draws: LAYER_…. Light goes through surfaces under Phong shading only.
+// Returns the layers of a material that the frame draws: LAYER_…. Transmission works only with Phong shading.
 int frame_layers(const struct frame *frame, const lam_material *material);
 
-// Returns the index of a back's material beside this front.
+// Returns the index of the material for backs with this front.
 int frame_back_material(struct frame *frame, int front, int back);
 
-// Returns the index of the material of unlit lines and points: with the emission added to the diffuse colour. If nobody
-// chose a colour, neither for the material nor for the vertices (`colored`), it is a grey that can be seen, unless the
-// background is dark.
+// Returns the index of the material for unlit lines and points, whose emission is added to the diffuse colour. If
+// neither the material nor the vertices (`colored`) have a chosen colour, it is a visible grey, or the material itself
+// on a dark background.
 int frame_stroke_material(struct frame *frame, int front, bool colored);
 
-// The colours that lights are multiplied by: kd and ks; of a physical material base (1 − metallic), and 1, since Fresnel's
-// factor comes later (fresnel_of).
+// Gets the colours that lights are multiplied by: kd and ks. For a physical material they are base (1 − metallic), and
+// 1, since the Fresnel factor is applied later (fresnel_of).
 void frame_material_colors(const lam_material *material, float kd[3], float ks[3]);
 
 // Returns whether a classic material of the frame was made from a metallic-roughness one.
 bool frame_material_is_converted(const struct frame *frame, const lam_material *material);
 
-// Returns the greatest S of a material's lobe, with Fresnel's factor.
+// Returns the largest S of a material's lobe, including the Fresnel factor.
 float frame_lobe_max(const lam_material *material);
 
 // Returns the highlight exponent of a material, after match_highlights and gl1.
 float frame_shininess(const struct frame *frame, const lam_material *material);
 
-// Outputs of a single light; the frame then has only that light.
+// Returns whether the output shows a single light; the frame then has only that light.
 static inline bool output_is_one_light(lam_output output)
 {
     return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;
 }
 
-// Returns whether each pixel of an output shows the value of its nearest surface, whatever its opacity; masked surfaces
-// keep their holes.
+// Returns whether each pixel of an output shows a property of its nearest surface, regardless of its opacity; masked
+// surfaces keep their holes.
 static inline bool output_is_value(lam_output output)
 {
     return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED;
 }
 
-// Outputs made from the complete picture.
+// Returns whether an output is made from the complete picture.
 static inline bool output_is_picture(lam_output output)
 {
     return output == LAM_OUTPUT_PICTURE || output == LAM_OUTPUT_CLIPPED;
 }
 
-// Numbers of the material at a point: no light, whatever the shading method.
+// Returns whether an output is a property of the material at a point, without light, for every shading method.
 static inline bool output_is_material(lam_output output)
 {
     return output >= LAM_OUTPUT_BASE_COLOR && output <= LAM_OUTPUT_LOD;
 }
 
-// The maps in the order in which LAM_OUTPUT_LOD selects a material's first.
+// The maps in the order in which LAM_OUTPUT_LOD selects the first one.
 enum { LOD_MAPS = 9 };
 extern const lam_map frame_lod_maps[LOD_MAPS];
 
-// Vectors and cosines, evaluated where the lighting is: the shading method decides about interpolation.
+// Returns whether an output is a vector or a cosine, evaluated where the lighting is: the shading method determines
+// interpolation.
 static inline bool output_is_vector(lam_output output)
 {
     return output == LAM_OUTPUT_NORMALS || output == LAM_OUTPUT_TANGENTS || output == LAM_OUTPUT_N_L ||

@@ -6,18 +6,18 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// In radii of the scene's sphere: the distances at which the ground begins to fade and ends. A catcher shows its shadow
-// alone.
+// In radii of the scene's sphere: the distances at which the ground begins and ends to fade. A catcher only shows its
+// shadow.
 #define WHOLE       3.0
 #define END         6.0
 #define CATCHER_END 4.0
-// In shares of half the picture's size from its middle: a catcher fades from here to there, so that no shadow is cut off
-// at the border. The model of a fitted camera lies inside (FILL_ON_GROUND in camera_fit.c).
+// As a fraction of half the picture's size from its centre: a catcher fades between these values, so that no shadow is
+// cut off at the border. The model of a fitted camera is inside (FILL_ON_GROUND in camera_fit.c).
 #define BORDER_FIRST 0.8
 #define BORDER_LAST  0.95
-// Its distance below the lowest point, in radii. Otherwise a flat underside would have exactly the depth of the ground.
+// The distance below the lowest point, in radii. Without it, a flat underside would have the same depth as the ground.
 #define DROP 0x1p-14
-// The sides of squares without a pattern: in shares of the ground's radius, and for a catcher.
+// The sides of squares without a checker pattern, as fractions of the ground's radius, and for a catcher.
 #define PLAIN_SQUARE   0.0625
 #define CATCHER_SQUARE 0.015625
 // The brightness of a checker's dark squares relative to its bright ones.
@@ -51,7 +51,7 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
     ground->kind = LAM_GROUND_NONE;
     lam_vec3 centre;
     double radius;
-    // A catcher is not a surface of the model: among the surface quantities, it shows only ambient occlusion.
+    // A catcher is not a surface of the model: of the surface properties, it shows only ambient occlusion.
     bool number = !lam_output_is_light(params->output) && params->output != LAM_OUTPUT_CLIPPED &&
                   params->output != LAM_OUTPUT_AMBIENT_OCCLUSION;
     if (!params->ground || (params->ground == LAM_GROUND_SHADOW && number) ||
@@ -62,8 +62,8 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
     ground->front = from_y_up(scene->up, v3(0, 0, 1));
     double height = lowest(scene, ground->right, ground->front, ground->up, centre) - DROP * radius;
     ground->middle = v3_add(centre, v3_scale(ground->up, height));
-    // The eye is either above or below the plane, and an orthographic view has one direction: the whole upper side is
-    // visible, or none of it.
+    // The eye is above or below the plane, and an orthographic view has a single direction, so the upper side is
+    // visible everywhere or nowhere.
     bool above = camera->ortho_half_height > 0
                      ? v3_dot(v3_sub(camera->target, camera->eye), ground->up) < 0
                      : v3_dot(v3_sub(camera->eye, ground->middle), ground->up) > 1e-6 * radius;
@@ -88,7 +88,8 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane)
 {
-    // The circle's distances in front of the eye: the middle's, and the radius times the sine of the view's angle to `up`.
+    // The range of distances of the circle: the distance of its centre, plus or minus the radius times the sine of the
+    // view's angle to `up`.
     lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
     double reach = 1.01 * (ground->end + 2 * ground->square) * math_sqrt(up.z * up.z < 1 ? 1 - up.z * up.z : 0);
     double nearest = -middle.z - reach, farthest = -middle.z + reach;
@@ -98,7 +99,7 @@ void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view
         *near_plane = *far_plane * 1e-4;
 }
 
-// 1 up to `first`, 0 from `last` on.
+// Returns 1 up to `first`, and 0 from `last` on.
 static double fade(double x, double first, double last)
 {
     double t = (last - x) / (last - first);
@@ -121,7 +122,7 @@ static double border_fade(const struct frame *frame, const lam_mat4 *to_pixel, l
 static int64_t whole_number(double x)
 {
     if (!(x > -1e15 && x < 1e15))
-        return 0; // squares that far from zero cannot be told apart
+        return 0; // at this distance from zero, squares cannot be distinguished
     int64_t n = (int64_t)x;
     return n - ((double)n > x);
 }
@@ -155,7 +156,7 @@ bool frame_ground_make(struct frame *frame, const lam_mat4 *view, const lam_mat4
         for (int i = -half; i < half; i++) {
             bool dark = checker && ((first_x + i + first_y + j) & 1);
             float any = 0, *p = positions + 3 * (size_t)vertices, *c = colors + 4 * (size_t)vertices;
-            for (int k = 0; k < 4; k++) { // counter-clockwise, seen from above
+            for (int k = 0; k < 4; k++) { // counter-clockwise seen from above
                 double x = (i + (k == 2 || k == 3)) * ground->square + shift_x;
                 double y = (j + (k == 1 || k == 2)) * ground->square + shift_y;
                 lam_vec3 at = v3_add(v3_scale(ground->right, x), v3_scale(ground->front, y));

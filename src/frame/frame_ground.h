@@ -4,15 +4,15 @@
 
 #include "frame.h"
 
-// Finds the ground of a frame, or none where the camera sees its under side or the scene has no extent. Sets all of
-// frame->ground but its mesh and the material.
+// Places the ground of a frame, or sets none if the camera sees its underside or the scene has no extent. It sets all
+// of frame->ground except its mesh and material.
 void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_mat4 *view);
 
-// Moves near and far planes that were fitted to the scene, so that the ground lies between them.
+// Adjusts near and far planes that were fitted to the scene, so that they include the ground.
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane);
 
-// Makes the mesh. `pixel`: from the camera's space to pixels, as in struct frame_draw.
+// Makes the mesh. `pixel` is the matrix from eye space to pixels, as in struct frame_draw.
 bool frame_ground_make(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel, struct call_control *call,
                        lam_error *error);
 

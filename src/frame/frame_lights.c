@@ -1,5 +1,5 @@
-// frame_lights.c: collects the lights of a frame in eye space: lights of the scene and the rig, and the lamp of the
-// environment.
+// frame_lights.c: collects the lights of a frame in eye space: the lights of the scene and of the rig, and the lamp of
+// the environment.
 #include "frame_lights.h"
 
 #include "environment_lamp.h"

@@ -21,7 +21,7 @@ lam_reflection frame_reflection(const struct frame *frame, const lam_material *m
     return material->physical ? LAM_REFLECTION_GGX : LAM_REFLECTION_BLINN_PHONG;
 }
 
-// Returns whether a model lights a material as it is. LAM_REFLECTION_NONE shows the diffuse colour of either kind.
+// Returns whether a model lights this kind of material. LAM_REFLECTION_NONE shows the diffuse colour of both kinds.
 static bool fits(const lam_material *material, lam_reflection model)
 {
     return model == LAM_REFLECTION_NONE || material->physical == frame_is_physical(model);
@@ -32,7 +32,7 @@ static lam_material converted(const lam_material *material, lam_reflection model
     if (frame_is_physical(model))
         return lam_material_as_physical(material);
     lam_material classic = lam_material_as_classic(material);
-    if (lobe_properties((int)model) & LOBE_MIRRORED) // its highlight at α/4 looks like the half vector's at α
+    if (lobe_properties((int)model) & LOBE_MIRRORED) // its highlight at α/4 looks like the Blinn–Phong highlight at α
         classic.shininess /= 4;
     return classic;
 }
@@ -46,7 +46,7 @@ size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *sc
         count += !fits(material, frame_reflection(frame, material));
         mixed |= material->physical != physical;
     }
-    // Each may be the material of unlit lines, or the back of an object whose front is of the other kind.
+    // Each may be the material of unlit lines, or the back of an object whose front has the other kind.
     for (int i = 0; i < scene->meshes.count; i++)
         if (mesh_is_strokes(scene_mesh(scene, i)) && !scene_mesh(scene, i)->normals) {
             count += 2 * ((size_t)scene->materials.count + 1);
@@ -72,7 +72,7 @@ void frame_materials_build(struct frame *frame, const lam_scene *scene)
     }
 }
 
-// Repeats the list of materials, so that it contains all of them `times` times.
+// Repeats the list of materials until it contains all of them `times` times.
 static void repeat_materials(struct frame *frame, int times)
 {
     for (; frame->material_count < times * frame->scene_material_count; frame->material_count++)
@@ -94,8 +94,7 @@ int frame_back_material(struct frame *frame, int front, int back)
     return second;
 }
 
-// Returns whether nobody chose the colour of a material: a scene's default, or the default of a glTF primitive without
-// one.
+// Returns whether the colour of a material is a default: of the scene, or of a glTF primitive without a material.
 static bool is_unchosen(const struct frame *frame, int front)
 {
     const lam_material *m = frame->materials[front];
@@ -160,7 +159,7 @@ float frame_lobe_max(const lam_material *material)
         return 1;
     if (material->maps[LAM_MAP_ROUGHNESS] || material_layers(material))
         return 1.25f / (ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN);
-    // S of microfacets is at most 1 / (2 α³), and the light that they send to one another multiplies it by less than 2.5.
+    // S of the microfacet lobe is at most 1 / (2 α³), and multiple scattering multiplies it by less than 2.5.
     float roughness = material->roughness > ROUGHNESS_MIN ? material->roughness : ROUGHNESS_MIN;
     float alpha = roughness * roughness;
     return 1.25f / (alpha * alpha * alpha);

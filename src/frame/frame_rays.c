@@ -47,7 +47,7 @@ static lam_mat4 world_of(const lam_scene *scene, const lam_light *light, const l
     switch (light->frame) {
     case LAM_FRAME_CAMERA:
         return *eye_to_world;
-    case LAM_FRAME_VIEW: { // from the middle of the scene, along the camera's axes
+    case LAM_FRAME_VIEW: { // from the scene's centre, along the camera's axes
         lam_mat4 world = *eye_to_world;
         lam_vec3 low, high, middle = v3(0, 0, 0);
         if (lam_scene_bounds(scene, &low, &high))

@@ -8,8 +8,8 @@
 
 enum { LINE_CORNERS = 4, POINT_CORNERS_MAX = 16 };
 
-// The arrays of the polygons of one mesh, in the order of their alignment; a member is NULL where the mesh lacks the
-// attribute. Corners 0 and 3 of a line lie at its first end, 1 and 2 at the second.
+// The arrays of one mesh's polygons, in the order of their alignment; a member is NULL if the mesh lacks the attribute.
+// Corners 0 and 3 of a line are at its first end, 1 and 2 at the second.
 struct stroke_arrays {
     lam_part *parts;
     float *positions, *normals, *tangents, *texcoords, *second_texcoords;
@@ -26,14 +26,16 @@ static size_t corners_of(const lam_mesh *mesh, size_t point_corners)
 
 size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners) { return corners_of(mesh, point_corners) - 2; }
 
-// In shares of the picture's smaller side: the size of one point, which shrinks with the square root of their number.
+// As a fraction of the picture's smaller side: the size of a single point, which shrinks with the square root of their
+// number.
 #define POINT_SHARE 0.16
-// The sizes in pixels: the least; the least of few points; the most of few, in shares of the picture's smaller side.
+// Sizes in pixels: the minimum, the minimum for few points, and the maximum for few points as a fraction of the
+// picture's smaller side.
 #define POINT_LEAST 3.0
 #define FEW_LEAST   8.0
 #define FEW_MOST    0.025
 enum { FEW = 100 };
-// The sizes from which points are octagons, and have 16 corners.
+// The sizes from which points are octagons, and from which they have 16 corners.
 #define ROUND_FROM   4.0
 #define ROUNDER_FROM 12.0
 
@@ -52,7 +54,7 @@ void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene,
     view->point_corners = view->point_size < ROUND_FROM ? 4 : view->point_size < ROUNDER_FROM ? 8 : POINT_CORNERS_MAX;
 }
 
-// Divides memory among the arrays, and returns their size in bytes. With `at` NULL, only returns the size.
+// Divides memory among the arrays, and returns their size in bytes. If `at` is NULL, it only returns the size.
 static size_t divide(const lam_mesh *mesh, size_t point_corners, char *at, struct stroke_arrays *out)
 {
     size_t corners = corners_of(mesh, point_corners), items = mesh_items(mesh), vertices = corners * items, size = 0;
@@ -91,8 +93,8 @@ bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, c
     return !bytes || buffer_reserve(&frame->strokes, bytes, call, error);
 }
 
-// Returns how much nearer a stroke of a width lies: the share of its distance; orthographic: the distance. `pixel`: a
-// pixel's height in eye space where w is 1.
+// Returns the depth offset of a stroke with this width: a fraction of its distance, or a distance if orthographic.
+// `pixel` is a pixel's height in eye space at w = 1.
 static double nearer_by(const struct stroke_view *view, double width, double pixel)
 {
     return view->orthographic || width * pixel < 0.25 ? width * pixel : 0.25;
@@ -116,7 +118,7 @@ void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera,
 
 // --- attributes
 
-// A position on a line: at the fraction t from its corner a to its corner b. A point is its corner a.
+// A position on a line: the fraction t from corner a to corner b. For a point it is corner a.
 struct place {
     size_t a, b;
     double t;
@@ -188,15 +190,15 @@ struct builder {
     const lam_mesh *from;
     const struct stroke_view *view;
     struct stroke_arrays to;
-    lam_mat4 eye;        // mesh to eye space
-    double normal[3][3]; // normals to eye space
-    double scale[2];     // a pixel's width and height in eye space where w is 1
-    double nearer;       // the share of its distance by which a stroke lies nearer; orthographic: the distance
-    double near_plane;   // where that leaves it at the near plane
-    double half;         // of a width, pixels
-    size_t corners;      // of a polygon
-    double corner[POINT_CORNERS_MAX][2]; // of the polygon of a point, pixels from its middle
-    double bitangent;                    // the sign that mirroring transforms give
+    lam_mat4 eye;                        // mesh to eye space
+    double normal[3][3];                 // normals to eye space
+    double scale[2];                     // width and height of a pixel in eye space at w = 1
+    double nearer;                       // the fraction by which a stroke is nearer; orthographic: the distance
+    double near_plane;                   // the depth that the offset moves to the near plane
+    double half;                         // half the width, pixels
+    size_t corners;                      // corners per polygon
+    double corner[POINT_CORNERS_MAX][2]; // the corners of a point's polygon, in pixels from its centre
+    double bitangent;                    // sign of mirroring transforms
 };
 
 static lam_vec3 eye_position(const struct builder *b, size_t corner)
@@ -248,7 +250,8 @@ static void store_attributes(const struct builder *b, size_t item, size_t vertex
         interpolate_color(mesh, item, place, (char *)b->to.colors + color_size(mesh) * vertex);
 }
 
-// Stores the corners of a rectangle: first `right` of the ends and then left of them, (x, y) in pixels, y up.
+// Stores the corners of a rectangle: first to the `right` of both ends, then to the left, offset by (x, y) in pixels, y
+// up.
 static void store_corners(const struct builder *b, size_t item, const lam_vec3 ends[2], double x, double y)
 {
     for (size_t corner = 0; corner < LINE_CORNERS; corner++) {
@@ -288,7 +291,7 @@ static void build_line(const struct builder *b, size_t item)
 {
     lam_vec3 p[2] = {eye_position(b, 2 * item), eye_position(b, 2 * item + 1)};
     struct place places[2] = {{2 * item, 2 * item + 1, 0}, {2 * item, 2 * item + 1, 1}};
-    double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z}; // > 0: before the near plane
+    double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z}; // > 0: in front of the near plane
     if (!(before[0] <= 0) && !(before[1] <= 0)) {
         store_nothing(b, item, places[0]);
         return;
@@ -310,15 +313,15 @@ static void build_line(const struct builder *b, size_t item)
     double dx = window[1][0] - window[0][0], dy = window[1][1] - window[0][1], length = math_sqrt(dx * dx + dy * dy);
     if (length > 0)
         store_corners(b, item, p, -dy / length * b->half, dx / length * b->half);
-    else // seen along its length
+    else // seen end-on
         store_corners(b, item, p, 0, 0);
     for (size_t corner = 0; corner < LINE_CORNERS; corner++)
         store_attributes(b, item, LINE_CORNERS * item + corner, places[corner == 1 || corner == 2]);
 }
 
-// --- all of a mesh
+// --- whole meshes
 
-// Builds a square whose side is the size, or a regular polygon with the area of a disc of that diameter.
+// Computes a square whose side is the size, or a regular polygon with the area of a disc of that diameter.
 static void set_corners(struct builder *b)
 {
     double step = 2 * PI / (double)b->corners;
@@ -344,7 +347,7 @@ static void start(struct builder *b, const struct frame *frame, const lam_mat4 *
     b->scale[1] = 2 / (view->projection->m[1][1] * frame->height);
     b->nearer = nearer_by(view, width, b->scale[1]);
     b->near_plane = view->orthographic ? view->near_plane + b->nearer : view->near_plane / (1 - b->nearer);
-    // As in frame_draw: the inverse transpose up to a positive factor, of a size that floats have.
+    // As in frame_draw: the inverse transpose up to a positive factor, scaled to the range of floats.
     mat4_normal_matrix(&b->eye, b->normal);
     b->bitangent = mat4_determinant3(&b->eye) < 0 ? -1 : 1;
     for (int i = 0; i < 9; i++) {
@@ -361,8 +364,8 @@ static lam_mesh mesh_of(const struct builder *b)
     size_t items = mesh_items(from);
     size_t triangles = b->corners - 2;
     uint32_t vertices = (uint32_t)(b->corners * items), *to = b->to.indices;
-    // A fan around the last corner. Both triangles of a line end at its second end: flat shading takes its attributes, as
-    // OpenGL does for lines.
+    // A fan around the last corner. Both triangles of a line end at its second end, whose attributes flat shading uses,
+    // as OpenGL does for lines.
     for (size_t i = 0; i < items; i++)
         for (size_t k = 0; k < triangles; k++) {
             uint32_t first = (uint32_t)(b->corners * i);

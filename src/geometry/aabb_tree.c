@@ -7,10 +7,10 @@
 #include <string.h>
 
 enum {
-    // Vertices of a box. A mesh with indices shares its vertices, so that the same number spans more of it.
+    // Vertices per box. Indexed meshes share vertices, so that a given number covers more of the surface.
     BLOCK_SHARED = 64,
     BLOCK_CORNERS = 256,
-    PIECE = 1 << 16, // vertices of one piece of parallel work: whole boxes of the two lowest levels
+    CHUNK = 1 << 16, // vertices per task: whole boxes of the two lowest levels
 };
 
 struct boxing {
@@ -30,7 +30,7 @@ static void widen(box_of_six box, const float low[3], const float high[3])
     }
 }
 
-// Consecutive vertices, four at a time: their twelve numbers are x, y and z in turn.
+// Computes the box of consecutive vertices, four at a time: their twelve numbers alternate x, y and z.
 static void box_of_row(const float *p, size_t count, box_of_six box)
 {
     num low[3], high[3];
@@ -75,7 +75,7 @@ static void box_of_boxes(const box_of_six *below, size_t count, box_of_six box)
         widen(box, below[i], below[i] + 3);
 }
 
-// Makes the boxes `first` to `end` of a level from the level below.
+// Computes the boxes `first` to `end` of a level from the level below.
 static void box_level(const struct boxing *boxing, int level, size_t first, size_t end)
 {
     const struct aabb_tree *tree = boxing->tree;
@@ -87,12 +87,12 @@ static void box_level(const struct boxing *boxing, int level, size_t first, size
     }
 }
 
-static void box_piece(void *user, size_t index, int thread)
+static void box_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     const struct boxing *boxing = user;
     const struct aabb_tree *tree = boxing->tree;
-    size_t each = PIECE / tree->block, first = index * each, end = box_end(first, each, tree->count[0]);
+    size_t each = CHUNK / tree->block, first = index * each, end = box_end(first, each, tree->count[0]);
     for (size_t i = first; i < end; i++) {
         size_t vertex = i * tree->block;
         box_of_block(boxing, vertex, box_end(vertex, tree->block, tree->vertices), boxing->boxes[i]);
@@ -118,7 +118,7 @@ bool box_tree_make(struct aabb_tree *tree, const lam_mesh *mesh, const uint32_t 
     struct boxing boxing = {tree, arena_array(arena, boxes, sizeof *boxing.boxes), mesh->positions, used};
     if (!boxing.boxes)
         return call_memory_error(arena->call, boxes * sizeof *boxing.boxes, error);
-    pool_run(pool, (count + PIECE - 1) / PIECE, box_piece, &boxing);
+    pool_run(pool, (count + CHUNK - 1) / CHUNK, box_chunk, &boxing);
     for (int level = 2; level < tree->levels; level++)
         box_level(&boxing, level, 0, tree->count[level]);
     tree->boxes = (const box_of_six *)boxing.boxes;

@@ -1,5 +1,5 @@
-// aabb_tree.h: a tree of boxes around a mesh's vertices: a search for the farthest vertex in some direction opens few of
-// them.
+// aabb_tree.h: a tree of boxes around a mesh's vertices, for finding the farthest vertex in a direction without
+// visiting most of them.
 #ifndef AABB_TREE_H
 #define AABB_TREE_H
 
@@ -9,28 +9,28 @@
 #include <lambent/scene.h>
 
 enum {
-    BOX_CHILDREN = 16, // boxes of one level in a box of the next
-    BOX_LEVELS = 8,    // enough for 2³² vertices in blocks of 64, with one to spare
+    BOX_CHILDREN = 16, // boxes per box of the next level
+    BOX_LEVELS = 8,    // enough for 2³² vertices in blocks of 64, plus one
 };
 
 // Minimum and maximum, relative to the mesh's origin.
 typedef float box_of_six[6];
 
-// Box i of the lowest level contains `block` used vertices from number i · block on, one of the next level BOX_CHILDREN
-// boxes below. The topmost level has at most BOX_CHILDREN.
+// Box i of the lowest level contains `block` used vertices from number i · block on; a box of the next level contains
+// BOX_CHILDREN boxes. The topmost level has at most BOX_CHILDREN boxes.
 struct aabb_tree {
-    const box_of_six *boxes; // level after level from the lowest; NULL: no vertices
+    const box_of_six *boxes; // one level after the other from the lowest; NULL means no vertices
     size_t block;
     size_t vertices;
     int levels;
     size_t first[BOX_LEVELS], count[BOX_LEVELS];
 };
 
-// `used` lists the vertices of the tree, in order (NULL: the first `count`). Returns false if memory runs out.
+// `used` lists the vertices of the tree, in order (NULL means the first `count`). Returns false if memory runs out.
 bool box_tree_make(struct aabb_tree *tree, const lam_mesh *mesh, const uint32_t *used, size_t count,
                    struct arena *arena, struct pool *pool, lam_error *error);
 
-// The box around everything. Only of a tree with vertices.
+// Returns the box around everything. The tree must have vertices.
 void box_tree_whole(const struct aabb_tree *tree, box_of_six whole);
 
 static inline const box_of_six *boxes_of_level(const struct aabb_tree *tree, int level)
@@ -38,7 +38,7 @@ static inline const box_of_six *boxes_of_level(const struct aabb_tree *tree, int
     return tree->boxes + tree->first[level];
 }
 
-// Returns the end of the items of a box that begins at `first`, with `each` items in a box, of `all` items.
+// Returns the end of the items of a box that begins at `first`, with `each` items per box and `all` items in total.
 static inline size_t box_end(size_t first, size_t each, size_t all) { return all - first < each ? all : first + each; }
 
 #endif

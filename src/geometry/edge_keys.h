@@ -1,4 +1,4 @@
-// edge_keys.h: the edges that lead from one point to higher ones, as numbers whose order brings equal edges together.
+// edge_keys.h: the edges from one point to higher points, as numbers whose order groups equal edges.
 #ifndef EDGE_KEYS_H
 #define EDGE_KEYS_H
 
@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The other end in the upper half; in the lower one a number of the caller's, such as the corner that the edge leads from.
+// The other end is in the upper half; the lower half is a number of the caller, such as the corner at which the edge
+// starts.
 static inline uint64_t edge_key(uint32_t other_end, uint32_t number) { return (uint64_t)other_end << 32 | number; }
 
 static inline int compare_edge_keys(const void *a, const void *b)
@@ -17,7 +18,7 @@ static inline int compare_edge_keys(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Most points have about six edges: those are inserted in order, which takes less than qsort.
+// Most points have about six edges, for which insertion sort is faster than qsort.
 static inline void sort_edge_keys(uint64_t *keys, uint32_t count)
 {
     if (count > 24) {

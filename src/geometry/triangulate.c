@@ -1,30 +1,30 @@
 // triangulate.c: splits polygons of any size, convex or not, into triangles.
 //
-// Ear clipping (Meisters 1975): a corner is an ear when it is convex and no other corner lies in its triangle. Cutting
-// an ear changes only its two neighbours, so each corner is tested about three times. Only corners that are not
-// convex can lie in an ear; they are kept in a tree of boxes over their Morton order, so that one test takes about √count
-// steps even for long thin ears, however unevenly the corners are spread.
+// Ear clipping (Meisters 1975): a corner is an ear if it is convex and its triangle contains no other corner. Cutting
+// an ear changes only its two neighbours, so each corner is tested about three times. Only corners that are not convex
+// can be inside an ear; they are kept in a tree of boxes over their Morton order, so that a test takes about √count
+// steps even for long thin ears, whatever the distribution of the corners is.
 //
 // Decisions are exact: the corners are projected along the largest axis of the polygon's normal and snapped to
-// integers, 2^30 steps along the longer side (finer than a float), where a cross product fits into 64 bits.
+// integers, with 2^30 steps along the longer side (finer than a float), so that a cross product fits into 64 bits.
 #include "triangulate.h"
 
 #include <string.h>
 
 enum {
     NONE = UINT32_MAX,
-    LEAF = 8,      // points in a leaf of the tree
-    STEP_RATE = 4, // visits of nodes and points per count·√count; simple polygons need a third of it and less
+    LEAF = 8,      // points per leaf of the tree
+    STEP_RATE = 4, // the most visits of nodes and points per count·√count; simple polygons need at most a third
     CHECK_INTERVAL = 65536,
     STEPS = 1 << 30, // grid steps along the polygon's longer side
 };
 
-// The conditions for cutting a corner. A corner that fails one test waits at the next level, and is tested again only when
-// the levels above are empty: simple polygons never leave the first two.
+// The conditions for cutting a corner. A corner that fails one test is moved to the next level, and is tested again
+// only when the levels above are empty: simple polygons only use the first two.
 enum level {
-    LEVEL_EAR,    // convex, no other corner in its triangle or on its edges
-    LEVEL_FLAT,   // as above, or without area: in line with its neighbours, a spike, a repeated point
-    LEVEL_TOUCH,  // convex, no other corner strictly inside
+    LEVEL_EAR,    // convex, and its triangle contains no other corner, not even on its edges
+    LEVEL_FLAT,   // as above, or without area: collinear with its neighbours, a spike, a repeated point
+    LEVEL_TOUCH,  // convex, and no other corner is strictly inside
     LEVEL_CONVEX, // convex
     LEVEL_ANY,
     LEVELS,
@@ -32,13 +32,13 @@ enum level {
 
 struct corner {
     int32_t x, y;
-    uint32_t previous, next; // around the rest of the polygon
+    uint32_t previous, next; // around the remaining polygon
     uint32_t earlier, later; // in the queue of its level
-    uint32_t slot;           // in the tree; NONE: not in it
+    uint32_t slot;           // in the tree; NONE if not in it
     uint8_t level;           // LEVELS: in no queue
 };
 
-// A node's box around its points; `count` of them are left.
+// A node's box around its points; `count` of them remain.
 struct box {
     int32_t min_x, min_y, max_x, max_y;
     uint32_t count;
@@ -49,9 +49,9 @@ struct clip {
     uint32_t first[LEVELS], last[LEVELS]; // queues
     uint32_t *points;                     // corner numbers in Morton order
     struct box *boxes; // a complete binary tree, node i's children 2i and 2i + 1, leaves from `leaves` on
-    uint32_t leaves;   // a power of two; 0: no points
-    uint64_t steps;    // nodes and points of the tree that the tests have visited
-    uint64_t most;     // and how many they may visit
+    uint32_t leaves;   // a power of two; 0 means no points
+    uint64_t steps;    // nodes and points of the tree visited by tests
+    uint64_t most;     // limit of `steps`
 };
 
 void triangulator_start(struct triangulator *scratch, struct call_control *call)
@@ -71,7 +71,7 @@ static const float *position_of(const float *positions, const uint32_t *corners,
     return positions + 3 * (size_t)corners[i];
 }
 
-// (b − a) × (c − a), in double: 24-bit coordinates leave its sign right for all but the flattest triangles.
+// Computes (b − a) × (c − a) in double: with 24-bit coordinates, its sign is correct except for the flattest triangles.
 static void face_normal(const float *a, const float *b, const float *c, double out[3])
 {
     double u[3], v[3];
@@ -113,7 +113,7 @@ static void cut_quad(const float *positions, const uint32_t *corners, uint32_t *
         write_fan(4, triples);
 }
 
-// Twice the signed area of the triangle, in grid steps: exact, below 2^62.
+// Returns twice the signed area of the triangle, in grid steps: exact, below 2^62.
 static int64_t turn(const struct corner *a, const struct corner *b, const struct corner *c)
 {
     return ((int64_t)b->x - a->x) * ((int64_t)c->y - a->y) - ((int64_t)b->y - a->y) * ((int64_t)c->x - a->x);
@@ -126,10 +126,10 @@ static int64_t turn_at(const struct corner *corners, uint32_t i)
 
 static bool same_place(const struct corner *a, const struct corner *b) { return a->x == b->x && a->y == b->y; }
 
-// Projects and snaps the corners, turned so that the polygon runs counter-clockwise. Returns false if it has no area.
+// Projects and snaps the corners, oriented so that the polygon is counter-clockwise. Returns false if it has no area.
 static bool snap(const float *positions, const uint32_t *numbers, uint32_t count, struct corner *corners)
 {
-    // Newell's normal, relative to the first corner: the sum of the fan's.
+    // Newell's normal, relative to the first corner: the sum over the fan.
     double normal[3] = {0, 0, 0};
     const float *base = position_of(positions, numbers, 0);
     double low[3], high[3];
@@ -160,7 +160,7 @@ static bool snap(const float *positions, const uint32_t *numbers, uint32_t count
 
     double side = high[across] - low[across] > high[up] - low[up] ? high[across] - low[across] : high[up] - low[up];
     double scale = (double)STEPS / side;
-    if (!(side > 0) || !(scale < 1e300)) // no extent, or one that no float polygon with area has
+    if (!(side > 0) || !(scale < 1e300)) // no extent, or larger than any float polygon with area
         return false;
     __extension__ __int128 area = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -179,9 +179,9 @@ static bool snap(const float *positions, const uint32_t *numbers, uint32_t count
     return area > 0;
 }
 
-// --- the tree of corners that are not convex
+// --- the tree of non-convex corners
 
-// Spreads the low 31 bits of x to the even places.
+// Spreads the low 31 bits of x to the even positions.
 static uint64_t spread(uint32_t x)
 {
     uint64_t v = x;
@@ -194,8 +194,7 @@ static uint64_t spread(uint32_t x)
 
 static uint64_t morton(const struct corner *c) { return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1; }
 
-// Sorts corner numbers by Morton code: a stable radix sort, a byte of the code at a time. Returns false if the call
-// must end.
+// Sorts corner indices by Morton code: a stable radix sort by bytes of the code. Returns false if the call must end.
 static bool sort_points(const struct corner *corners, uint32_t *points, uint32_t *extra, uint32_t count,
                         struct call_control *call)
 {
@@ -254,7 +253,7 @@ static void tree_remove(struct clip *clip, uint32_t i)
         clip->boxes[node].count--;
 }
 
-// Returns whether the whole box lies right of a→b, or on it where touching does not count.
+// Returns whether the whole box is to the right of a→b, or on it unless `touching`.
 static bool box_outside(const struct box *box, const struct corner *a, const struct corner *b, bool touching)
 {
     // The box's corner farthest to the left of the edge.
@@ -279,9 +278,9 @@ static bool point_inside(const struct corner *const triangle[3], const struct co
     return true;
 }
 
-// Returns whether a corner that is not convex lies in corner i's triangle (on its edge counts where `touching`). A
-// polygon of few repeated points could visit all nodes for each corner; once its steps are spent, all its corners count
-// as blocked.
+// Returns whether a non-convex corner is inside corner i's triangle (with `touching`, also on its edges). A polygon
+// with few, repeated points could visit all nodes for each corner; once its steps are used up, all its corners count as
+// blocked.
 static bool blocked(struct clip *clip, uint32_t i, bool touching)
 {
     if (clip->leaves == 0 || clip->boxes[1].count == 0)
@@ -290,7 +289,7 @@ static bool blocked(struct clip *clip, uint32_t i, bool touching)
         return true;
     const struct corner *tip = &clip->corners[i];
     const struct corner *const triangle[3] = {&clip->corners[tip->previous], tip, &clip->corners[tip->next]};
-    // The edges of a sliver alone do not exclude points further along its line.
+    // For a sliver, the edges alone do not exclude points further along its line.
     const struct box around = {
         min_int(min_int(triangle[0]->x, triangle[1]->x), triangle[2]->x),
         min_int(min_int(triangle[0]->y, triangle[1]->y), triangle[2]->y),
@@ -316,7 +315,7 @@ static bool blocked(struct clip *clip, uint32_t i, bool touching)
         }
         clip->steps += LEAF;
         for (uint32_t slot = (node - clip->leaves) * LEAF; slot < (node - clip->leaves + 1) * LEAF; slot++) {
-            // Slots after the last point are unused: their leaf has the count 0, or is the last one in use.
+            // Slots after the last point are unused: their leaf has the count 0, or is the last used one.
             if (clip->points[slot] != NONE && point_inside(triangle, &clip->corners[clip->points[slot]], touching))
                 return true;
         }
@@ -342,8 +341,8 @@ static void queue_leave(struct clip *clip, uint32_t i)
     c->level = LEVELS;
 }
 
-// Puts a corner at the end of a queue. Neighbours of a cut go to the end, so that cuts spread around the
-// polygon and triangles stay fat.
+// Appends a corner to a queue. Neighbours of a cut are appended too, so that cuts are spread around the polygon and
+// triangles are not slivers.
 static void queue_join(struct clip *clip, uint32_t i, enum level level)
 {
     queue_leave(clip, i);
@@ -390,7 +389,7 @@ static void cut(struct clip *clip, uint32_t i)
     }
 }
 
-// Cuts off corner after corner. Returns false if the call must end.
+// Cuts off the corners one by one. Returns false if the call must end.
 static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *call, uint32_t *triples)
 {
     uint32_t left = count;
@@ -425,7 +424,7 @@ static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *ca
     return true;
 }
 
-// Suballocates memory for a polygon of `count` corners from the scratch's one block, which only grows.
+// Suballocates memory for a polygon of `count` corners from the scratch memory's block, which only grows.
 static bool reserve_memory(struct triangulator *scratch, uint32_t count, struct clip *clip, uint32_t **extra)
 {
     uint32_t leaves = 1;

@@ -52,7 +52,8 @@ struct gl_previous_context {
     EGLenum api;
 };
 
-// Makes a context on one display; the context is not current afterwards. LAM_UNSUPPORTED names the missing feature.
+// Makes a context on one display; the context is not current afterwards. Fails with LAM_UNSUPPORTED and names the
+// missing feature.
 bool gl_context_open(struct gl_context *context, const struct egl *egl, const struct gl_platform *platform,
                      enum gl_profile profile, bool debug, lam_error *error);
 
@@ -69,12 +70,13 @@ bool gl_context_adopt(struct gl_context *context, lam_gl_get_proc *get, void *us
 bool gl_context_enter(struct gl_context *context, struct gl_previous_context *previous, lam_error *error);
 void gl_context_leave(struct gl_context *context, const struct gl_previous_context *previous);
 
-void gl_context_free(struct gl_context *context); // a zeroed context is valid
+void gl_context_free(struct gl_context *context); // a zeroed context is allowed
 
-// Whether the current context has an extension ("GL_KHR_debug").
+// Returns whether the current context has an extension ("GL_KHR_debug").
 bool gl_has_extension(const struct gl *gl, const char *extension);
 
-// Returns true if the driver has sent no debug messages. Otherwise LAM_UNSUPPORTED, with the text of the first.
+// Returns true if the driver has sent no debug messages. Otherwise fails with LAM_UNSUPPORTED and the text of the first
+// message.
 bool gl_messages_clean(const struct gl_context *context, const char *doing, lam_error *error);
 
 // Queries the version and names of the current context, and starts to collect debug messages.

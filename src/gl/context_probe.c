@@ -25,7 +25,7 @@ static void APIENTRY on_debug_message(GLenum source, GLenum type, GLuint id, GLe
 {
     (void)id, (void)severity, (void)length;
     struct gl_messages *messages = (struct gl_messages *)(uintptr_t)user;
-    // Compiler messages are reported where the shader is compiled.
+    // Compiler messages are reported by the code that compiles the shader.
     if (source == GL_DEBUG_SOURCE_SHADER_COMPILER)
         return;
     bool error = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR;
@@ -49,7 +49,7 @@ static bool collect_messages(struct gl_context *context, lam_error *error)
     return true;
 }
 
-// "3.3 (Core Profile) Mesa 22.3.6", "OpenGL ES 3.2 Mesa 22.3.6"
+// Reads "3.3 (Core Profile) Mesa 22.3.6" or "OpenGL ES 3.2 Mesa 22.3.6".
 static void read_version(struct gl_context *context, const char *version)
 {
     context->es = strncmp(version, "OpenGL ES", 9) == 0;

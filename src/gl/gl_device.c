@@ -13,8 +13,8 @@
 
 // --- a frame
 
-// Sets the choices of a range's program. A choice that the program does not depend on keeps its default, so that equal
-// programs have equal choices. Fields are assigned into zeroed memory because program_for compares bytes.
+// Sets the choices for a range's program. A choice that the program does not depend on keeps its default, so that equal
+// programs have equal choices. Fields are assigned in zeroed memory because program_for compares bytes.
 static void choices_of(const struct gl_frame *f, const struct frame_draw_range *range, struct glsl_choices *c)
 {
     struct glsl_choices wanted = glsl_choose(f->frame, range, f->stage);
@@ -83,7 +83,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->catches = ground && f->frame->ground.kind == LAM_GROUND_SHADOW && !output_is_value(c->output);
 }
 
-// The mesh of a draw, without the texture coordinates that no map reads.
+// Returns the mesh of a draw, without texture coordinates that no map uses.
 static lam_mesh mesh_as_drawn(const struct gl_frame *f, const struct frame_draw_range *list, int count)
 {
     lam_mesh mesh = *f->frame->draws[list->draw].mesh;
@@ -110,7 +110,7 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
         return (frame->settings.flat_normal == LAM_FLAT_NORMAL_VERTEX || draw->strokes) && draw->mesh->normals
                    ? FORM_FLAT_VERTEX
                    : FORM_FLAT_FACE;
-    // Shaders number triangles by gl_VertexID / 3. A vertex lit for two materials has two colours.
+    // Shaders compute triangle numbers as gl_VertexID / 3. A vertex lit for two materials has two colours.
     bool counts = f->layered || frame->settings.output == LAM_OUTPUT_IDS ||
                   (frame->settings.shadows && f->stage != LAM_STAGE_APPLICATION);
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_all > 1;
@@ -201,11 +201,11 @@ static bool set_up(struct gl_frame *f, lam_error *error)
     choices_of(f, &frame->ranges[0], &any);
     f->storage = light_buffers_storage(f->device, &any);
     any.storage = f->storage;
-    any.occlusion = f->occlusion != NULL; // the lights serve all programs
+    any.occlusion = f->occlusion != NULL; // the lights are shared by all programs
     any.shadows = frame->settings.shadows;
     if (reads_light_buffers(&any) && !light_buffers_send(f, &any, error))
         return false;
-    for (int i = 0; i < frame->range_count; i++) { // before set_up_draw keeps pointers into device->programs
+    for (int i = 0; i < frame->range_count; i++) { // before set_up_draw stores pointers into device->programs
         struct glsl_choices c;
         choices_of(f, &frame->ranges[i], &c);
         if (!program_for(f, &c, error) || !(call_should_continue(f->call) || call_error(f->call, error)))
@@ -285,7 +285,7 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
     return draw_parts(f, error) && check_errors(f, error);
 }
 
-// Draws the distances of the frame's opaque surfaces, and finds its ambient occlusion from them.
+// Draws the distances of the frame's opaque surfaces, and computes its ambient occlusion from them.
 static bool draw_occlusion(struct gl_frame *f, struct screen_occlusion *occlusion, lam_error *error)
 {
     struct frame distances = *f->frame; // shares the arrays
@@ -374,7 +374,7 @@ static uint64_t gl_memory(const struct lam_device *base)
 static void APIENTRY keep_names(GLsizei count, const GLuint *names) { (void)count, (void)names; }
 static void APIENTRY keep_program(GLuint name) { (void)name; }
 
-// OpenGL deletes nothing from now on, for a context that cannot be made current: its objects go with it.
+// Disables the deletion of OpenGL objects, for a context that cannot be made current: its objects are deleted with it.
 static void keep_objects(struct gl *gl)
 {
     gl->DeleteBuffers = keep_names;

@@ -24,29 +24,29 @@
 #include "vertex_colors.h"
 
 enum {
-    PART_SIZE_MAX = 2048, // largest width and height, in pixels, of a part of the picture that is drawn in one go
+    PART_SIZE_MAX = 2048, // largest width and height in pixels of a part that is drawn at once
 };
 
 enum texture_unit {
     UNIT_ENVIRONMENT,
     UNIT_LIGHTS,
     UNIT_PRODUCTS,
-    UNIT_NEARER_DEPTH_IDS, // of the previous layer
-    UNIT_OPAQUE_DEPTH_IDS, // of the opaque surfaces
+    UNIT_NEARER_DEPTH_IDS, // depth and number of the previous layer
+    UNIT_OPAQUE_DEPTH_IDS, // depth and number of the opaque surfaces
     UNIT_OCCLUSION =
-        UNIT_NEARER_DEPTH_IDS, // those are read by translucent surfaces, which no occlusion dims but the ground
+        UNIT_NEARER_DEPTH_IDS, // only translucent surfaces read these, and occlusion dims only the ground among them
     UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
     UNIT_COPY,
     UNIT_SHADOW_TREE = UNIT_COPY,           // no program reads both
     UNIT_FIRST_MAP,                         // the maps of materials
-    UNIT_GROUND_OCCLUSION = UNIT_FIRST_MAP, // a ground has none
-    UNIT_COUNT = 48 // at most; every driver has 16 (OpenGL 3.3 and ES 3.0), most 32: gl_device.unit_count
+    UNIT_GROUND_OCCLUSION = UNIT_FIRST_MAP, // a ground has no maps
+    UNIT_COUNT = 48 // the maximum; every driver has 16 (OpenGL 3.3 and ES 3.0), most 32: gl_device.unit_count
 };
 enum block_point { POINT_LIGHTS, POINT_PRODUCTS, POINT_BACK_PRODUCTS, POINT_COUNT };
 
 // --- meshes
 
-// Layout of a mesh's vertices in its buffer.
+// The layout of a mesh's vertices in its buffer.
 enum vertex_form {
     FORM_SHARED,      // the mesh's own vertices and indices
     FORM_CORNERS,     // three vertices for each triangle
@@ -66,11 +66,11 @@ struct mesh_run {
 };
 
 struct gl_mesh {
-    struct scene_token *token; // retained; NULL: the entry is free
-    lam_mesh mesh;             // the arrays that the buffers were made from
+    struct scene_token *token; // referenced; NULL means the entry is free
+    lam_mesh mesh;             // the arrays from which the buffers were made
     enum vertex_form form;
-    bool passing; // the arrays are those of one frame
-    // Runs of the draw calls, where those of one call are not consecutive: the element buffer then orders the triangles
+    bool passing; // the arrays belong to one frame only
+    // Runs of the draw calls, if the runs of one call are not consecutive: the element buffer then orders the triangles
     // by call.
     struct mesh_run *runs;
     int run_count;
@@ -82,31 +82,32 @@ struct gl_mesh {
 // --- textures
 
 struct gl_texture {
-    struct lam_texture *texture; // shared; NULL: the entry is free
-    struct scene_token *token;   // retained: of the scene that was drawn when it was uploaded
+    struct lam_texture *texture; // shared; NULL means the entry is free
+    struct scene_token *token;   // referenced: the scene that was drawn when the texture was uploaded
     GLuint name;
     uint64_t bytes;
-    uint64_t last_frame; // number of the last frame that read it
+    uint64_t last_frame; // number of the last frame that used it
 };
 
-// The state of a texture unit that says how its texture is wrapped and filtered.
+// The state of a texture unit that determines wrapping and filtering.
 struct gl_sampler {
-    GLuint name; // 0: not made
+    GLuint name; // 0 if not made
     int anisotropy;
 };
 enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_FILTER_COUNT * LAM_MIP_COUNT };
 
 // Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
 struct gl_vertex_lighting {
-    // Every input of the colours, as bytes: of the colours in the buffer, and of the current frame.
+    // All inputs of the colours, as bytes: for the colours in the buffer, and for the current frame.
     struct buffer sent_key, frame_key;
     size_t sent_key_size;
-    // Retained, because the key holds its address.
+    // Referenced, because the key contains its address.
     struct lam_environment *environment;
     GLuint colors, array;
     bool
-        separate_texture_terms; // each vertex has four colours: the front's, the back's, and the rest of each (glsl_facts.separate_texture_terms)
-    GLuint of_vertices; // the mesh buffer that `array` reads positions from
+        // each vertex has four colours: front, back, and the remainder of each (glsl_facts.separate_texture_terms)
+        separate_texture_terms;
+    GLuint of_vertices; // the mesh buffer with the positions for `array`
     uint64_t bytes;
 };
 
@@ -128,7 +129,7 @@ enum uniform {
     UNIFORM_MAPPED_EMISSION,
     UNIFORM_BACK_MAPPED_EMISSION,
     UNIFORM_MAPS, // two rows for each map of the front, then of the back (glsl_map_values)
-    UNIFORM_FLOATS = UNIFORM_MAPS + 4 * LAM_MAP_COUNT, // number of the uniforms above, all of floats
+    UNIFORM_FLOATS = UNIFORM_MAPS + 4 * LAM_MAP_COUNT, // number of the uniforms above, which are all floats
     UNIFORM_FIRST_PRODUCT = UNIFORM_FLOATS,
     UNIFORM_BACK_FIRST_PRODUCT,
     UNIFORM_FIRST_TRIANGLE,
@@ -138,9 +139,9 @@ enum uniform {
 struct gl_program {
     struct glsl_choices choices;
     GLuint name;
-    GLint locations[UNIFORM_COUNT];      // −1: the program has no such uniform
-    uint8_t map_units[2][LAM_MAP_COUNT]; // texture units of the maps of the front and the back; 0: none
-    // The values last set, and whether any has been set.
+    GLint locations[UNIFORM_COUNT];      // −1 if the program does not have the uniform
+    uint8_t map_units[2][LAM_MAP_COUNT]; // texture units of the maps of the front and the back, or 0
+    // The current values, and whether any has been set.
     float values[UNIFORM_FLOATS][16];
     int ints[UNIFORM_COUNT - UNIFORM_FLOATS];
     bool set[UNIFORM_COUNT];
@@ -148,16 +149,17 @@ struct gl_program {
 
 // --- targets
 
-// A framebuffer and its textures; 0: the target has none. depth_id: depth and triangle number of each pixel.
+// A framebuffer and its textures, which are 0 if the target does not have them. depth_id: depth and triangle number of
+// each pixel.
 struct gl_target {
     GLuint framebuffer, color, depth_id, depth;
-    GLuint through; // the share of each channel that a layer lets through
+    GLuint through; // transmittance of a layer for each channel
 };
 
 struct gl_targets {
-    int width, height; // of all textures; at least the part's
+    int width, height; // the size of all textures, at least the part's size
     bool layered, tinted;
-    struct gl_target tint;      // with `tinted`: the share that all layers so far let through
+    struct gl_target tint;      // with `tinted`, the transmittance of all layers so far
     struct gl_target sample;    // one sample of each pixel: the opaque surfaces
     struct gl_target layers[2]; // the current layer of translucent surfaces, and the previous one
     struct gl_target sum;       // the layers composited
@@ -176,7 +178,7 @@ struct gl_light_buffer {
     struct buffer next;   // the contents of this frame, compared with `shadow` before an upload
 };
 
-// How a fragment combines with the target.
+// How a fragment is combined with the target.
 enum gl_blending {
     BLENDING_UNKNOWN,
     BLENDING_NEAREST, // depth test
@@ -185,29 +187,31 @@ enum gl_blending {
     BLENDING_MULTIPLY,
 };
 
-// Current state of the context, so that no state is set twice. Unknown at the start of a frame in the caller's context.
+// The current state of the context, so that no state is set twice. It is unknown at the start of a frame in the
+// caller's context.
 struct gl_current_state {
     GLuint program, array, framebuffer;
-    int unit; // active texture unit; −1: unknown
+    int unit; // active texture unit; −1 if unknown
     GLuint textures[UNIT_COUNT], samplers[UNIT_COUNT];
     struct {
         GLuint buffer;
         size_t offset, size;
     } blocks[POINT_COUNT];
-    int cull;                  // lam_cull; −1: unknown
-    lam_cull culled;           // the argument of the last glCullFace; LAM_CULL_NONE: unknown
-    int front;                 // 1: mirrored
+    int cull;                  // lam_cull; −1 if unknown
+    lam_cull culled;           // the argument of the last glCullFace; LAM_CULL_NONE if unknown
+    int front;                 // 1 if mirrored
     enum gl_blending blending; // BLENDING_UNKNOWN: unknown
-    enum gl_blending factors;  // of the last glBlendFunc
+    enum gl_blending factors;  // the arguments of the last glBlendFunc
     int width, height;         // viewport
 };
 
-// The surfaces that let light through, behind the hierarchy in its texture (gl_surfaces.c).
+// The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
 struct gl_surfaces {
-    // All that the texels follow from, as bytes: of those in the texture, and of the current frame.
+    // All inputs of the texels, as bytes: for the texels in the texture, and for the current frame.
     struct buffer key, next_key;
     size_t key_size, next_key_size;
-    struct buffer records, pixels; // of the current frame: the first record of each range; the textures' places
+    // of the current frame: the first record of each range; the positions of the textures
+    struct buffer records, pixels;
 };
 
 struct gl_device {
@@ -215,23 +219,23 @@ struct gl_device {
     struct gl_context context;
     bool external_context;         // the context is the caller's
     bool lecture, hardware_filter; // lam_gl_params
-    int mistake;                   // as glsl_choices.mistake
+    int mistake;                   // same as glsl_choices.mistake
     GLint block_size_max, block_alignment, texture_size_max;
-    GLint unit_count;    // texture units of the fragment shader that are used, up to UNIT_COUNT
+    GLint unit_count;    // number of texture units of the fragment shader that are used, up to UNIT_COUNT
     bool has_norm16;     // textures of 16 bits for 0…1
-    GLenum float_format; // of the targets: GL_RGBA32F, or GL_RGBA16F where the driver has no more
+    GLenum float_format; // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver supports no more
 
     struct gl_mesh *meshes;
     int mesh_count, mesh_capacity;
     struct gl_texture *textures;
     int texture_count, texture_capacity;
-    // With hardware_filter, one for each way of reading a texture, made when it is used.
+    // With hardware_filter, one for each combination of wrapping and filtering, made on first use.
     struct gl_sampler samplers[SAMPLER_COUNT];
-    GLfloat anisotropy_max;                     // that samplers take
+    GLfloat anisotropy_max;                     // maximum for samplers
     struct gl_vertex_lighting *vertex_lighting; // one for each draw
     int vertex_lighting_capacity;
     struct vertex_colors vertex_colors;
-    uint64_t vertex_colors_frame; // number of the frame that it is made for
+    uint64_t vertex_colors_frame; // number of the frame for which it was set up
     struct gl_program *programs;
     int program_count, program_capacity;
     GLuint copy_program, empty_array;
@@ -243,28 +247,28 @@ struct gl_device {
     struct gl_targets targets;
     struct buffer occlusion; // planes of struct screen_occlusion
     struct buffer occlusion_rows;
-    GLuint occlusion_texture; // of the part that is drawn
+    GLuint occlusion_texture; // the occlusion of the current part
     struct gl_light_buffer lights, products;
-    struct lam_environment *environment; // retained; its faces are in environment_texture
+    struct lam_environment *environment; // referenced; its faces are in environment_texture
     GLuint environment_texture, environment_light_texture;
-    const struct environment_light *environment_light; // in the texture; kept by `environment`
+    const struct environment_light *environment_light; // contents of the texture; owned by `environment`
     struct hierarchy_memory hierarchy;
-    GLuint shadow_texture;  // the hierarchy
-    float shadow_places[2]; // first texel of the triangles, and of their places
-    bool shadows_sent;      // the texture has the hierarchy, and the surfaces of surfaces.key
+    GLuint shadow_texture;  // contains the hierarchy
+    float shadow_places[2]; // first texel of the triangles, and of their positions
+    bool shadows_sent;      // whether the texture contains the hierarchy, and the surfaces of surfaces.key
     struct gl_surfaces surfaces;
     uint64_t environment_bytes, target_bytes, shadow_bytes;
     struct gl_current_state current;
     struct buffer scratch;    // vertices before an upload
     struct buffer pixels;     // pixels after a readback
-    struct buffer draw_calls; // of the frame
-    struct buffer runs;       // of the draw that is being set up
+    struct buffer draw_calls; // the frame's draw calls
+    struct buffer runs;       // the runs of the current draw
 
     float decode_srgb[256];
     uint64_t frame_number;
 };
 
-// A draw call: all ranges of one draw that have the same materials.
+// A draw call: all ranges of one draw with the same materials.
 struct gl_draw_call {
     const struct frame_draw_range *range; // the first of them
     uint32_t first, count;                // vertices or elements
@@ -272,7 +276,7 @@ struct gl_draw_call {
     struct gl_program *program;
     GLuint array;
     bool by_elements;
-    bool lit; // the program reads the light buffers
+    bool lit; // whether the program reads the light buffers
 };
 
 // The state of one call of lam_draw.
@@ -285,18 +289,18 @@ struct gl_frame {
     struct gl_draw_call *draw_calls;
     int draw_call_count;
     enum glsl_storage storage;
-    const struct environment_light *environment_light; // on physical materials; NULL: none
-    bool layered;                                      // blended surfaces are peeled
-    bool only_opaque;                                  // translucent and masked surfaces are left out
-    const struct screen_occlusion *occlusion;          // NULL: none
+    const struct environment_light *environment_light; // the environment's light on physical materials, or NULL
+    bool layered;                                      // whether translucent surfaces are drawn by depth peeling
+    bool only_opaque;                                  // translucent and masked surfaces are omitted
+    const struct screen_occlusion *occlusion;          // may be NULL
     lam_stage stage;
     size_t material_stride; // distance between the products of consecutive materials, in bytes or texels
-    // The part of the picture that is being drawn, and the sample's offset from the pixel's centre (pixels, y down).
+    // The current part of the picture, and the sample's offset from the pixel's centre (pixels, y down).
     int left, top, width, height;
     float sample_x, sample_y;
 };
 
-// Whether a range is composited over what is behind it. Masked surfaces are opaque where they are not left out.
+// Returns whether a range is composited over the surfaces behind it. Masked surfaces are opaque or omitted.
 static inline bool range_blends(const struct frame *frame, const struct frame_draw_range *range)
 {
     if (frame->transmits && frame_is_physical(range->reflection) &&
@@ -314,15 +318,16 @@ static inline bool range_blends(const struct frame *frame, const struct frame_dr
 bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *error);
 
 // Allocates new contents of a vertex buffer and maps them for writing; the caller writes all bytes and unmaps
-// GL_ARRAY_BUFFER. NULL on failure.
+// GL_ARRAY_BUFFER. Returns NULL on failure.
 void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error);
 
-// Each sets a state unless it is current already.
+// Each function sets a state unless it is already current.
 void gl_use_program(struct gl_device *device, GLuint program);
 void gl_use_array(struct gl_device *device, GLuint array);
 void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
-void gl_use_sampler(struct gl_device *device, enum texture_unit unit, GLuint sampler); // 0: the texture's own
-// As gl_use_texture, and makes the unit the active one, to which uploads go.
+// Binds a sampler to a texture unit; 0 selects the texture's own sampler.
+void gl_use_sampler(struct gl_device *device, enum texture_unit unit, GLuint sampler);
+// Does the same as gl_use_texture, and makes the unit active, which uploads need.
 void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
 void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer);
 void gl_use_blending(struct gl_device *device, enum gl_blending blending);
@@ -337,15 +342,15 @@ bool mesh_can_share(const lam_mesh *mesh);
 void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
                    uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
-// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. With runs (NULL: none) the elements are ordered by call. The pointer
-// is valid until the next call. NULL on failure.
+// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. With runs (may be
+// NULL) the elements are ordered by call. The pointer is valid until the next call. Returns NULL on failure.
 struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form, bool passing,
                             const struct mesh_run *runs, int run_count, lam_error *error);
 // Frees the meshes of scenes that no longer exist, and meshes that the frame's scene no longer draws.
 void meshes_evict(struct gl_frame *f);
 void meshes_free(struct gl_device *device);
 
-// Number of floats of a vertex in the buffer.
+// Returns the number of floats per vertex in the buffer.
 size_t mesh_vertex_floats(const lam_mesh *mesh);
 
 // --- gl_textures.c
@@ -354,7 +359,7 @@ bool textures_upload(struct gl_frame *f, const struct gl_program *program, const
                      lam_error *error);
 // Sets the uniforms of the maps and of the alpha cutoff, and binds the textures.
 void textures_use(struct gl_frame *f, struct gl_program *program, const struct frame_draw_range *range);
-// As meshes_evict.
+// Does the same as meshes_evict for textures.
 void textures_evict(struct gl_frame *f);
 void textures_free(struct gl_device *device);
 
@@ -369,11 +374,11 @@ static inline enum texture_unit gl_occlusion_unit(const struct gl_program *progr
 {
     return program->choices.layer == GLSL_PEELS ? UNIT_GROUND_OCCLUSION : UNIT_OCCLUSION;
 }
-// Finds the ambient occlusion of the frame's pixels from a float picture of the distances of its opaque surfaces
-// (LAM_OUTPUT_DEPTH). The rows belong to the device.
+// Computes the ambient occlusion of the frame's pixels from a float picture of the distances of its opaque surfaces
+// (LAM_OUTPUT_DEPTH). The device owns the rows.
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
                     lam_error *error);
-// Uploads the part that is drawn.
+// Uploads the current part.
 bool occlusion_send(struct gl_frame *f, lam_error *error);
 
 // --- gl_programs.c
@@ -388,25 +393,25 @@ void programs_free(struct gl_device *device);
 bool light_buffers_send(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
 enum glsl_storage light_buffers_storage(const struct gl_device *device, const struct glsl_choices *choices);
 bool environment_send(struct gl_frame *f, lam_error *error);
-// Uploads f->environment_light, likewise.
+// Uploads f->environment_light in the same way.
 bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
-// --- gl_surfaces.c
-// Counts the texels of the surfaces that let light through, behind the texel `first` of a texture that has `most`. *same: the
-// texels are those of the surfaces that were packed last, with the same hierarchy. LAM_LIMIT.
+// --- gl_surfaces.c Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
+// has `most` texels. Sets *same to whether the texels are the ones that were packed last, with the same hierarchy.
+// Fails with LAM_LIMIT.
 bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
-// Writes the texels that were counted, over zeros.
+// Writes the counted texels into zeroed memory.
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);
 uint64_t surfaces_bytes(const struct gl_device *device);
 void surfaces_free(struct gl_device *device);
-// The place of a triangle's record, by its number in the frame; 0: it lets no light through.
+// Returns the position of a triangle's record, by its number in the frame; 0 if it transmits no light.
 size_t surfaces_record(const struct gl_frame *f, uint32_t number);
 
 // --- gl_shadows.c
 // Uploads the hierarchy of a frame with shadows, and what lets light through. LAM_LIMIT: the texture would be too large.
 bool shadows_send(struct gl_frame *f, lam_error *error);
-// Sets what a program with shadows reads.
+// Sets the uniforms and textures for a program with shadows.
 void shadows_use(struct gl_frame *f, struct gl_program *program);
 void shadows_free(struct gl_device *device);
 

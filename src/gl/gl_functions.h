@@ -1,4 +1,4 @@
-// gl_functions.h: the OpenGL functions that lambent calls, in one list, and the table that holds them.
+// gl_functions.h: the list of the OpenGL functions that Lambent calls, and the table of their addresses.
 //
 // loader.c looks up every function by name when a context is made; none is linked. The types come from the declarations
 // in Debian's libgl-dev. One list serves OpenGL 3.3 and OpenGL ES 3.0.
@@ -134,8 +134,8 @@
     X(VertexAttribPointer)                                                                                             \
     X(Viewport)
 
-// Part of some versions only; NULL where the driver has no such name. Call one only after a check of the context's version
-// and extensions: a pointer alone does not mean support.
+// Part of some versions only; NULL if the driver does not have the name. Call such a function only after a check of the
+// context's version and extensions: a pointer alone does not mean support.
 #define GL_OPTIONAL_FUNCTIONS(X)                                                                                       \
     X(BindFragDataLocation) /* desktop */                                                                              \
     X(DebugMessageCallback) /* KHR_debug */                                                                            \

@@ -1,5 +1,6 @@
-// gl_light_buffers.c: uploads the lights and the products of materials and lights, as uniform blocks or, above a block's
-// maximal size, as textures; and the environment's faces. Each upload is skipped if the data have not changed.
+// gl_light_buffers.c: uploads the lights and the products of materials and lights, as uniform blocks or, above the
+// maximum size of a block, as textures; and the environment's faces. Each upload is skipped if the data have not
+// changed.
 #include "gl_device.h"
 
 #include "cube_map.h"
@@ -45,7 +46,7 @@ static void plain_texture(const struct gl *gl, GLenum target)
     gl->TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
-// Uploads rows of GLSL_LIST_WIDTH texels; `next` holds whole rows.
+// Uploads rows of GLSL_LIST_WIDTH texels; `next` contains whole rows.
 static bool send_texels(struct gl_frame *f, struct gl_light_buffer *list, enum texture_unit unit, lam_error *error)
 {
     const struct gl *gl = f->gl;
@@ -85,7 +86,7 @@ static void delete_light_buffer(const struct gl *gl, struct gl_light_buffer *lis
     list->size = list->capacity = 0;
 }
 
-// Uploads `size` bytes of list->next if they differ from those of the previous frame.
+// Uploads `size` bytes of list->next if they have changed since the previous frame.
 static bool send(struct gl_frame *f, struct gl_light_buffer *list, size_t size, enum texture_unit unit,
                  lam_error *error)
 {
@@ -154,7 +155,7 @@ bool environment_send(struct gl_frame *f, lam_error *error)
         return false;
     lam_environment_free(device->environment);
     device->environment = NULL;
-    device->environment_light = NULL; // another may come to lie at its address
+    device->environment_light = NULL; // another one may get the same address
     bool fresh = !device->environment_texture;
     if (fresh)
         gl->GenTextures(1, &device->environment_texture);

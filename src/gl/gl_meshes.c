@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHUNK = 4096 }; // vertices packed in one go
+enum { CHUNK = 4096 }; // vertices packed at once
 
-// Whether one index serves all attributes, so that the mesh's own vertices can be uploaded.
+// Returns whether one index serves all attributes, so that the mesh's own vertices can be uploaded.
 bool mesh_can_share(const lam_mesh *mesh)
 {
     return mesh->indices && mesh->normals && !mesh->normal_indices && mesh->normal_count >= mesh->vertex_count &&
@@ -183,7 +183,8 @@ static void describe(struct gl_frame *f, const struct gl_mesh *row)
         }
 }
 
-// Whether two meshes have the same arrays. Equal pointers mean equal contents: a scene never modifies its arrays.
+// Returns whether two meshes have the same arrays. Equal pointers mean equal contents, since a scene never modifies its
+// arrays.
 static bool same_arrays(const lam_mesh *a, const lam_mesh *b)
 {
     return a->positions == b->positions && a->indices == b->indices && a->normals == b->normals &&

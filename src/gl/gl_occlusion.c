@@ -1,5 +1,5 @@
-// gl_occlusion.c: ambient occlusion. The distances of the surfaces are drawn and read back; the processor finds the
-// occlusion, by the same text and so with the same bits as the CPU device; and the shaders read it as a texture.
+// gl_occlusion.c: ambient occlusion. The distances of the surfaces are drawn and read back. The processor computes the
+// occlusion, with the code of the CPU device and therefore with the same bits, and the shaders read it as a texture.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -43,7 +43,8 @@ bool occlusion_send(struct gl_frame *f, lam_error *error)
     bool fresh = !device->occlusion_texture;
     if (fresh)
         gl->GenTextures(1, &device->occlusion_texture);
-    device->current.textures[UNIT_OCCLUSION] = UINT32_MAX; // so that its unit becomes the active one, bound or not
+    // so that its unit becomes active, whether or not it is bound
+    device->current.textures[UNIT_OCCLUSION] = UINT32_MAX;
     gl_use_texture(device, UNIT_OCCLUSION, GL_TEXTURE_2D, device->occlusion_texture);
     if (fresh) {
         gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);

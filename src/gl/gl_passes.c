@@ -1,10 +1,10 @@
-// gl_passes.c: draws one part of the picture. Each sample is a pass of its own, with the projection shifted by the
+// gl_passes.c: draws one part of the picture. Each sample is a separate pass, with the projection shifted by the
 // sample's offset. A pass draws the opaque surfaces, then peels the translucent ones layer by layer, nearest first.
 //
-// A depth id is the depth and the triangle number of a fragment. Layers are ordered by depth id, so that surfaces of equal
-// depth keep the CPU's order, the lower triangle number in front, and none is lost.
+// A depth id is the depth and the triangle number of a fragment. Layers are ordered by depth id, so that surfaces of
+// equal depth are in the CPU device's order, the lower triangle number in front, and none is lost.
 //
-// The target's rows run from the top down, as in the picture: the projection flips y, which reverses the winding.
+// The target's rows are top-down, like the picture: the projection flips y, which reverses the winding.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -52,7 +52,7 @@ static void set_matrices(struct gl_frame *f, struct gl_program *program, const s
     program_set(f, program, UNIFORM_ENVIRONMENT_MATRIX, three, 9);
 }
 
-// With GLSL_TEXTURE the fields of the material beside the products are plain uniforms.
+// With GLSL_TEXTURE the fields of the material besides the products are plain uniforms.
 static void set_head(struct gl_frame *f, struct gl_program *program, const lam_material *material, bool back)
 {
     struct glsl_material_layout layout = glsl_material_layout(true, program->choices.field_layers);
@@ -124,7 +124,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
     if (call->program->choices.occlusion) {
         enum texture_unit unit = gl_occlusion_unit(call->program);
         gl_use_texture(f->device, unit, GL_TEXTURE_2D, f->device->occlusion_texture);
-        if (f->device->hardware_filter) // a map was read there
+        if (f->device->hardware_filter) // a map may have been read through this unit
             gl_use_sampler(f->device, unit, 0);
     }
     float object = (float)draw->object;
@@ -146,7 +146,7 @@ static bool is_layer(const struct gl_frame *f, const struct gl_draw_call *call)
 }
 
 // Issues the draw calls of the translucent layers, or of everything else. BLENDING_ADD counts every triangle over a
-// pixel, whatever its depth.
+// pixel, regardless of depth.
 static void draw_all(struct gl_frame *f, bool layers, enum gl_blending blending)
 {
     gl_use_blending(f->device, blending);
@@ -223,7 +223,7 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     struct gl_device *device = f->device;
     struct gl_targets *t = &device->targets;
     clear_target(f, &t->sum, DEPTH_ID_NEAREST);
-    clear_target(f, &t->layers[1], DEPTH_ID_NEAREST); // the layer before the first
+    clear_target(f, &t->layers[1], DEPTH_ID_NEAREST); // precedes the first layer
     bool tinted = f->frame->transmits;
     if (tinted) {
         static const GLfloat white[4] = {1, 1, 1, 1};
@@ -256,7 +256,7 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     return true;
 }
 
-// Whether a pixel has the value of the covered sample nearest to its centre, not an average.
+// Returns whether a pixel is the value at the covered sample nearest to its centre instead of an average.
 static bool is_value(lam_output output)
 {
     return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED && output != LAM_OUTPUT_COVERAGE &&

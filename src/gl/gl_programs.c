@@ -42,7 +42,7 @@ static GLuint compile(const struct gl *gl, GLenum kind, const char *text, lam_er
     return 0;
 }
 
-// 0 on failure.
+// Links a program. Returns 0 on failure.
 static GLuint link_program(const struct gl *gl, const char *vertex, const char *fragment, lam_error *error)
 {
     GLuint parts[2] = {compile(gl, GL_VERTEX_SHADER, vertex, error), 0};
@@ -68,7 +68,7 @@ static GLuint link_program(const struct gl *gl, const char *vertex, const char *
     return program;
 }
 
-// Finds the uniforms of maps, and gives each sampler a unit.
+// Finds the uniforms of maps, and assigns a unit to each sampler.
 static bool find_maps(struct gl_frame *f, struct gl_program *program, lam_error *error)
 {
     const struct gl *gl = f->gl;
@@ -138,7 +138,7 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
         if (memcmp(&device->programs[i].choices, choices, sizeof *choices) == 0)
             return &device->programs[i];
     if (device->program_count == device->program_capacity) {
-        // The programs may move: gl_device.c compiles all programs of a frame before it keeps pointers to any.
+        // The programs may move, so gl_device.c compiles all programs of a frame before it stores pointers to any.
         int capacity = device->program_capacity ? 2 * device->program_capacity : 8;
         struct gl_program *grown = realloc(device->programs, (size_t)capacity * sizeof *grown);
         if (!grown) {
@@ -157,7 +157,7 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
         return NULL;
     struct gl_program *program = &device->programs[device->program_count++];
     *program = (struct gl_program){.name = name};
-    memcpy(&program->choices, choices, sizeof *choices); // with the padding, for memcmp
+    memcpy(&program->choices, choices, sizeof *choices); // including the padding, for memcmp
     if (find_uniforms(f, program, error))
         return program;
     f->gl->DeleteProgram(name);
@@ -214,8 +214,8 @@ static const char copy_fragment[] =
     "out vec4 pixel;\n"
     "void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0) * factor; }\n";
 
-// As blend_tinted_pixel (src/cpu/shade/blend.c): one alpha, the mean of the channels'; the background has the colour that it
-// leaves out.
+// Like blend_tinted_pixel (src/cpu/shade/blend.c): there is one alpha, the mean of the channels, and the background is
+// tinted by the difference.
 static const char tint_fragment[] =
     "uniform sampler2D picture;\n"
     "uniform sampler2D tint;\n"

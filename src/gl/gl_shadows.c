@@ -1,9 +1,10 @@
-// gl_shadows.c: the hierarchy of a frame as a float texture, which the shaders walk (shadows.glsl).
+// gl_shadows.c: stores the hierarchy of a frame in a float texture, which the shaders traverse (shadows.glsl).
 //
-// Texels: two for each child of a node (the low corner of its box with its number; the high corner with twice its count of
-// triangles, and one more where no further child follows), six for each triangle in the order of the leaves (corners, with the twin, a kind
-// and the place of the record of one that lets light through, or 0; normals of the corners, unit, with the corners' elements),
-// and a number for each triangle of the frame: its place in that order. Behind them lies what lets light through (gl_surfaces.c).
+// Texels: two for each child of a node (the low corner of its box with its number; the high corner with twice its count
+// of triangles, plus one if no further child follows), six for each triangle in the order of the leaves (corners, with
+// the twin, a kind and the position of the record of a triangle that transmits light, or 0; unit normals of the
+// corners, with the corners' elements), and a number for each triangle of the frame: its position in that order. The
+// data of surfaces that transmit light follow (gl_surfaces.c).
 #include "gl_device.h"
 
 #include "fail.h"
@@ -11,8 +12,8 @@
 #include <string.h>
 
 enum { WIDTH = GLSL_LIST_WIDTH, TEXEL = 4 * sizeof(float), NODE = 2 * NODE_CHILDREN, TRIANGLE = 6, STACK = 64 };
-enum { TEXELS_MAX = 1 << 24 };               // whose places are floats
-enum { KIND_FLAT, KIND_CURVED, KIND_APART }; // APART: casts no shadow, and is in no ray's way
+enum { TEXELS_MAX = 1 << 24 };               // positions up to this are exact floats
+enum { KIND_FLAT, KIND_CURVED, KIND_APART }; // APART: casts no shadow and blocks no ray
 
 static int children_of(const struct ray_node *node)
 {
@@ -22,7 +23,7 @@ static int children_of(const struct ray_node *node)
     return count;
 }
 
-// The nodes between the root and the deepest leaf.
+// Returns the number of nodes between the root and the deepest leaf.
 static int depth_of(const struct hierarchy *h)
 {
     struct {
@@ -46,7 +47,7 @@ static int depth_of(const struct hierarchy *h)
 
 static void pack_node(float *out, const struct ray_node *node)
 {
-    int count = children_of(node) ? children_of(node) : 1; // a box that no ray meets, where nothing casts shadows
+    int count = children_of(node) ? children_of(node) : 1; // if nothing casts shadows, a box that no ray meets
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {
             out[8 * i + k] = node->planes[0][k][i];
@@ -102,11 +103,11 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     if (!h)
         return false;
     if (built)
-        device->shadows_sent = false; // the texture has another hierarchy, or none
+        device->shadows_sent = false; // the texture contains another hierarchy, or none
     device->base.report.hierarchy_ms += built ? (double)(now_ns() - start) * 1e-6 : 0;
-    if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->settings.output)) // no shader walks it
+    if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->settings.output)) // no shader traverses it
         return true;
-    // Triangles are counted in floats, and in texels of a texture.
+    // Triangle indices are stored as floats and must fit the texels of a texture.
     size_t triangles = (size_t)NODE * h->node_count, places = triangles + (size_t)TRIANGLE * (h->triangle_count + 1);
     size_t surfaces = places + h->triangle_count / 4 + 1, surface_texels = 0;
     size_t most = (size_t)device->texture_size_max * WIDTH;

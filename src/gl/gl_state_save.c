@@ -4,7 +4,7 @@
 static const GLenum switches[] = {
     GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_RASTERIZER_DISCARD,
     GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE, GL_POLYGON_OFFSET_FILL, GL_PRIMITIVE_RESTART_FIXED_INDEX,
-    // The following are in desktop OpenGL only.
+    // The following exist only in desktop OpenGL.
     GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_MULTISAMPLE};
 enum { SWITCHES = sizeof switches / sizeof *switches, SWITCHES_ES = 10 };
 
@@ -15,7 +15,7 @@ static const GLint default_storage[6] = {4, 0, 0, 0, 0, 0};
 
 static bool is_supported(const struct gl_device *device, int i)
 {
-    if (switches[i] == GL_PRIMITIVE_RESTART_FIXED_INDEX) // OpenGL: since 4.3
+    if (switches[i] == GL_PRIMITIVE_RESTART_FIXED_INDEX) // exists in desktop OpenGL since 4.3
         return device->context.es || device->context.major * 10 + device->context.minor >= 43;
     return !device->context.es || i < SWITCHES_ES;
 }

@@ -1,6 +1,6 @@
-// gl_surfaces.c: what a shader reads to find how much light a masked, translucent or transmitting triangle lets through
-// (passed_surface of shadows.glsl): its record, those of its materials and their maps at level 0. They lie behind the hierarchy
-// in its texture.
+// gl_surfaces.c: stores the data with which a shader computes the light that a masked, translucent or transmitting
+// triangle lets through (passed_surface of shadows.glsl): its record, and the records of its materials and their maps
+// at level 0. They follow the hierarchy in its texture.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -11,16 +11,16 @@
 #include <string.h>
 
 enum {
-    RECORD = 4,  // texels of a triangle: its sides, the texture coordinates of its corners
-    COLORED = 7, // and their colours
+    RECORD = 4,  // texels of a triangle: its sides, and the texture coordinates of its corners
+    COLORED = 7, // with the colours of its corners
     SIDE = 4,    // of a material
     MAP = 4,     // of a map
-    MAPS = 4,    // that decide what a side lets through
-    WIDE = -1,   // as a channel: all four
+    MAPS = 4,    // maps that affect the transmitted light of a side
+    WIDE = -1,   // channel number for all four channels
 };
 
-// The bytes by which the surfaces of a range are noted, at most: its arrays and numbers, and of each side the side itself and
-// its maps with their textures.
+// The maximum bytes of a range's key: its arrays and numbers, and for each side its values and its maps with their
+// textures.
 enum {
     ARRAYS = 7,
     NUMBERS = 4,
@@ -29,17 +29,17 @@ enum {
                      MAPS * (4 * MAP * (int)sizeof(float) + (int)sizeof(void *) + (int)sizeof(int))),
 };
 
-// The pixels of a texture, or a channel of them, and where they are.
+// The packed pixels of a texture, or of one channel, and their position.
 struct packed_pixels {
     const struct lam_texture *texture;
     int channel;
     size_t at;
 };
 
-// Everything is packed twice: first nowhere, to find out how long it is and to note what it follows from. Pictures and meshes are
-// noted by their addresses: a scene changes no array, and keeps all of them as long as it lives.
+// Everything is packed twice. The first pass only computes the size and the key. Pictures and meshes are identified by
+// their addresses, because a scene never changes arrays and keeps them as long as it exists.
 struct packer {
-    float *out; // NULL: only counted and noted
+    float *out; // NULL means only size and key are computed
     size_t first, used;
     uint8_t *key;
     size_t key_size;
@@ -54,7 +54,7 @@ static void note(struct packer *p, const void *data, size_t size)
     p->key_size += size;
 }
 
-// Returns the place of so many texels, counted from the first of the texture.
+// Reserves texels and returns their position, counted from the first texel of the texture.
 static size_t add_texels(struct packer *p, size_t count)
 {
     size_t at = p->used;
@@ -72,7 +72,7 @@ static void put(struct packer *p, size_t at, const float *numbers, size_t size)
         note(p, numbers, size);
 }
 
-// The pixels at level 0: a texel for each, with all channels, or one channel, four pixels to a texel.
+// Packs the pixels at level 0: one texel each with all channels, or one channel of four pixels per texel.
 static size_t add_pixels(struct packer *p, const struct lam_texture *texture, int channel)
 {
     for (int i = 0; i < p->pixel_count; i++)
@@ -97,7 +97,7 @@ static size_t add_pixels(struct packer *p, const struct lam_texture *texture, in
     return at;
 }
 
-// Packs a map, of which a channel is read or all are; 0: there is none.
+// Packs a map, for one channel or all channels. Returns 0 if there is none.
 static size_t add_map(struct packer *p, const lam_mesh *mesh, const lam_texture_map *map, int channel)
 {
     if (!map || !map->texture)
@@ -125,7 +125,7 @@ static size_t add_map(struct packer *p, const lam_mesh *mesh, const lam_texture_
     return at;
 }
 
-// A side of a range's triangles: ray_opacity and ray_transmittance of opacity.c.
+// Packs a side of a range's triangles, as in ray_opacity and ray_transmittance of opacity.c.
 static size_t add_side(struct packer *p, const struct frame *frame, const struct frame_draw_range *range, bool back)
 {
     const struct frame_draw *draw = &frame->draws[range->draw];
@@ -170,7 +170,7 @@ static void note_range(struct packer *p, const struct frame_draw *draw, const st
     note(p, numbers, sizeof numbers);
 }
 
-// Returns the place of the record of a range's first triangle.
+// Returns the position of the record of a range's first triangle.
 static size_t add_range(struct packer *p, const struct frame *frame, const struct frame_draw_range *range)
 {
     const struct frame_draw *draw = &frame->draws[range->draw];

@@ -1,5 +1,5 @@
-// gl_targets.c: the framebuffers that a part of the picture is drawn into. They hold linear light as floats, which
-// gl_readback.c encodes.
+// gl_targets.c: the framebuffers for a part of the picture. They store linear light as floats, which gl_readback.c
+// encodes.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -60,7 +60,7 @@ static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int 
                 status);
 }
 
-// Whether the driver can draw into a target of the format. Support for blending is a matter of extensions.
+// Returns whether the driver can draw into a target of the format. Blending support depends on extensions.
 static bool can_draw(struct gl_device *device, GLenum format)
 {
     struct gl_frame f = {.device = device, .gl = &device->context.gl};

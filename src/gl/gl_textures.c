@@ -1,8 +1,9 @@
-// gl_textures.c: uploads the textures of materials with all their levels, once, and binds those that a draw call reads.
+// gl_textures.c: uploads the textures of materials with all their levels, once, and binds the textures of a draw call.
 //
-// Shaders read single texels and filter themselves (texture.glsl): numbers of 0…1 are kept in 16 bits, error 2⁻¹⁷; others, and
-// all where an OpenGL ES driver has no such format, as floats. With lam_gl_params.hardware_filter texels of 8 bits stay such,
-// colours sRGB-encoded, and sampler objects say how they are read.
+// Shaders read single texels and filter them (texture.glsl). Numbers in 0…1 are stored in 16 bits, with an error of
+// 2⁻¹⁷; others are stored as floats, and so are all numbers if an OpenGL ES driver lacks such a format. With
+// lam_gl_params.hardware_filter, 8-bit texels stay as they are, colours sRGB-encoded, and sampler objects set wrapping
+// and filtering.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -15,18 +16,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-// How a texture is uploaded.
+// The format of an uploaded texture.
 struct format {
-    GLenum stored, type; // of the graphics card's texels, of the numbers that are sent
-    size_t bytes;        // of a texel that is sent, and about those of one that is stored
+    GLenum stored, type; // the formats of the stored texels and of the uploaded numbers
+    size_t bytes;        // per uploaded texel, and approximately per stored one
 };
 
 static uint8_t encoded_byte(float linear) { return (uint8_t)byte_of(srgb_encode(linear)); }
 
-// The largest number of 16-bit floats.
+// Clamps a number to the range of 16-bit floats.
 static float half_limited(float x) { return x > 65504 ? 65504 : x < -65504 ? -65504 : x; }
 
-// The texels of a level as they are sent.
+// Writes the texels of a level in the form for the upload.
 static void pack_level(const struct lam_texture *texture, int level, const struct format *format, void *out)
 {
     const struct texture_level *l = &texture->levels[level];
@@ -53,7 +54,7 @@ static void pack_level(const struct lam_texture *texture, int level, const struc
         }
 }
 
-// Whether some number is outside of 0…1. Those of bytes are inside, and averages lie between what they are made of.
+// Returns whether a number is outside 0…1. Bytes are always inside, and so are averages of numbers that are.
 static bool needs_floats(const struct lam_texture *texture)
 {
     const struct texture_level *l = &texture->levels[0];
@@ -70,7 +71,7 @@ static struct format format_of(const struct gl_device *device, const struct lam_
         return (struct format){texture->values == LAM_TEXTURE_COLOR ? GL_SRGB8_ALPHA8 : GL_RGBA8, GL_UNSIGNED_BYTE, 4};
     if (device->has_norm16 && !needs_floats(texture))
         return (struct format){GL_RGBA16, GL_UNSIGNED_SHORT, 8};
-    // OpenGL ES does not promise to filter floats of 32 bits.
+    // OpenGL ES does not guarantee filtering of 32-bit floats.
     return (struct format){device->hardware_filter ? GL_RGBA16F : GL_RGBA32F, GL_FLOAT, 16};
 }
 
@@ -167,7 +168,7 @@ static bool upload(struct gl_frame *f, const struct lam_texture *texture, lam_er
     return false;
 }
 
-// The sampler of a map, at the anisotropy of the frame.
+// Returns the sampler of a map, with the anisotropy of the frame.
 static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map)
 {
     static const GLint wraps[] = {GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
@@ -187,7 +188,7 @@ static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map)
         gl->SamplerParameteri(sampler->name, GL_TEXTURE_MIN_FILTER, minifying[map->mip][map->minify]);
         sampler->anisotropy = 1;
     }
-    // Drivers disagree about the probes of filters that are not linear.
+    // With filters that are not linear, drivers disagree about anisotropic probes.
     bool linear = !map->magnify && !map->minify && !map->mip;
     int anisotropy = linear && f->device->anisotropy_max > 1 ? f->frame->settings.anisotropy : 1;
     if (sampler->anisotropy != anisotropy) {

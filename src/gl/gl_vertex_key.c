@@ -1,4 +1,4 @@
-// gl_vertex_key.c: all inputs of the colours of a draw's vertices, as bytes.
+// gl_vertex_key.c: collects all inputs of the colours of a draw's vertices, as bytes.
 #include "gl_vertex_key.h"
 
 #include <stddef.h>
@@ -69,7 +69,7 @@ bool vertex_lighting_key(struct gl_frame *f, struct gl_vertex_lighting *row, con
                            frame->settings.flat_normal,
                            (int)mesh->form,
                            frame->translucent};
-    // Contents that are of this frame, and shadows, which depend on all meshes.
+    // Contents that belong to this frame, and shadows, which depend on all meshes.
     const uint64_t frame_number = mesh->passing || frame->settings.shadows ? f->device->frame_number : 0;
     const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
     bool ok = key_add(f, row, size, choices, sizeof choices, error) &&

@@ -1,4 +1,4 @@
-// gl_vertex_key.h: what the colours of a draw's vertices depend on.
+// gl_vertex_key.h: collects all inputs of the colours of a draw's vertices.
 #ifndef GL_VERTEX_KEY_H
 #define GL_VERTEX_KEY_H
 

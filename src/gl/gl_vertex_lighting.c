@@ -36,7 +36,7 @@ static bool light_range(struct gl_frame *f, const struct gl_mesh *mesh, uint32_t
                 memcpy(lit[(first + i) * each + 2 + back], out->rest[i / repeat], sizeof *out->rest);
         }
     }
-    return call_should_continue(f->call); // else the last vertices may lack light
+    return call_should_continue(f->call); // otherwise the last vertices may not be lit
 }
 
 static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh, int number,
@@ -98,7 +98,7 @@ static bool reserve_row(struct gl_device *device, int draw, lam_error *error)
     return true;
 }
 
-// An attribute of the vertex array, of `size` floats.
+// Sets an attribute of the vertex array, of `size` floats.
 static void point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at)
 {
     f->gl->EnableVertexAttribArray(location);
@@ -106,7 +106,7 @@ static void point_to(struct gl_frame *f, GLuint location, GLint size, size_t str
                                (const void *)(at * sizeof(float)));
 }
 
-// Sets the vertex attributes: those of the mesh that fragments read, and the colours.
+// Sets the vertex attributes: the mesh's attributes for fragments, and the colours.
 static void describe(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh)
 {
     const struct gl *gl = f->gl;

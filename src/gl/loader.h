@@ -6,7 +6,7 @@
 
 #include <lambent/gl.h>
 
-#define EGL_NO_X11 // leaves out the headers of window systems
+#define EGL_NO_X11 // excludes the headers of window systems
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -32,7 +32,7 @@ struct egl {
 #define EGL_FIELD(name) __typeof__(&egl##name) name;
     EGL_FUNCTIONS(EGL_FIELD)
 #undef EGL_FIELD
-    // Extensions; NULL: not available.
+    // Extensions; NULL if not available.
     PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay;
     PFNEGLQUERYDEVICESEXTPROC QueryDevices;
     PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString;
@@ -40,16 +40,17 @@ struct egl {
 };
 
 // Opens the library (NULL: "libEGL.so.1") and looks up its functions. It stays open until the program ends, because
-// drivers start threads and install exit handlers. LAM_UNSUPPORTED names the missing part and its package.
+// drivers start threads and install exit handlers. Fails with LAM_UNSUPPORTED, and names the missing part and its
+// package.
 bool egl_open(struct egl *egl, const char *library, lam_error *error);
 
 // Returns the error of the last EGL call as a phrase.
 const char *egl_reason(const struct egl *egl);
 
-// Whether a space-separated list (NULL: empty) contains the word.
+// Returns whether a space-separated list (NULL if empty) contains the word.
 bool list_has(const char *list, const char *word);
 
-// Fills the table of functions. LAM_UNSUPPORTED names the first missing one.
+// Fills the table of functions. Fails with LAM_UNSUPPORTED, and names the first missing one.
 bool gl_load(struct gl *gl, lam_gl_get_proc *get, void *user, lam_error *error);
 
 #endif

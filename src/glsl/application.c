@@ -1,5 +1,5 @@
-// application.c: the application stage in the lecture style: a C function that lights a vertex, from application.c.in, with
-// the scene's own lights, materials and matrices.
+// application.c: makes the application stage in the lecture style: a C function that lights a vertex, from
+// application.c.in, with the scene's own lights, materials and matrices.
 #include "lecture.h"
 
 #include "application.inc"
@@ -14,7 +14,7 @@
 static const struct helper {
     const char *name, *text;
 } helpers[] = {
-    // Each calls only those above it.
+    // Each function calls only earlier ones.
     {"add", "static vec3 add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }\n"},
     {"subtract", "static vec3 subtract(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }\n"},
     {"times", "static vec3 times(vec3 a, vec3 b) { return (vec3){a.x * b.x, a.y * b.y, a.z * b.z}; }\n"},
@@ -48,7 +48,7 @@ static bool calls(const char *text, const char *name)
     return false;
 }
 
-// Appends the functions that `body` calls, and those that they call.
+// Appends the functions that `body` calls, directly or indirectly.
 static void add_helpers(struct text *text, const char *body)
 {
     bool used[HELPERS];
@@ -62,7 +62,7 @@ static void add_helpers(struct text *text, const char *body)
             text_add(text, helpers[i].text);
 }
 
-// --- the scene's numbers
+// --- numbers of the scene
 
 // Appends a number with the fewest digits that read back as the same float.
 static void add_number(struct text *text, float value)
@@ -104,7 +104,7 @@ static void add_hemispheres(struct text *text, const struct frame *frame)
     text_add(text, "};\n");
 }
 
-// The lights, with the members that any of them needs.
+// Appends the lights, with the members that any of them needs.
 static void add_lights(struct text *text, const struct glsl_facts *f, const struct frame *frame, const int *order)
 {
     text_print(text, "\nstatic const struct {\n%s%s%s%s    vec3 diffuse%s;\n} lights[] = {\n",
@@ -146,7 +146,7 @@ struct members {
     bool fibre, opacity;
 };
 
-// The matrices and the material of each draw, as the uniforms of a shader that lights it have them.
+// Appends the matrices and the material of each draw, with the same values as a shader's uniforms.
 static void add_draws(struct text *text, const struct frame *frame, const struct frame_draw_range *const *ranges,
                       int count, struct members has)
 {
@@ -180,7 +180,7 @@ static void add_draws(struct text *text, const struct frame *frame, const struct
     text_add(text, "};\n");
 }
 
-// --- the text
+// --- the complete text
 
 static void add_body(struct text *text, const struct glsl_facts *f, bool origin)
 {

@@ -8,13 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A definition (function, struct, table or #define) with the comment before it.
+// A definition (function, struct, table or #define) with its comment.
 struct definition {
     char *lead, *start, *end; // comment and definition; lead == start: no comment
     const char *name;
     size_t name_length;
     int file;
-    bool apart; // an empty line is before it
+    bool apart; // an empty line precedes it
     bool kept;
 };
 
@@ -33,8 +33,8 @@ static char *next_line(const char *at)
 
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
-// Returns the end of a definition: of its first line if that has a semicolon, otherwise of the line that begins with the closing
-// brace; a table ends with a parenthesis.
+// Returns the end of a definition: its first line if that has a semicolon, otherwise the line that begins with the
+// closing brace; a table ends with a parenthesis.
 static char *definition_end(char *at)
 {
     bool table = begins(at, "const ");
@@ -67,7 +67,7 @@ static void name_definition(struct definition *definition)
         definition->name_length++;
 }
 
-// Definitions of the dialect's own words, which GLSL does not need.
+// Detects definitions of the dialect's own words, which GLSL does not need.
 static bool is_dialect_definition(const char *at)
 {
     static const char *const starts[] = {"#ifdef",        "#endif",           "precision",
@@ -108,7 +108,7 @@ static int split_definitions(struct definition *definitions, int count, char *so
 
 enum { BUCKETS = 256 };
 struct definition_index {
-    int first[BUCKETS], next[DEFINITIONS_MAX]; // of definitions whose names have the same hash; -1: the end
+    int first[BUCKETS], next[DEFINITIONS_MAX]; // chains of definitions whose names have the same hash; -1 means the end
 };
 
 static unsigned hash_of(const char *name, size_t length)
@@ -199,7 +199,7 @@ static void write_glsl(struct text *text, const char *at, const char *end)
     }
 }
 
-// Writes a definition. The comments of a struct's members are aligned again, because the GLSL types differ in length.
+// Writes a definition. The comments of a struct's members are aligned again, because GLSL types have other lengths.
 static void write_definition(struct text *text, const struct definition *p)
 {
     if (!begins(p->start, "STRUCT(")) {

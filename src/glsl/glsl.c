@@ -1,4 +1,4 @@
-// glsl.c: makes the texts of a vertex and a fragment shader from a set of choices.
+// glsl.c: generates a vertex and a fragment shader from a set of choices.
 #include "glsl.h"
 
 #include "fail.h"

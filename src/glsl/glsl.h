@@ -1,14 +1,13 @@
 // glsl.h: GLSL text for a set of choices, and the values of its uniforms from a frame.
 //
-// The text consists of the equations of src/lighting, as far as they are called (equations.h), and of the *.glsl files in
-// this folder, which are ordinary texts for all choices: what the choices decide is resolved, and what is then not read is left out
-// (specialize.h).
+// The text consists of the called equations of src/lighting (equations.h), and of the *.glsl files in this folder,
+// which are ordinary texts for all choices: known conditions are resolved, and unread names are removed (specialize.h).
 //
 // Names in the text. Attributes, with their locations (GLSL 120: bound by name):
-//     0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position, 7 texcoord,
-//     8 second_texcoord.
-// Uniforms: the table of glsl_rows.c. All colours are vec4, so that arrays of them have the same layout in std140 blocks,
-// in texels and for glUniform4fv.
+//    0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position, 7 texcoord,
+//    8 second_texcoord.
+// Uniforms: the table of glsl_rows.c. All colours are vec4, so that arrays of them have the same layout in std140
+// blocks, in texels and for glUniform4fv.
 #ifndef GLSL_H
 #define GLSL_H
 
@@ -38,8 +37,8 @@ enum glsl_environment {
     GLSL_FACES,
 };
 
-// Depth peeling of translucent surfaces (gl_passes.c); not in 120. A second output, `depth_id`, holds the depth and the
-// triangle number of each pixel.
+// Depth peeling of translucent surfaces (gl_passes.c); not in 120. A second output, `depth_id`, contains the depth and
+// the triangle number of each pixel.
 enum glsl_layer {
     GLSL_NO_LAYERS,
     GLSL_WRITES_DEPTH_IDS, // an opaque surface
@@ -57,20 +56,21 @@ enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FA
 struct glsl_map {
     uint8_t used;
     uint8_t texels; // maps of a range with the same number have the same texels everywhere
-    uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // as in lam_texture_map
+    uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // same as in lam_texture_map
 };
 
-// The choices that determine a shader's text. Zero the struct before the assignments if memcmp is to compare it.
+// The choices that determine a shader's text. Zero the struct before assigning members if memcmp is to compare it.
 struct glsl_choices {
     enum glsl_version version;
     enum glsl_storage storage;
     enum glsl_encoding encoding;
     enum glsl_environment environment;
-    // The environment lights a physical material: sampler2D environment_light beside it (environment_light.h).
+    // Whether the environment lights a physical material: sampler2D environment_light, in addition to `environment`
+    // (environment_light.h).
     bool environment_light;
     bool occlusion; // ambient occlusion: sampler2D ambient_occlusion has a texel for each pixel of the target
     enum glsl_layer layer;
-    bool transmits;  // a layer has a third output, `through`: the share of each channel that passes it
+    bool transmits;  // a layer has a third output `through`, the transmittance per channel
     lam_stage stage; // never AUTO
     lam_shading shading;
     lam_reflection reflection; // never AUTO
@@ -78,26 +78,26 @@ struct glsl_choices {
     bool distant_viewer;
     bool gl1;
     bool single_scattering;
-    bool passed;          // of each light a share is taken, a uniform that the program sets (texels: position.w)
-    bool shadows;         // walks the hierarchy in a texture (shadows.glsl); not in 120
-    bool passes_rays;     // with shadows: some triangles let light through
-    bool tints_rays;      // with those: and colour it
-    bool catches;         // black, with the share of the light as opacity that shadows and occlusion take away
-    lam_tone tone;        // of GLSL_ENCODED; AUTO, NONE: the light is clamped
+    bool passed;          // each light is multiplied by a share, a uniform that the program sets (texels: position.w)
+    bool shadows;         // traverses the hierarchy in a texture (shadows.glsl); not in 120
+    bool passes_rays;     // with shadows, some triangles transmit light
+    bool tints_rays;      // with passes_rays, they also tint the light
+    bool catches;         // a shadow catcher: black, with the blocked share of the light as opacity
+    lam_tone tone;        // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
     bool exposes;         // the fragment multiplies its light by the uniform `exposure`
     bool lecture;         // the lecture style (lecture.h)
-    int mistake;          // of the lecture style: mistake_find; 0: none
+    int mistake;          // mistake_find in the lecture style, or 0
     bool products;        // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;       // the back is lit with −n
-    bool back_material;   // the back has a material of its own
+    bool back_material;   // the back has its own material
     bool colors;          // attribute color
     bool tangents;        // attribute tangent; otherwise the direction field, if the model needs a tangent
     bool converted[2];    // front, back: a metallic-roughness material with maps under a classic model
     uint8_t alpha[2];     // front, back: lam_alpha_mode
-    uint8_t anisotropy;   // most probes of a texture
+    uint8_t anisotropy;   // the most probes of a texture
     bool hardware_filter; // glsl_use_hardware_filter
-    // LAYER_… of the range's materials (layer_kinds.h), and of all materials of the frame: a block has the fields of the
-    // latter.
+    // LAYER_… of the range's materials (layer_kinds.h), and of all materials of the frame; a block has the fields of
+    // the latter.
     uint8_t layers, field_layers;
     struct glsl_map maps[2][LAM_MAP_COUNT]; // front, back
     struct glsl_group groups[GLSL_GROUPS_MAX];
@@ -107,18 +107,19 @@ struct glsl_choices {
 };
 
 // Returns the choices for a range of a frame. The caller sets version, storage, encoding and products. `environment` is
-// GLSL_FACES, or none if neither material is reflective. LAM_STAGE_AUTO: the vertex stage with Gouraud shading, otherwise
-// the fragment stage.
+// GLSL_FACES, or none if neither material is reflective. LAM_STAGE_AUTO means the vertex stage with Gouraud shading,
+// otherwise the fragment stage.
 struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *range, lam_stage stage);
 
-// Outputs of the geometry: evaluated for each fragment whatever the shading method, and without lighting.
+// Returns whether an output is a value of the geometry, evaluated for each fragment without lighting for every shading
+// method.
 static inline bool glsl_output_is_geometry(lam_output output)
 {
     return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||
            output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW || output == LAM_OUTPUT_AMBIENT_OCCLUSION;
 }
 
-// Has the hardware filter textures: the program does not depend any more on how maps are wrapped and filtered.
+// Lets the hardware filter textures, so that the program no longer depends on the wrapping and filters of maps.
 void glsl_use_hardware_filter(struct glsl_choices *choices);
 
 struct glsl_text {
@@ -132,20 +133,22 @@ void glsl_free(struct glsl_text *text);
 
 // --- contents of the blocks (std140) and, with GLSL_TEXTURE, of the texels
 
-// A light, with the layout of struct Light. With products the struct ends after `cone`, without gl1 before `ambient`.
+// A light, with the layout of struct Light. With products the struct ends after `cone`; without gl1 it ends before
+// `ambient`.
 struct glsl_light {
-    // Eye space; w 1. In shaders with shadows w is the radius, negative where the light casts none, and the position of a
-    // directional light is the axis in world space of which its direction has the smallest part.
+    // In eye space; w 1. In shaders with shadows w is the radius, negative if the light casts no shadows, and the
+    // position of a directional light is the world axis of which its direction has the smallest component.
     float position[4];
-    float direction[4];   // eye space, unit, in the direction of travel; w 0, with `occlusion` the share occluded
-    float attenuation[4]; // constant, linear, quadratic, 1 / range (0: none)
+    // eye space, unit, direction of travel; w 0, or with `occlusion` the share that occlusion dims
+    float direction[4];
+    float attenuation[4]; // constant, linear, quadratic, 1 / range (0 if there is none)
     float cone[4];        // cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner − cos outer)
     float diffuse[4], specular[4], ambient[4];
 };
 
-// The fields of struct Material, or with products the head of the block Products: colours as vec4, then numbers. In the
-// block the head is followed by diffuse_product[lights], specular_product[lights], with gl1 light_ambient_product[lights],
-// sky_product[hemispheres] and ground_product[hemispheres], 4 floats each.
+// The fields of struct Material or, with products, the head of the block Products: colours as vec4, then numbers. In
+// the block the head is followed by diffuse_product[lights], specular_product[lights], with gl1
+// light_ambient_product[lights], sky_product[hemispheres] and ground_product[hemispheres], 4 floats each.
 struct glsl_material_layout {
     int count;
     const struct material_field *fields[LAM_FIELDS_MAX];
@@ -160,12 +163,13 @@ enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
-// The colours that lights are multiplied by (frame_material_colors), without what maps multiply at each point.
+// Gets the colours that lights are multiplied by (frame_material_colors), without factors that maps supply at each
+// point.
 void glsl_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3]);
 
-// The same for one material's products: the block Products or BackProducts, or the material's texels of product_list: for
-// each light diffuse, specular and with gl1 ambient, then for each hemisphere sky and ground. The uniforms first_product
-// and back_first_product hold the index of the first texel.
+// Do the same for one material's products: the block Products or BackProducts, or the material's texels of
+// product_list: for each light diffuse, specular and with gl1 ambient, then for each hemisphere sky and ground. The
+// uniforms first_product and back_first_product contain the index of the first texel.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);
@@ -173,8 +177,8 @@ void glsl_pack_products(const struct glsl_choices *choices, const struct frame *
 // Sets the choices about maps for a range.
 void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
 
-// Whether shaders of the frame read a map of the material; whether they light each point by what its maps say, which Phong shading
-// does; and whether they convert it at each point.
+// Return whether shaders of the frame use a map of the material; whether maps affect the lighting at each point, as
+// with Phong shading; and whether the material is converted at each point.
 bool glsl_reads_maps(const struct frame *frame, const lam_material *material);
 static inline bool glsl_lights_maps(const struct frame *frame, const lam_material *material)
 {
@@ -185,19 +189,21 @@ static inline bool glsl_converts(const struct frame *frame, const lam_material *
     return frame_material_is_converted(frame, material) && glsl_lights_maps(frame, material);
 }
 
-// Whether a shader of these materials keeps the light apart that the diffuse map multiplies (glsl_facts.separate_texture_terms).
+// Returns whether a shader of these materials keeps the light that the diffuse map multiplies separate
+// (glsl_facts.separate_texture_terms).
 bool glsl_separates_texture_terms(const struct frame *frame, const struct frame_draw_range *range);
 
-// The least opacity of a masked surface that is seen. Numbers of surfaces are decided by the maps and vertex colours alone.
+// Returns the smallest visible opacity of a masked surface. For outputs of surface properties, only maps and vertex
+// colours matter.
 float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material);
-// The emission that an emission map multiplies at each fragment (glsl_facts.maps_interpolated_light).
+// Gets the emission that an emission map multiplies at each fragment (glsl_facts.maps_interpolated_light).
 void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4]);
 
-// The rows of a map's uniforms NAME_map_s and NAME_map_t: those of the matrix from the mesh's texture coordinates to the
-// picture's, with the scale and the offset of the texel. NULL: a map whose value is 1 everywhere.
+// Gets the rows of a map's uniforms NAME_map_s and NAME_map_t: the matrix from the mesh's texture coordinates to the
+// picture's, with the scale and the offset of the texel. A NULL map has the value 1 everywhere.
 void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4], float t[4]);
 
-// Whether a mesh has the texture coordinates that a map reads.
+// Returns whether a mesh has the texture coordinates that a map uses.
 static inline bool glsl_has_texcoords(const lam_mesh *mesh, const lam_texture_map *map)
 {
     return map->texcoords ? mesh->second_texcoords != NULL : mesh->texcoords != NULL;
@@ -209,7 +215,7 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
 // Returns the name of a field in the shader.
 const char *glsl_field_name(const struct material_field *field, bool products);
 
-// Returns the index in the frame of the shader's light i, −1 past the end. Lights of a group keep the frame's order.
+// Returns the index in the frame of the shader's light i, or −1 past the end. Lights of a group keep the frame's order.
 int glsl_frame_light(const struct glsl_choices *choices, const struct frame *frame, int i);
 struct glsl_light glsl_light_of(const struct frame_light *light);
 

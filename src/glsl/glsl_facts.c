@@ -1,4 +1,4 @@
-// glsl_facts.c: what follows from a shader's choices.
+// glsl_facts.c: derives the properties of a shader from its choices.
 #include "glsl_rows.h"
 
 static void find_output(struct glsl_facts *f, const struct glsl_choices *c)

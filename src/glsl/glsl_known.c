@@ -1,4 +1,4 @@
-// glsl_known.c: what a shader's choices decide in its texts.
+// glsl_known.c: the conditions and names in a shader's sources that its choices determine.
 #include "glsl_known.h"
 
 #include <stdlib.h>
@@ -94,7 +94,7 @@ void known_conditions(struct known_table *out, const struct glsl_facts *f)
     LAYER_KNOWN(TRANSMISSION);
     LAYER_KNOWN(VOLUME);
 #undef LAYER_KNOWN
-    if (f->output_vector) // the shader evaluates a single light, with a kind of its own
+    if (f->output_vector) // the shader evaluates a single light, whose kind is a uniform
         return;
     add_known_lights(out, "kind == LIGHT_DIRECTIONAL", kinds[LIGHT_DIRECTIONAL], all);
     add_known_lights(out, "kind >= LIGHT_SPOT_CUTOFF", all - kinds[LIGHT_POINT] - kinds[LIGHT_DIRECTIONAL], all);

@@ -1,4 +1,4 @@
-// glsl_lobes.c: GLSL calls of the reflection models, from the table in src/lighting/lobes.h.
+// glsl_lobes.c: writes GLSL calls of the reflection models, from the table in src/lighting/lobes.h.
 #include "glsl_rows.h"
 
 #define LANES 1
@@ -39,10 +39,10 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
         return true;
     if (!f->adds_lights || !f->has_lights)
         return false;
-    bool numbers = f->converts && !f->microfacet; // the classic model's numbers come from these
+    bool numbers = f->converts && !f->microfacet; // the classic model's numbers are computed from these
     if (strcmp(parameter, "shininess") == 0)
         return f->highlights && !f->microfacet;
-    if (strcmp(parameter, "metallic") == 0) // of Fresnel's factor
+    if (strcmp(parameter, "metallic") == 0) // part of the Fresnel factor
         return f->microfacet || numbers;
     if (strcmp(parameter, "roughness") == 0 && numbers)
         return true;
@@ -108,7 +108,7 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
 
 // --- layers
 
-// The value of a field of a layer at the point: what maps make of it, else the visible side's own.
+// Appends the value of a layer's field at the point: the value after maps, or else the visible side's own.
 static void add_layer_field(struct text *text, const struct glsl_facts *f, const char *member, const char *field,
                             bool color)
 {

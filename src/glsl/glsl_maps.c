@@ -1,7 +1,7 @@
-// glsl_maps.c: what a material's maps change from point to point, as GLSL: a struct with a member for each number, and for
-// each side a function that reads the texels and fills it. The same rules as in src/cpu/shade/textures.inc.
+// glsl_maps.c: generates the GLSL for maps: a struct with a member for each number that maps change, and for each side
+// a function that reads the texels and fills it. The rules are the same as in src/cpu/shade/textures.inc.
 //
-// Longer than 600 lines: one text that reads maps, built from the rows of its table.
+// Longer than 600 lines: one generated text, built from the rows of its table.
 #include "glsl_rows.h"
 
 #define LANES 1
@@ -16,7 +16,7 @@
 
 static bool is_drawn(int map) { return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION; }
 
-// Where light is evaluated at vertices or once for a triangle, these maps are applied at each fragment.
+// If light is evaluated at vertices or once per triangle, these maps are applied at each fragment.
 static bool follows_lighting(int map)
 {
     return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION;
@@ -74,7 +74,7 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
     for (int side = 0; side < 2; side++) {
         const lam_material *material = frame->materials[side ? range->back : range->front];
         bool masks = material->alpha_mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
-        // Where no texel has an alpha below 1, a map's scale makes nothing translucent.
+        // If no texel has an alpha below 1, a map's scale makes nothing translucent.
         bool opaque =
             material->alpha_mode == LAM_ALPHA_MASK || (!range->translucent && glsl_reads_maps(frame, material));
         c->alpha[side] = masks ? LAM_ALPHA_MASK : opaque ? LAM_ALPHA_OPAQUE : (uint8_t)material->alpha_mode;
@@ -152,7 +152,7 @@ void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_ran
 
 bool glsl_is_physical(const struct glsl_facts *f) { return frame_is_physical(f->choices->reflection); }
 
-// The map of a side whose level of detail is shown; LAM_MAP_COUNT: none.
+// Returns the map of a side whose level of detail is shown, or LAM_MAP_COUNT if there is none.
 static lam_map lod_map(const struct glsl_facts *f, int side)
 {
     for (int i = 0; i < LOD_MAPS; i++)
@@ -161,7 +161,7 @@ static lam_map lod_map(const struct glsl_facts *f, int side)
     return LAM_MAP_COUNT;
 }
 
-// Whether what a material is at a point depends on a map of that side.
+// Returns whether the material at a point depends on a map of that side.
 static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
 {
     switch (f->choices->output) {
@@ -178,7 +178,7 @@ static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
     }
 }
 
-// Whether the shader's output depends on a map.
+// Returns whether the shader's output depends on a map.
 static bool reads(const struct glsl_facts *f, int side, lam_map map)
 {
     if (f->output_material)
@@ -245,7 +245,7 @@ lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
 
 static bool any_has(const struct glsl_facts *f, lam_map map) { return f->maps[0][map] || f->maps[1][map]; }
 
-// The members of the struct, and the map that each comes from; those of layers follow (glsl_layer_input).
+// The members of the struct, and the map of each; members for layers follow (glsl_layer_input).
 enum {
     COLOR,
     AMBIENT,
@@ -286,7 +286,7 @@ static const struct {
     [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit", LAM_MAP_BUMP},
     [DOWN] = {"down", "vec3", "the direction of its columns", LAM_MAP_BUMP},
     [LEVEL] = {"level", "float", "level of detail", LAM_MAP_COUNT},
-    [COAT_NORMAL] = {"coat_normal", "vec3", "those of the coat's normal", LAM_MAP_CLEARCOAT_NORMAL},
+    [COAT_NORMAL] = {"coat_normal", "vec3", "components of the coat's normal", LAM_MAP_CLEARCOAT_NORMAL},
     [STRETCH] = {"stretch", "vec3", "direction of the stretch by tangent and bitangent, and its strength",
                  LAM_MAP_ANISOTROPY},
 };
@@ -323,13 +323,13 @@ bool glsl_maps_have(const struct glsl_facts *f, const char *member)
 
 static const char *prefix(int side) { return side ? "back_" : ""; }
 
-// A parameter of the side's material.
+// Appends a parameter of the side's material.
 static void add_own(struct text *text, const struct glsl_facts *f, int side, const char *name)
 {
     text_print(text, "%s%s%s", prefix(side), f->choices->products ? "" : "material.", name);
 }
 
-// The value of a map, or of one channel of it.
+// Appends the value of a map, or of one channel.
 static void add_value(struct text *text, const struct glsl_facts *f, int side, lam_map map, const char *channels)
 {
     const char *name = lam_map_name(map), *owner = lam_map_name(glsl_map_owner(f, side, map));
@@ -355,7 +355,7 @@ static void add_color(struct text *text, const struct glsl_facts *f, int side, i
     text_add(text, ";\n");
 }
 
-// A number: the material's own times the map's.
+// Appends a number: the material's own times the map's.
 static void add_factor(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map,
                        const char *own)
 {
@@ -374,7 +374,7 @@ static void add_factor(struct text *text, const struct glsl_facts *f, int side, 
     text_add(text, ";\n");
 }
 
-// Appends the arguments that say how a map is read: its texture coordinates, and the filters that the shader computes.
+// Appends the arguments for the texture lookup: its texture coordinates, and the filters that the shader computes.
 static void add_sampling(struct text *text, const struct glsl_map *map)
 {
     static const char *const wraps[] = {"WRAP_REPEAT", "WRAP_CLAMP", "WRAP_MIRROR"};
@@ -397,7 +397,7 @@ static void add_texels(struct text *text, const struct glsl_facts *f, int side)
     }
 }
 
-// The heights of a bump map one texel of level 0 before and behind the point, along rows and columns.
+// Appends the heights of a bump map one texel of level 0 before and behind the point, along rows and columns.
 static void add_slopes(struct text *text, const struct glsl_facts *f, int side)
 {
     if (!has_member(f, SLOPES))
@@ -446,7 +446,7 @@ static void add_opacity(struct text *text, const struct glsl_facts *f, int side)
     text_add(text, ";\n");
 }
 
-// The numbers of a metallic-roughness material under a classic model (lam_material_as_classic).
+// Appends the numbers of a metallic-roughness material for a classic model (lam_material_as_classic).
 static void add_conversion(struct text *text, const struct glsl_facts *f, int side)
 {
     bool mirrored = lobe_properties((int)f->choices->reflection) & LOBE_MIRRORED;
@@ -461,7 +461,7 @@ static void add_conversion(struct text *text, const struct glsl_facts *f, int si
                mirrored ? " * 0.25" : "");
 }
 
-// The normal of a map of normals, beside tangent, bitangent and the mesh's own.
+// Appends the normal from a normal map, along tangent, bitangent and the mesh's own normal.
 static void add_normal(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
 {
     const char *to = members[member].name, *p = prefix(side), *name = lam_map_name(map);
@@ -477,7 +477,8 @@ static void add_normal(struct text *text, const struct glsl_facts *f, int side, 
     text_print(text, "    if (%s%s_map_s.w == 0.0) {\n        maps.%s = vec3(0.0, 0.0, 1.0);\n    }\n", p, name, to);
 }
 
-// A number or a colour of a layer: the material's own times the map's. A film's thickness lies between two of the material's.
+// Appends a number or a colour of a layer: the material's own times the map's. The thickness of a film is interpolated
+// between two numbers.
 static void add_layer_input(struct text *text, const struct glsl_facts *f, int side,
                             const struct glsl_layer_input *input)
 {
@@ -548,7 +549,7 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     add_factor(text, f, side, OCCLUSION, LAM_MAP_OCCLUSION, NULL);
     add_factor(text, f, side, ROUGHNESS, LAM_MAP_ROUGHNESS, "roughness");
     add_factor(text, f, side, METALLIC, LAM_MAP_METALLIC, "metallic");
-    if (has_member(f, DIELECTRIC)) // without products the diffuse colours of lights never have this factor
+    if (has_member(f, DIELECTRIC)) // without products, the diffuse colours of lights never include this factor
         text_add(text, varies || (!c->products && f->microfacet) ? "    maps.dielectric = 1.0 - maps.metallic;\n"
                                                                  : "    maps.dielectric = 1.0;\n");
     for (int i = 0; glsl_layer_input(i); i++)

@@ -32,7 +32,7 @@ static void add_member(struct list *list, enum glsl_semantic semantic, const cha
 
 static void set_meaning(struct list *list, const char *meaning) { list->rows[list->count - 1].meaning = meaning; }
 
-// Whether the equations read a field of the material.
+// Returns whether the equations use a field of the material.
 static bool is_read(const struct glsl_facts *f, const struct material_field *row)
 {
     switch (row->reader) {
@@ -51,7 +51,7 @@ static bool is_read(const struct glsl_facts *f, const struct material_field *row
     }
 }
 
-// Adds the fields of the material: members of its struct, or with products rows of their own. A block has all fields.
+// Adds the fields of the material: members of its struct or, with products, separate rows. A block has all fields.
 static void add_fields(struct list *list, const struct glsl_facts *f, const char *block, const char *prefix)
 {
     bool products = f->choices->products;
@@ -151,7 +151,7 @@ static void add_environment(struct list *list, const struct glsl_facts *f)
     }
 }
 
-// The light of an output of one light.
+// Adds the light for an output of one light.
 static void add_one_light(struct list *list, const struct glsl_facts *f)
 {
     bool texture = f->choices->storage == GLSL_TEXTURE;
@@ -267,16 +267,16 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
     if (c->colors && ((f->lit && !f->output_vector) || f->value_masks))
         rows[count++] = (struct glsl_attribute){
             2, "vec4", "color",
-            flat && glsl_120 ? "linear, not premultiplied; at all three vertices that of the triangle's last vertex"
+            flat && glsl_120 ? "linear, not premultiplied; the last vertex's value at all three vertices"
                              : "linear, not premultiplied"};
     if (f->signed_tangent)
         rows[count++] = (struct glsl_attribute){3, "vec4", "tangent",
                                                 "mesh tangent, unit, and the sign of the bitangent (MikkTSpace)"};
     else if (f->needs_tangent && c->tangents)
-        rows[count++] = (struct glsl_attribute){
-            3, "vec3", "tangent",
-            flat && glsl_120 ? "mesh tangent; at all three vertices that of the triangle's last vertex"
-                             : "mesh tangent, along the surface"};
+        rows[count++] =
+            (struct glsl_attribute){3, "vec3", "tangent",
+                                    flat && glsl_120 ? "mesh tangent; the last vertex's value at all three vertices"
+                                                     : "mesh tangent, along the surface"};
     if (f->application) {
         rows[count++] = (struct glsl_attribute){4, "vec4", "front_color",
                                                 "light that leaves the front at the vertex, and the opacity"};
@@ -339,7 +339,7 @@ int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row r
 {
     const struct glsl_choices *c = f->choices;
     struct list list = {.rows = rows};
-    bool all = c->storage == GLSL_BLOCK; // a block has all members, whichever are read
+    bool all = c->storage == GLSL_BLOCK; // a block has all members, used or not
     if (strcmp(type, "Light") == 0) {
         bool both = all || f->output_vector;
         if (both || f->positions) {
@@ -385,7 +385,7 @@ static int width_of(const struct glsl_row *row)
     return (int)strlen(row->type) + (int)strlen(row->name) + (row->count ? snprintf(NULL, 0, "[%d]", row->count) : 0);
 }
 
-// Appends a declaration; the comments of consecutive rows begin in one column.
+// Appends a declaration; the comments of consecutive rows are aligned.
 static void declare(struct text *text, const char *start, const struct glsl_row *row, int width)
 {
     char name[48];
@@ -420,7 +420,7 @@ void glsl_declare(struct text *text, const struct glsl_facts *facts, bool fragme
     if (!width)
         return;
     text_add(text, "\n// --- uniforms, set by the application\n\n");
-    for (int i = 0; i < count; i++) { // structs before the uniforms of their type
+    for (int i = 0; i < count; i++) { // structs are declared before the uniforms of their type
         bool skip = !glsl_row_is_in(facts, &rows[i], fragment);
         for (int k = 0; k < i; k++)
             skip |= strcmp(rows[k].type, rows[i].type) == 0;

@@ -1,12 +1,12 @@
-// glsl_rows.h: a table of a shader's attributes, uniforms, blocks and structs, from which come the declarations in its
-// text and the values in its contract (lam_shader).
+// glsl_rows.h: the table of a shader's attributes, uniforms, blocks and structs, from which its declarations and the
+// values of its contract (lam_shader) are made.
 #ifndef GLSL_ROWS_H
 #define GLSL_ROWS_H
 
 #include "glsl.h"
 #include "text_builder.h"
 
-// The value that a uniform holds.
+// The value of a uniform.
 enum glsl_semantic {
     GLSL_MODEL_VIEW_PROJECTION,
     GLSL_MODEL_VIEW,
@@ -21,9 +21,9 @@ enum glsl_semantic {
     GLSL_AMBIENT_LIGHT,
     GLSL_LIGHTS,      // array of structs
     GLSL_HEMISPHERES, // array of structs
-    GLSL_PASSED,      // array of the lights' shares that nothing keeps from the surface
+    GLSL_PASSED,      // array of the lights' unblocked shares
     GLSL_MATERIAL,    // struct
-    GLSL_HEAD,        // a field of the material, beside the products
+    GLSL_HEAD,        // a field of the material, besides the products
     GLSL_DIFFUSE_PRODUCT,
     GLSL_SPECULAR_PRODUCT,
     GLSL_LIGHT_AMBIENT_PRODUCT,
@@ -42,13 +42,13 @@ struct glsl_row {
     enum glsl_semantic semantic;
     const char *type; // "vec4", "Light"
     char name[32];
-    int count;         // of array elements; 0: not an array
-    const char *block; // NULL: a plain uniform
+    int count;         // elements of an array; 0 if not an array
+    const char *block; // NULL for a plain uniform
     const char *meaning;
     bool back; // belongs to the back material
     // Offset in floats of a member or a head: in struct glsl_light, in the material, or in up, sky, ground.
     int at;
-    lam_map map; // of GLSL_MAP…
+    lam_map map; // the map of GLSL_MAP…
 };
 enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 
@@ -120,41 +120,41 @@ struct glsl_facts {
     const struct glsl_choices *choices;
     lam_shading shading;         // PHONG for outputs of the geometry
     int layers;                  // LAYER_… that light_point adds
-    bool maps[2][LAM_MAP_COUNT]; // those that are read, of the front and of the back
+    bool maps[2][LAM_MAP_COUNT]; // the maps that are used, of the front and of the back
 #define FACT(name) bool name;
     GLSL_FACTS(FACT)
 #undef FACT
 };
 struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
-// The facts of one stage.
+// Returns the facts of one stage.
 struct glsl_facts glsl_stage_facts(const struct glsl_facts *facts, bool fragment);
 // Appends a stage after its version.
 void glsl_add_stage(struct text *text, const struct glsl_facts *stage);
 
-// Whether the reflection model reads a parameter of the material, by its name in LOBE_PARAMETERS
+// Returns whether the reflection model uses a parameter of the material, by its name in LOBE_PARAMETERS
 // (src/lighting/lobes.h).
 bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
 // With products and two materials: appends the lines that select these parameters from the front or the back material.
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
-// Finds the maps that a shader reads; the other facts are there.
+// Finds the maps that a shader uses; the other facts must be set.
 void glsl_find_maps(struct glsl_facts *facts);
-// The map whose sampler another one uses: itself, or the first one of its side with the same texels.
+// Returns the map whose sampler another map uses: itself, or the first one of its side with the same texels.
 lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
-// Whether the reflection model lights physical materials.
+// Returns whether the reflection model lights physical materials.
 bool glsl_is_physical(const struct glsl_facts *facts);
-// Whether the maps' struct has a member of this name.
+// Returns whether the maps' struct has a member with this name.
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
-// A member of struct layer_values that is a field of the material, times its map's value (layer_inputs.h).
+// A member of struct layer_values that is a field of the material times its map's value (layer_inputs.h).
 struct glsl_layer_input {
-    char member[28], field[28]; // not pointers, which a program would have to fix when it starts
+    char member[28], field[28]; // arrays, because pointers would need relocation at program start
     lam_map map;                // LAM_MAP_COUNT: none
     bool color;
 };
 const struct glsl_layer_input *glsl_layer_input(int index);                             // NULL past the end
-const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *field); // NULL: none
+const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *field); // may be NULL
 // Appends the lines that set the variable `given`, of struct layer_values, except for its vectors.
 void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
-// Appends the struct of what maps say of a point, and the functions that fill it.
+// Appends the struct of values from maps, and the functions that fill it.
 void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
 
 // Appends the expression of a parameter of the material.
@@ -162,7 +162,7 @@ void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
 void glsl_add_lobe(struct text *text, const struct glsl_facts *facts);
 
-// The function of a tone curve; "": none.
+// Returns the name of a tone curve's function, or "".
 const char *glsl_tone_function(lam_tone tone);
 
 // Lists the uniforms of both shaders in the order of their declaration, which is also the layout of each block. Returns
@@ -177,9 +177,9 @@ enum { GLSL_ATTRIBUTES_MAX = 11 };
 // Lists the vertex attributes. Returns their number.
 int glsl_attributes(const struct glsl_facts *facts, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX]);
 
-// Whether the vertex shader (`fragment` false) or the fragment shader reads a uniform.
+// Returns whether the vertex shader (`fragment` false) or the fragment shader uses a uniform.
 bool glsl_row_is_in(const struct glsl_facts *facts, const struct glsl_row *row, bool fragment);
-// Lists the members of a struct type. Returns their number; 0: `type` is not a struct.
+// Lists the members of a struct type. Returns their number, or 0 if `type` is not a struct.
 int glsl_members(const struct glsl_facts *facts, const char *type, struct glsl_row rows[GLSL_ROWS_MAX]);
 // Append the declarations.
 void glsl_declare_attributes(struct text *text, const struct glsl_facts *facts);

@@ -1,4 +1,5 @@
-// glsl_stage.c: the sources of a stage, the *.glsl files of this folder, and what its choices decide in them.
+// glsl_stage.c: selects the sources of a stage, the *.glsl files of this folder, and the conditions that its choices
+// determine.
 #include "environment_light.h"
 #include "equations.h"
 #include "fail.h"
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- what is known
+// --- known conditions and names
 
 #define WORD(name) [name] = #name
 static const char *const kind_words[GLSL_KINDS] = {WORD(LIGHT_POINT), WORD(LIGHT_DIRECTIONAL), WORD(LIGHT_SPOT_CUTOFF),
@@ -19,7 +20,7 @@ static const char *const falloff_words[GLSL_FALLOFFS] = {WORD(FALLOFF_NONE), WOR
 
 static void put_lights(struct known_table *t, const struct glsl_choices *c)
 {
-    int light_texels = c->products ? 4 : c->gl1 ? 7 : 6, product_texels = c->gl1 ? 3 : 2; // texels of each light
+    int light_texels = c->products ? 4 : c->gl1 ? 7 : 6, product_texels = c->gl1 ? 3 : 2; // texels per light
     known_flag(t, "has_light_shares", c->passed);
     known_flag(t, "cube_map", c->environment == GLSL_CUBE);
     known_number(t, "HEMISPHERES", c->hemisphere_count);
@@ -71,7 +72,7 @@ static void put_maps(struct known_table *t, const struct glsl_facts *f)
 {
     static const struct {
         const char *member, *lit,
-            *last; // flags: light_point applies the map; or the fragment does, to light without it
+            *last; // flags: whether light_point applies the map, or the fragment applies it to light without it
     } rows[] = {{"color", "map_color", "color_map_last"}, {"emission", "map_emission", "emission_map_last"},
                 {"opacity", "map_opacity", NULL},         {"ambient", "map_ambient", NULL},
                 {"specular", "map_specular", NULL},       {"occlusion", "map_occlusion", NULL},
@@ -131,7 +132,7 @@ static void put_output(struct known_table *t, const struct glsl_facts *f)
                              : "out");
 }
 
-// A loop for each group of lights, with its kind and its falloff.
+// Adds a loop for each group of lights, with its kind and its falloff.
 static void put_loops(struct known_table *t, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;

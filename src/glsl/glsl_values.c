@@ -1,4 +1,4 @@
-// glsl_values.c: the choices for a frame, and the values of the lights, materials and products in its shaders.
+// glsl_values.c: computes the choices for a frame, and the values of lights, materials and products in its shaders.
 #include "glsl.h"
 
 #include <string.h>
@@ -126,7 +126,7 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
     struct glsl_material_layout layout = glsl_material_layout(products, field_layers);
     lam_material in_use = *material;
     in_use.shininess = frame_shininess(frame, material);
-    if (glsl_converts(frame, material)) { // each point makes its colours of the base colour
+    if (glsl_converts(frame, material)) { // each point computes its colours from the base colour
         in_use.diffuse = (lam_rgba){material->ambient.r, material->ambient.g, material->ambient.b, material->diffuse.a};
         in_use.specular = (lam_rgb){1, 1, 1};
     }
@@ -153,7 +153,7 @@ size_t glsl_lights_bytes(const struct glsl_choices *c)
     return (all ? all : 4) * sizeof(float);
 }
 
-// Shaders with shadows read this in place of w 1, and in place of the position if the light has none.
+// Packs the data that shaders with shadows read instead of w 1, and instead of the position if the light has none.
 static void pack_shadow(float position[4], const struct frame_light *light)
 {
     position[3] = light->casts_shadows ? (float)light->radius : -1;
@@ -229,7 +229,7 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
     }
     float kd[3], ks[3];
     glsl_material_colors(frame, material, kd, ks);
-    // A block has an array of each product; in a texture the products of a light are consecutive.
+    // A block has an array for each product; in a texture the products of a light are consecutive.
     size_t lights = (size_t)c->light_count, hemispheres = (size_t)c->hemisphere_count, at = 0;
     size_t step = block ? 4 : c->gl1 ? 12 : 8, next = block ? 4 * lights : 4;
     for (int g = 0; g < c->group_count; g++)

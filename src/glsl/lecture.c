@@ -1,4 +1,4 @@
-// lecture.c: the text of shaders in the lecture style, from lecture.glsl.
+// lecture.c: generates shaders in the lecture style, from lecture.glsl.
 #include "lecture.h"
 
 #include "fail.h"
@@ -44,8 +44,8 @@ bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam
     return true;
 }
 
-// Lights of a kind are together. Writes the condition on a loop's index that selects them: "i >= 1 && i < 3"; "" if all lights
-// are. Returns their number.
+// Lights of a kind are consecutive. Writes the condition on a loop's index that selects them: "i >= 1 && i < 3", or ""
+// if it selects all lights. Returns their number.
 static int lights_of(const struct glsl_choices *c, int kind, char condition[48])
 {
     int first = 0, count = 0, at = 0;
@@ -116,7 +116,7 @@ void lecture_add_spots(struct text *text, const struct glsl_choices *c, const ch
     }
 }
 
-// The values of the material and of the vertex colour.
+// Adds the values of the material and of the vertex colour.
 static void add_material(struct known_table *t, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;

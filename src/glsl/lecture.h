@@ -1,39 +1,40 @@
-// lecture.h: shaders in the lecture style: plain lines, at most about forty for a stage, with the names of the blackboard (N, L,
-// V, R, H, T, ka, kd, ks), the same uniforms as the full style and the same picture; the application stage as a C function; and
-// the known mistakes, which are edits of them.
+// lecture.h: shaders in the lecture style: simple code, at most about forty lines per stage, with the names that
+// lectures use (N, L, V, R, H, T, ka, kd, ks), the same uniforms as the full style and the same picture; the
+// application stage as a C function; and the known mistakes, as edits of these shaders.
 #ifndef LECTURE_H
 #define LECTURE_H
 
 #include "glsl_known.h"
 
-// Whether the style covers these choices. False: LAM_UNSUPPORTED, with the option that it does not cover.
+// Returns whether the style supports these choices. Otherwise fails with LAM_UNSUPPORTED and the unsupported option.
 bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
 
 // Appends a stage after its version and its uniforms.
 void lecture_add(struct text *text, const struct glsl_facts *stage);
 
-// Makes the C source of the application stage: a function `light_vertex` that computes the colours of a vertex of one of the
-// draws `ranges`. order[i] is the index in the frame of the shader's light i; choices->mistake is in it. The caller frees the
-// result. NULL: LAM_UNSUPPORTED, with the option that the style does not cover, or as mistake_apply; LAM_LIMIT.
+// Makes the C source of the application stage: a function `light_vertex` that computes the colours of a vertex of one
+// of the draws `ranges`. order[i] is the index in the frame of the shader's light i; it contains the mistake
+// choices->mistake. The caller frees the result. Returns NULL on failure: LAM_UNSUPPORTED, with the option that the
+// style does not support, or as mistake_apply; LAM_LIMIT.
 char *lecture_application(const struct glsl_choices *choices, const struct frame *frame, const int *order,
                           const struct frame_draw_range *const *ranges, int count, lam_error *error);
 
 // --- parts of the text that GLSL and C share (lecture.c)
 
-// Adds the flags of both texts: those of every shader (known_facts), and what the lines of the blackboard depend on.
+// Adds the flags of both texts: the flags of every shader (known_facts), and the conditions of the lecture style's lines.
 void lecture_add_flags(struct known_table *table, const struct glsl_facts *facts);
-// Appends the vector from the point to light i: `against` of directional lights, `towards` of the others.
+// Appends the vector from the point to light i: `against` for directional lights, `towards` for the others.
 void lecture_add_way(struct text *text, const struct glsl_choices *choices, const char *against, const char *towards);
 // Appends the lines that set `spot`, the factor of a spotlight's cone, of the type `number`.
 void lecture_add_spots(struct text *text, const struct glsl_choices *choices, const char *number);
 
 // --- mistakes
 
-// Introduces the mistake choices->mistake into one of the texts, which are freed and replaced. False: LAM_UNSUPPORTED, if they
-// lack what the mistake needs; LAM_LIMIT.
+// Introduces the mistake choices->mistake into one of the texts, which are freed and replaced. Returns false on
+// failure: LAM_UNSUPPORTED if they lack the requirement of the mistake, LAM_LIMIT.
 bool mistake_apply(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 
-// The value of glsl_choices.mistake for an id. 0: there is no such mistake.
+// Returns the value of glsl_choices.mistake for an id, or 0 if there is no such mistake.
 int mistake_find(const char *id);
 
 #endif

@@ -6,7 +6,7 @@
 #include "lecture.h"
 #include "text_builder.h"
 
-// Most rows need no text.
+// Most rows have no text.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 #include <stdio.h>
@@ -15,17 +15,18 @@
 
 enum { EDITS_MAX = 2 };
 
-// `before` occurs exactly once in the two texts of a shader that the mistake applies to. "@lights@" is the number of lights.
+// `before` occurs exactly once in the two texts of a shader to which the mistake applies. "@lights@" is the number of
+// lights.
 struct edit {
     const char *before, *after;
 };
 
-// Rows of one id are forms of one mistake and stand together: the first that applies is taken. The first has the sentences. Forms
-// for the C function of the application stage are last.
+// Adjacent rows with the same id are forms of one mistake; the first applicable form is used. The first has the
+// sentences. Forms for the C function of the application stage are last.
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];
-    const char *contains; // a text of the shader, which stays; NULL: none
+    const char *contains; // a text that the shader must contain, or NULL
     enum { ANY_LIGHTS, ONE_LIGHT, MORE_LIGHTS } lights;
 };
 
@@ -334,7 +335,7 @@ int mistake_find(const char *id)
     return 0;
 }
 
-// The row after those of the same id.
+// Returns the row after the rows with the same id.
 static int next_id(int row)
 {
     const char *id = mistakes[row].id;
@@ -356,7 +357,7 @@ bool lam_shader_mistake_row(int row, lam_shader_mistake *mistake)
 
 // --- edits
 
-// `text` with the number of lights in place of "@lights@"; at most 127 bytes.
+// Copies `text` with the number of lights for "@lights@"; at most 127 bytes.
 static void expand(char out[128], const char *text, int lights)
 {
     const char *at = strstr(text, "@lights@");
@@ -374,7 +375,7 @@ static int count_of(const char *text, const char *part)
     return count;
 }
 
-// Replaces the only occurrence of `before`. NULL: out of memory.
+// Replaces the only occurrence of `before`. Returns NULL if memory runs out.
 static char *replaced(const char *text, const char *before, const char *after)
 {
     const char *at = strstr(text, before);

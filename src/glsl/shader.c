@@ -1,4 +1,4 @@
-// shader.c: lam_shader_make: makes a scene's shaders and the value of every uniform.
+// shader.c: lam_shader_make: generates a scene's shaders and the value of every uniform.
 #include <lambent/shader.h>
 
 #include "arena.h"
@@ -39,15 +39,15 @@ struct build {
 
 // --- choices for all ranges of a scene
 
-// Lines and points have no shader of their own: their rectangles belong to one camera.
+// Lines and points have no exported shader, because their rectangles depend on the camera.
 static bool is_selected(const struct frame *frame, const struct frame_draw_range *range, int object)
 {
     const struct frame_draw *draw = &frame->draws[range->draw];
     return !draw->strokes && (object < 0 || draw->object == object);
 }
 
-// Adds the maps of other materials, which may have some more: a map that a material has not is 1 everywhere (glsl_map_values).
-// False: one text cannot read both.
+// Merges the maps of another material, which may have more: a missing map is 1 everywhere (glsl_map_values). Returns
+// false if one text cannot read both.
 static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
 {
     bool same = true;
@@ -55,11 +55,11 @@ static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
         uint8_t *alpha = &all->alpha[side];
         same &= all->converted[side] == own->converted[side];
         same &= (*alpha == LAM_ALPHA_BLEND) == (own->alpha[side] == LAM_ALPHA_BLEND);
-        if (own->alpha[side] == LAM_ALPHA_MASK) // opaque ones have a cutoff of 0
+        if (own->alpha[side] == LAM_ALPHA_MASK) // opaque materials have a cutoff of 0
             *alpha = LAM_ALPHA_MASK;
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
             struct glsl_map *a = &all->maps[side][i], b = own->maps[side][i];
-            a->texels = b.texels = (uint8_t)(side * LAM_MAP_COUNT + i); // each has a sampler of its own
+            a->texels = b.texels = (uint8_t)(side * LAM_MAP_COUNT + i); // each has its own sampler
             same &= !a->used || !b.used || memcmp(a, &b, sizeof b) == 0;
             if (!a->used)
                 *a = b;
@@ -68,7 +68,7 @@ static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
     return same;
 }
 
-// No range is selected: the sentence about it.
+// Fails with the reason why no range is selected.
 static bool fail_nothing_selected(const struct build *m, int object, lam_error *error)
 {
     bool strokes = false;
@@ -236,7 +236,7 @@ static int value_of(const struct build *m, const struct frame_draw_range *range,
                     const struct glsl_row *member, int index, float out[16])
 {
     const struct frame *frame = &m->frame;
-    static const struct frame_draw no_draw = {0}; // what a uniform of the frame has: it reads none of it
+    static const struct frame_draw no_draw = {0}; // for uniforms of the frame, which use no draw
     const struct frame_draw *draw = range ? &frame->draws[range->draw] : &no_draw;
     int number = range ? (row->back ? range->back : range->front) : 0;
     const lam_material *material = frame->materials[number];
@@ -349,7 +349,7 @@ static int block_offset(int *end, const char *type)
 struct uniform_list {
     lam_shader_uniform *out;
     int count;
-    int end; // of the block's values so far
+    int end; // the end of the block's values so far
     const char *block;
     bool failed;
 };
@@ -370,7 +370,7 @@ static void add_uniform(const struct build *m, struct uniform_list *t, const str
     t->failed |= !u->name;
 }
 
-// Lists the uniforms of a draw, or with NULL those of the frame. In a block, array elements begin at multiples of 16.
+// Lists the uniforms of a draw or, with NULL, of the frame. In a block, array elements begin at multiples of 16.
 static bool list_uniforms(const struct build *m, const struct frame_draw_range *range, const lam_shader_uniform **out,
                           int *count)
 {
@@ -492,7 +492,7 @@ static bool order_lights(struct build *m)
     return m->order != NULL;
 }
 
-// The C function of the application stage in the lecture style.
+// Makes the C function of the application stage in the lecture style.
 static bool make_application(struct build *m, int object, lam_error *error)
 {
     const struct frame_draw_range **ranges =
@@ -513,7 +513,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     struct call_control call;
     call_start(&call, NULL);
     lam_draw_params without = draw ? *draw : (lam_draw_params){0};
-    without.shadows |= without.ground != LAM_GROUND_NONE; // as a ground has them, which is no draw of the scene
+    without.shadows |= without.ground != LAM_GROUND_NONE; // a ground implies shadows, and is not a draw of the scene
     without.ground = LAM_GROUND_NONE;
     if (!frame_build(&m->frame, m->scene, camera, &without, m->width, m->height, &call, error) ||
         !choose(m, draw, object, params, error))
@@ -524,7 +524,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     if (m->choices.lecture && m->facts.application) {
         if (!make_application(m, object, error))
             return false;
-        shaders.mistake = 0; // it is in the C function, which has the light
+        shaders.mistake = 0; // the mistake is in the C function, which computes the light
     }
     if (!glsl_make(&shaders, &m->shader->text, error))
         return false;

@@ -1,4 +1,4 @@
-// specialize.c: removes branches with a known condition from a text, and what is then never read.
+// specialize.c: removes branches with a known condition from a text, and names that are then never read.
 #include "specialize.h"
 
 #include <stddef.h>
@@ -61,7 +61,7 @@ static const char *text_of(struct span name, const struct index *known)
 
 static bool is_truth(const char *text) { return strcmp(text, "true") == 0 || strcmp(text, "false") == 0; }
 
-// The bracket that closes the one at `at`.
+// Returns the bracket that closes the one at `at`.
 static const char *closing_bracket(const char *at, const char *end)
 {
     for (int depth = 0; at < end; at++) {
@@ -72,7 +72,7 @@ static const char *closing_bracket(const char *at, const char *end)
     return at;
 }
 
-// The first occurrence of an operator outside of brackets; NULL: none.
+// Returns the first occurrence of an operator outside brackets, or NULL.
 static const char *find_outside(struct span s, const char *operator)
 {
     for (; s.at < s.end; s.at++) {
@@ -85,9 +85,9 @@ static const char *find_outside(struct span s, const char *operator)
 }
 
 static const char *const operators[] = {" || ",
-                                        " && "}; // of the weaker first; the truth of operator i is decided by !i
+                                        " && "}; // in ascending precedence; the value of operand i decides if it is !i
 
-// 1: the condition holds, 0: it does not, -1: that is not known.
+// Returns 1 if the condition holds, 0 if it does not, -1 if that is unknown.
 static int truth_of(struct span s, const struct index *known)
 {
     const char *text = text_of(s, known);
@@ -111,7 +111,8 @@ static int truth_of(struct span s, const struct index *known)
 
 static void add_expression(struct text *text, struct span s, const struct index *known);
 
-// Appends a bracket: expressions with commas between them. A group of one choice that is left without operators loses its brackets.
+// Appends a bracket: expressions separated by commas. A group that contains a single choice loses its brackets if no
+// operators remain.
 static void add_bracket(struct text *text, struct span s, bool group, const struct index *known)
 {
     struct text inner = {0};
@@ -150,7 +151,7 @@ static void add_operand(struct text *text, struct span s, const struct index *kn
     }
 }
 
-// The colon of a choice, after its question mark.
+// Returns the colon of a choice, after its question mark.
 static const char *colon_of(struct span s)
 {
     for (int depth = 1;; s.at++) {
@@ -211,7 +212,7 @@ static bool has_known(struct span s, const struct index *known)
     return false;
 }
 
-// Appends a statement or the head of one, without its indentation.
+// Appends a statement, or the head of one, without its indentation.
 static void add_statement(struct text *text, struct span s, const struct index *known)
 {
     struct span code = s;
@@ -240,7 +241,8 @@ static const char *closing(const char *at, const char *end, size_t indent)
 
 static void add_lines(struct text *text, struct span s, const struct index *known, size_t shift);
 
-// Appends the branch of the `if` at `head` that is taken. Returns where the text goes on; NULL: the condition is not known.
+// Appends the selected branch of the `if` at `head`. Returns the position after the `if`, or NULL if the condition is
+// unknown.
 static const char *add_branch(struct text *text, const char *head, struct span s, const struct index *known,
                               size_t shift)
 {
@@ -272,7 +274,8 @@ static const char *add_branch(struct text *text, const char *head, struct span s
     }
 }
 
-// The end of the statement that begins with a line: other lines follow while brackets are open, and if they continue a choice.
+// Returns the end of the statement that begins with a line: it continues while brackets are open, or with the parts of
+// a choice.
 static const char *statement_end(const char *at, const char *end)
 {
     for (int open = 0; at < end;) {
@@ -332,9 +335,9 @@ void specialize_branches(struct text *text, const char *source, const struct kno
     add_lines(text, (struct span){source, source + strlen(source)}, &index, 0);
 }
 
-// --- what is never read
+// --- unread names
 
-// Returns the next name from `at` on, outside of comments; it is empty at the end.
+// Returns the next name from `at` on, outside comments; it is empty at the end.
 static struct span next_name(const char *at, const char *end)
 {
     while (at < end && !in_name(*at))
@@ -349,7 +352,7 @@ static bool same(struct span a, struct span b)
 
 static void erase(const char *from, const char *to) { memset((char *)from, SPECIALIZE_ERASED, (size_t)(to - from)); }
 
-// Whether the code of a line ends with a semicolon.
+// Returns whether the code of a line ends with a semicolon.
 static bool is_statement(const char *at, const char *end)
 {
     while (at < end && *at != '\n' && !(*at == '/' && at[1] == '/'))
@@ -359,7 +362,8 @@ static bool is_statement(const char *at, const char *end)
     return at[-1] == ';';
 }
 
-// Returns the line that begins with `first` if it only sets the variable or the member that ends at `after`; else NULL.
+// Returns the line that begins with `first` if it only sets the variable or the member that ends at `after`, otherwise
+// NULL.
 static const char *setting_line(const struct source_span *s, const char *first, const char *after)
 {
     while (first > s->start && first[-1] == ' ')
@@ -369,7 +373,7 @@ static const char *setting_line(const struct source_span *s, const char *first, 
                                                                                                             : NULL;
 }
 
-// Whether a span declares a variable of a type: "TYPE VARIABLE".
+// Returns whether a span declares a variable of a type: "TYPE VARIABLE".
 static bool is_of(const struct source_span *s, struct span variable, struct span type)
 {
     struct span before = {s->start, s->start};
@@ -391,9 +395,9 @@ static bool reads_member(const struct source_span *s, struct span type, struct s
         while (variable.at > s->start && in_name(variable.at[-1]))
             variable.at--;
         bool element = variable.at == variable.end && variable.at > s->start && variable.at[-1] == ']';
-        if (element) // of an array, none of which has structs of src/lighting
+        if (element) // an array element; no array contains structs of src/lighting
             continue;
-        if (variable.at == variable.end) // of a call's result
+        if (variable.at == variable.end) // the result of a call
             return true;
         if (!is_of(s, variable, type))
             continue;
@@ -412,7 +416,7 @@ static bool erase_members(const struct source_span *spans, int count, const stru
 {
     bool changed = false;
     struct span type = name_at(s->start + 7, s->end);
-    int left = 0; // lines of members; the last one stays, because a GLSL struct cannot be empty
+    int left = 0; // lines of members; the last one is kept, because a GLSL struct cannot be empty
     for (const char *at = s->start; at < s->end; at = next_line(at, s->end))
         left += at[strspn(at, "\1")] == ' ';
     for (const char *at = s->start, *next; at < s->end; at = next) {
@@ -447,7 +451,7 @@ static bool reads(const struct source_span *s, const char *from, struct span nam
         const char *line = setting_line(s, w.at, after);
         if (!line)
             return true;
-        w.end = next_line(w.at, s->end) - 1; // what the line reads, it reads to set the variable
+        w.end = next_line(w.at, s->end) - 1; // the line only reads names to set the variable
         if (erases)
             erase(line, w.end + 1);
     }
@@ -462,7 +466,7 @@ static bool is_mentioned(const struct source_span *s, const char *from, struct s
     return w.end > w.at;
 }
 
-// Erases unread variables, and an `if` without statements.
+// Erases unread variables, and each `if` without statements.
 static bool erase_variables(const struct source_span *s)
 {
     bool changed = false;

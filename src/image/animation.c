@@ -19,7 +19,7 @@ struct lam_animation {
     const struct animation_codec *codec;
     struct animation_settings settings;
     void *state;
-    int count; // frames so far
+    int count; // number of frames so far
     bool finished;
 };
 
@@ -105,8 +105,8 @@ static bool check_frame(const lam_animation *animation, const lam_image *frame, 
     return true;
 }
 
-// Returns whether the limit leaves room for the frames so far, and for the next one: the picture before, its changed
-// part, and as much for its encoding. Else the animation is of no more use.
+// Returns whether the memory limit allows the next frame in addition to the frames so far: the previous picture, its
+// changed part, and the same size for its encoding. Otherwise the animation becomes unusable.
 static bool check_memory(lam_animation *animation, const lam_control *control, lam_error *error)
 {
     struct call_control call;

@@ -11,7 +11,7 @@
 
 #define NEEDED "captions need the Debian packages libfreetype6 and fonts-dejavu-core, or a font named by LAMBENT_FONT"
 
-// The fonts of Debian's packages fonts-dejavu-core, fonts-liberation2, fonts-liberation, fonts-noto-core,
+// Font files of Debian's packages fonts-dejavu-core, fonts-liberation2, fonts-liberation, fonts-noto-core,
 // fonts-freefont-ttf and fonts-roboto-unhinted.
 static const char *const font_paths[] = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -40,7 +40,7 @@ const char *lam_font_path(int index)
 #include <zlib.h>
 #endif
 
-// The FreeType functions that are used here, with the types of its own declarations.
+// The FreeType functions that Lambent uses, with the types of their declarations.
 struct freetype {
     void *handle;
     __typeof__(&FT_Init_FreeType) init;
@@ -58,7 +58,7 @@ struct lam_font {
     struct freetype ft;
     FT_Library library;
     FT_Face face;
-    unsigned char *bytes; // of the font that a static program contains
+    unsigned char *bytes; // bytes of a static program's embedded font
 };
 
 static bool open_freetype(struct freetype *ft, lam_error *error)
@@ -89,7 +89,7 @@ static const char *find_font(void)
     return NULL;
 }
 
-// The font of a static program, whatever fonts the machine has: captions are the same everywhere.
+// Opens the font of a static program, so that captions do not depend on the fonts of the machine.
 static bool open_contained(lam_font *font, lam_error *error)
 {
 #ifdef LAMBENT_STATIC
@@ -176,7 +176,7 @@ static FT_ULong next_letter(const char **text)
 
 static float clamped(float x) { return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; }
 
-// Draws a colour with some coverage over a pixel; neither is premultiplied.
+// Blends a colour over a pixel by its coverage; neither is premultiplied.
 static void blend_bytes(uint8_t *pixel, lam_rgba color, float cover)
 {
     float from = color.a * cover, under = (float)pixel[3] / 255.0f, alpha = from + under * (1.0f - from);
@@ -190,7 +190,7 @@ static void blend_bytes(uint8_t *pixel, lam_rgba color, float cover)
     pixel[3] = (uint8_t)(clamped(alpha) * 255.0f + 0.5f);
 }
 
-// As above, over premultiplied floats.
+// Does the same for premultiplied floats.
 static void blend_floats(float *pixel, lam_rgba color, float cover)
 {
     float from = color.a * cover;
@@ -219,8 +219,8 @@ static void stamp(lam_image *image, const FT_Bitmap *bitmap, int left, int top, 
         }
 }
 
-// Lays out a line of text and returns its width in pixels; draws it unless `image` is NULL. A letter that the font cannot load
-// is left out.
+// Lays out a line of text and returns its width in pixels; draws it unless `image` is NULL. Letters that the font
+// cannot load are skipped.
 static double walk(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
                    const char *text)
 {
@@ -267,7 +267,7 @@ bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double 
     return true;
 }
 
-#else // built without FreeType's headers
+#else // the build lacks FreeType's headers
 
 lam_font *lam_font_open(const char *path, lam_error *error)
 {

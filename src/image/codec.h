@@ -16,39 +16,40 @@ struct picture_file {
 };
 
 struct codec {
-    const char *name;  // "png"; also the file-name ending, without its dot
+    const char *name;  // "png"; also the file extension, without its dot
     const char *title; // for messages: "PNG"
-    const char *alias; // another file-name ending; NULL: none
-    // One line for lists: the stored numbers. NULL: this format is only read, and `write` is NULL too.
+    const char *alias; // another file extension, or NULL
+    // One line for lists about the stored numbers. NULL means this format is only read, and `write` is NULL too.
     const char *written;
     lam_pixel_format pixels;
-    // Its files begin with no signature: it is tried after all others, and by the ending of a file's name.
+    // Its files have no signature, so it is tried after all others, by the file extension.
     bool unmarked;
 
-    // Encodes a picture of valid size and pixel format into memory from malloc.
-    // `params` is never NULL; `pool` may be, and does not change the bytes.
+    // Encodes a picture of valid size and pixel format into memory from malloc. `params` is never NULL; `pool` may be
+    // NULL, and does not affect the bytes.
     bool (*write)(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                   lam_error *error);
 
-    // Whether a file that starts with these bytes is of this format.
+    // Returns whether a file that starts with these bytes has this format.
     bool (*probe)(const uint8_t *bytes, size_t size);
 
-    // Decodes a file into `image`, which is empty; on failure it stays so. The pixels are from picture_make, and rows are
-    // decoded one by one under picture_continues.
+    // Decodes a file into `image`, which is empty and remains empty on failure. picture_make allocates the pixels; rows
+    // are decoded one by one while picture_continues returns true.
     bool (*read)(const struct picture_file *file, lam_image *image, lam_error *error);
 
-    // As read, but as the file has it. More than 8 bits a number: `image` becomes LAM_RGBA32F with the file's numbers, 0…1,
-    // neither decoded nor premultiplied, and *wide becomes true. 8 bits without alpha: LAM_RGB8. NULL: read does that.
+    // Decodes without loss of precision. With more than 8 bits per channel, `image` becomes LAM_RGBA32F with the file's
+    // numbers, 0…1, neither decoded nor premultiplied, and *wide becomes true. With 8 bits and no alpha it becomes
+    // LAM_RGB8. NULL means use `read`.
     bool (*read_wide)(const struct picture_file *file, lam_image *image, bool *wide, lam_error *error);
 
-    // Whether the first bytes of a file of this format (CODEC_HEAD of them or the whole file) say that
-    // Lambent wrote it. NULL: the format cannot say it.
+    // Returns whether the first bytes of a file of this format (CODEC_HEAD bytes or the whole file) state that Lambent
+    // wrote it. NULL means the format cannot store this.
     bool (*ours)(const uint8_t *bytes, size_t size);
 };
 
 enum { CODEC_HEAD = 512 };
 
-// The formats, in the order in which files are tried and lists name them; those whose files begin with no signature last.
+// The formats, in the order in which files are probed and lists show them; formats without a signature are last.
 // tests/fuzz/meson.build reads these names too.
 #define CODECS(X) X(png) X(ppm) X(pfm) X(exr) X(jpeg) X(webp) X(hdr) X(bmp) X(tga)
 
@@ -56,52 +57,54 @@ enum { CODEC_HEAD = 512 };
 CODECS(CODEC)
 #undef CODEC
 
-// Returns the codec of a file that starts with these bytes, or NULL if there is none. `name` (may be NULL): where the
-// bytes do not tell, the ending of this file name does.
+// Returns the codec of a file that starts with these bytes, or NULL if there is none. If the bytes are ambiguous, the
+// extension of `name` (may be NULL) decides.
 const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name);
 
-// Fails with LAM_BAD_ARGUMENT.
+// Checks the parameters. Fails with LAM_BAD_ARGUMENT.
 bool save_params_check(const lam_save_params *params, lam_error *error);
 
-// Returns the threads that encode a picture; NULL: this thread alone. `threads` as in lam_save_params.
+// Returns the threads for encoding a picture; NULL means only this thread. `threads` is as in lam_save_params.
 struct pool *encoding_pool(const lam_image *image, int threads);
 
-// Returns whether a header's size can be read; no memory is taken for others. LAM_LIMIT (lam_control.pixel_limit).
+// Returns whether a picture of this size may be read, before memory is allocated for it. Fails with LAM_LIMIT
+// (lam_control.pixel_limit).
 bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error);
 
-// Makes the picture that a codec fills, of a size that was checked. Its bytes are charged to the file's call. LAM_LIMIT.
+// Allocates a picture of a checked size for a codec to fill. Its bytes are charged to the file's call. Fails with
+// LAM_LIMIT.
 bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                   lam_image *image, lam_error *error);
 
-// The same with more bytes behind the pixels, fewer than a row has for each row; they are not charged.
+// Does the same with `more` bytes after the pixels, fewer than one row per row; they are not charged.
 bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                          size_t more, lam_image *image, lam_error *error);
 
-// Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is fine.
+// Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is allowed.
 void picture_free(struct call_control *call, lam_image *image);
 
-// Returns whether decoding continues with row `y`, or false and fills the error.
+// Returns whether decoding may continue with row `y`; otherwise fills the error.
 static inline bool picture_continues(const struct picture_file *file, int64_t y, lam_error *error)
 {
     return y % 16 != 0 || call_should_continue(file->call) || call_error(file->call, error);
 }
 
-// Decodes a picture of any format; with `linear` to LAM_RGBA32F, linear and premultiplied. Its bytes stay charged to the
-// file's call (picture_free).
+// Decodes a picture of any format; picture_decode_linear converts it to LAM_RGBA32F, linear and premultiplied. Its
+// bytes stay charged to the file's call (picture_free).
 bool picture_decode(const struct picture_file *file, lam_image *image, lam_error *error);
-// As read_wide gives it: also LAM_RGB8.
+// Decodes like read_wide; the result may be LAM_RGB8.
 bool picture_decode_wide(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error);
 bool picture_decode_linear(const struct picture_file *file, lam_color_mode color, lam_image *image, lam_error *error);
 
-// Converts a picture from a codec to LAM_RGBA32F, linear and premultiplied. `wide`: as read_wide set it. On failure the
-// picture is as it was or empty.
+// Converts a picture from a codec to LAM_RGBA32F, linear and premultiplied. `wide` is the result of read_wide. On
+// failure the picture is unchanged or empty.
 bool picture_linearize(const struct picture_file *file, lam_image *image, bool wide, lam_color_mode color,
                        lam_error *error);
 
-// Our own mark in a JPEG file.
+// Lambent's own mark in a JPEG file.
 #define JPEG_REMARK "lambent"
 
-// The halves of codec_jpeg and codec_png that write.
+// The writing halves of codec_jpeg and codec_png.
 bool jpeg_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                 lam_error *error);
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,

@@ -32,7 +32,7 @@ static const struct codec *codec_named(const char *name)
     return NULL;
 }
 
-// The names of the formats that can be written. Returns their number.
+// Gets the names of the writable formats. Returns their number.
 static int written_names(const char *names[COUNT])
 {
     int count = 0;
@@ -42,7 +42,7 @@ static int written_names(const char *names[COUNT])
     return count;
 }
 
-// "png, ppm, … or webp", each with `before` in front.
+// Makes "png, ppm, … or webp", each with the prefix `before`.
 static const char *list_names(const char *before, char list[LIST_BYTES])
 {
     const char *names[COUNT];
@@ -58,7 +58,7 @@ static const char *list_names(const char *before, char list[LIST_BYTES])
     return list;
 }
 
-// Returns the formats that take the place of one that cannot be written, or NULL if it is not known.
+// Returns the formats that can replace an unsupported one, or NULL if it is unknown.
 static const char *instead_of(const char *word)
 {
     static const struct {
@@ -85,7 +85,7 @@ static bool fail_unknown(lam_error *error, const char *subject, const char *befo
     if (instead || (instead = nearest_word(word, names, written_names(names))))
         return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s%s (it writes %s)", subject, before,
                     word, before, instead, list);
-    if (*before && word[strspn(word, "0123456789")] == 0) // "part-v1.0"
+    if (*before && word[strspn(word, "0123456789")] == 0) // "part-v1.0" has no extension
         return fail(error, LAM_UNSUPPORTED, "%s: the ending .%s names no picture format; expected %s, as in %s.png",
                     subject, word, list, subject);
     return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s", subject, before, word, list);
@@ -106,7 +106,7 @@ static const struct codec *codec_for(const char *path, lam_error *error)
 
 struct pool *encoding_pool(const lam_image *image, int threads)
 {
-    // Starting a thread takes as long as encoding some thousand pixels: none gets fewer than 65536.
+    // Starting a thread takes as long as encoding some thousand pixels, so each thread gets at least 65536.
     const int64_t max_threads = (int64_t)image->width * image->height >> 16;
     if (threads == 0)
         threads = processor_count();
@@ -171,7 +171,7 @@ bool lam_image_save(const lam_image *image, const char *path, const lam_save_par
     lam_bytes bytes = {0};
     if (!codec || !encode(codec, image, params, &bytes, error))
         return false;
-    // From here on there is a file: a call that must end ends before.
+    // Check the call before the file is created.
     struct call_control call;
     call_start(&call, params ? params->control : NULL);
     bool ok = call_should_continue(&call)
@@ -235,7 +235,7 @@ bool lam_image_is_from_lambent(const char *path)
 {
     if (!path)
         return false;
-    // Pipes and devices are not opened. O_NONBLOCK: one may have replaced the file since stat.
+    // Pipes and devices are not opened. O_NONBLOCK guards against one that replaced the file since stat.
     struct stat about;
     int file = stat(path, &about) == 0 && S_ISREG(about.st_mode)
                    ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-// log10 of a positive finite number, without libm: x = m·2^e with m near 1, ln m = 2·artanh((m − 1)/(m + 1)).
+// Returns log10 of a positive finite number, without libm: x = m·2^e with m near 1, ln m = 2·artanh((m − 1)/(m + 1)).
 static double log10_of(double x)
 {
     int exponent = 0;
@@ -67,7 +67,7 @@ static void tally_floats(struct tally *tally, const float *a, const float *b, si
             double size = 0.0;
             if (nan_a != nan_b)
                 size = __builtin_inf();
-            else if (!nan_a && a[at] != b[at]) // equal infinities would give NaN
+            else if (!nan_a && a[at] != b[at]) // the difference of equal infinities would be NaN
                 size = a[at] < b[at] ? (double)b[at] - (double)a[at] : (double)a[at] - (double)b[at];
             tally->sum += size;
             tally->squares += size * size;

@@ -9,21 +9,21 @@
 
 #define KNOWN "PNG, JPEG, WebP, BMP, TGA, PPM (P6), PFM, EXR or Radiance"
 
-// Libraries of pictures call a file damaged when they find no memory, and one that cannot be loaded for want of it is not there.
-// So a file that cannot be read is blamed only while memory can be had.
+// Picture libraries report a damaged file if they run out of memory, and loading a library fails for lack of memory
+// too. A file is therefore only blamed if memory can still be allocated.
 static bool blame_memory(lam_error *error)
 {
     enum { SOME = 1 << 20 }; // more than the small requests of such a library
     if (error->code != LAM_CANNOT_READ && error->code != LAM_UNSUPPORTED)
         return false;
-    void *volatile some = malloc(SOME); // volatile: allocated, though nobody uses it
+    void *volatile some = malloc(SOME); // volatile, so that the unused memory is really allocated
     if (!some)
         return fail_memory(error, SOME);
     free(some);
     return false;
 }
 
-// With all of the file's bits where `wide` is not NULL (read_wide).
+// If `wide` is not NULL, all bits of the file are kept (read_wide).
 static bool decode(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)
 {
     const struct codec *codec = codec_of(file->bytes, file->size, file->name);
@@ -66,7 +66,7 @@ bool picture_decode_linear(const struct picture_file *file, lam_color_mode color
     return ok;
 }
 
-// `color` NULL: the numbers as the file has them.
+// `color` NULL: the numbers are not converted.
 static bool load(lam_image *image, const char *path, const lam_color_mode *color, const lam_control *control,
                  lam_error *error)
 {

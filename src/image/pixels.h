@@ -1,4 +1,4 @@
-// pixels.h: converts rows of pixels between formats. Code that works on pixels supports two working formats, LAM_RGBA8
+// pixels.h: converts rows of pixels between formats. Code that processes pixels supports two working formats, LAM_RGBA8
 // and LAM_RGBA32F; others are converted row by row.
 #ifndef PIXELS_H
 #define PIXELS_H
@@ -15,7 +15,7 @@ static inline lam_pixel_format working_format(lam_pixel_format format)
 size_t pixel_bytes(lam_pixel_format format);
 bool format_has_alpha(lam_pixel_format format);
 
-// Distance of rows, never 0.
+// Returns the distance of rows in bytes, never 0.
 static inline ptrdiff_t image_stride(const lam_image *image)
 {
     return image->stride ? image->stride : (ptrdiff_t)((size_t)image->width * pixel_bytes(image->format));
@@ -26,25 +26,25 @@ static inline void *image_row(const lam_image *image, int y)
     return (char *)image->pixels + (ptrdiff_t)y * image_stride(image);
 }
 
-// As lam_image_make, with more bytes behind the pixels.
+// Does the same as lam_image_make, with `more` bytes after the pixels.
 bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format format, size_t more, lam_error *error);
 
-// Returns whether a picture of the caller's can be used: its pixels, size, format and stride. `what` begins the
-// sentence.
+// Checks the pixels, size, format and stride of a caller's picture. `what` begins the error sentence.
 bool image_check(const lam_image *image, const char *what, lam_error *error);
 
-// `count` pixels from a format to its working format, and back. `raw`: luminance of the unchanged numbers.
+// Convert `count` pixels from a format to its working format, and back. With `raw`, luminance is computed from the
+// unconverted numbers.
 void pixels_to_working(lam_pixel_format format, const void *from, int count, void *to);
 void pixels_from_working(lam_pixel_format format, bool raw, const void *from, int count, void *to);
 
-// The picture in its working format, without padding: itself if it has it, otherwise a copy. The caller frees `out`,
-// which frees a copy only.
+// Gets the picture in its working format, without padding: the picture itself if possible, otherwise a copy. The caller
+// frees `out`, which frees only a copy.
 bool image_working(const lam_image *image, lam_image *out, lam_error *error);
 
-// A copy in its working format, in any case.
+// Makes a copy in the working format.
 bool image_copy(const lam_image *image, lam_image *out, lam_error *error);
 
-// Two pictures to compare, of one size, both of bytes or both of floats: as image_working gives them.
+// Gets two pictures for comparison, of one size, both of bytes or both of floats, in the form of image_working.
 bool image_pair(const char *what, const lam_image *const given[2], lam_image pair[2], lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// static_font.h: the font of captions that a static program contains (static_font.py), packed by zlib.
+// static_font.h: the caption font embedded in a static program (static_font.py), compressed by zlib.
 #ifndef STATIC_FONT_H
 #define STATIC_FONT_H
 

@@ -1,4 +1,4 @@
-// companion.c: files that a model or a scene file names: material libraries, models, pictures.
+// companion.c: opens the files that a model or a scene file names: material libraries, models, pictures.
 #include "companion.h"
 
 #include "fail.h"
@@ -12,8 +12,8 @@
 
 // --- names
 
-// Copies the components of a path, without "." and empty ones, to `out`, which may be where `name` is. A ".." takes the
-// component before it away. Returns false if it leaves the folder, nothing is left, or `capacity` is too small.
+// Copies the components of a path, without "." and empty ones, to `out`, which may be `name` itself. Each ".." removes
+// the component before it. Returns false if the path leaves the folder, nothing is left, or `capacity` is too small.
 static bool copy_components(const char *name, char *out, size_t capacity)
 {
     size_t used = 0;
@@ -44,14 +44,14 @@ static char *join(struct arena *arena, const char *folder, const char *name)
     size_t length = strlen(folder), rest = strlen(name);
     char *path = arena_alloc(arena, length + rest + 1);
     if (path) {
-        // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the name follows, with its zero
+        // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the name follows, including its final zero
         memcpy(path, folder, length);
         memcpy(path + length, name, rest + 1);
     }
     return path;
 }
 
-// The path after every link is followed, if it lies in one of params->allowed_paths, as of path_within.
+// Returns the path after following all links, if it is inside one of params->allowed_paths; see path_within.
 static char *path_allowed(const struct import_source *source, const char *path, size_t *length)
 {
     char *real = NULL;
@@ -61,7 +61,7 @@ static char *path_allowed(const struct import_source *source, const char *path, 
     return real;
 }
 
-// Returns whether a name that leads out of the folder leads to a file that the caller allows.
+// Returns whether a name that leads out of the folder leads to an allowed path.
 static bool is_allowed(const struct import_source *source, const char *name)
 {
     const struct companions *companions = source->open_state;
@@ -135,7 +135,7 @@ static bool open_by_caller(const struct import_source *source, const char *name,
     return ok;
 }
 
-// Opens a file on disk. With `confined` it must lie in the folder or below.
+// Opens a file on disk. With `confined` it must be in the folder or below.
 static bool open_beside(const struct import_source *source, const char *name, bool confined, const char *advice,
                         struct arena *arena, struct companion *out, lam_error *error)
 {
@@ -153,7 +153,7 @@ static bool open_beside(const struct import_source *source, const char *name, bo
         return fail(error, LAM_CANNOT_READ, "%s: leads out of the folder %s%s", out->shown, *root ? root : ".", advice);
     if (!real && errno == ENOMEM)
         return fail_memory(error, COMPANION_NAME_SIZE);
-    // The path that was checked is the one that is read. For a broken path, reading reports why.
+    // Read the path that was checked. If it is broken, reading reports the reason.
     out->real = real ? arena_string(arena, real) : out->path;
     length = real && confined ? length : 0;
     free(real);
@@ -162,7 +162,7 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     return file_read_named(out->real, length, out->shown, fresh, source->pool, source->call, &out->file, error);
 }
 
-// Says of a file that was not found that its name was cut: the file may lie where the name says.
+// Explains that a missing file's name was cut: the file may exist under its full name.
 static void explain_cut(const char *name, lam_error *error)
 {
     char shown[SHOWN_NAME_SIZE];
@@ -211,7 +211,7 @@ bool companions_of_model(const struct import_source *scene, const char *name, co
     *out = *(const struct companions *)scene->open_state;
     const char *path = model->path;
     if (!path) {
-        copy_components(name, inside, sizeof inside); // as open_of_scene has done
+        copy_components(name, inside, sizeof inside); // same as in open_of_scene
         path = inside;
     }
     const char *folder = arena_string_of(arena, path, (size_t)(path_name(path) - path));

@@ -1,4 +1,4 @@
-// file_list.c: the files that a load looked for, found or not.
+// file_list.c: lists the files that a load tried to open.
 #include "file_list.h"
 
 #include "fail.h"

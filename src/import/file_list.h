@@ -1,4 +1,4 @@
-// file_list.h: lists the files that a load looked for, found or not.
+// file_list.h: lists the files that a load tried to open.
 #ifndef FILE_LIST_H
 #define FILE_LIST_H
 
@@ -7,19 +7,19 @@
 #include "scene_internal.h"
 
 struct file_list {
-    lock lock; // companions may be opened by several threads
+    lock lock; // several threads may open companions
     struct arena memory;
     struct name_table paths;
-    bool incomplete; // out of memory
+    bool incomplete; // memory ran out
 };
 
 void file_list_start(struct file_list *list);
 
-// Adds a copy of a path, from any thread. Returns whether it is new. `list` may be NULL.
+// Adds a copy of a path, from any thread. Returns whether the path is new. `list` may be NULL.
 bool file_list_add(struct file_list *list, const char *path);
 
-// Gives the model's own path (NULL: none) and then the others, in alphabetical order and each once, to the scene, whose
-// arena copies them. Returns false if memory runs out.
+// Passes the model's own path (may be NULL) and then the other paths, in alphabetical order without duplicates, to the
+// scene, whose arena copies them. Returns false if memory runs out.
 bool file_list_give(struct file_list *list, const char *model, struct lam_scene *scene, lam_error *error);
 
 void file_list_end(struct file_list *list);

@@ -16,18 +16,18 @@ typedef bool open_companion(const struct import_source *source, const char *name
 
 struct import_source {
     const char *name;     // for messages: the path as the user wrote it
-    const char *path;     // that opens the file; NULL: it came from memory or standard input
+    const char *path;     // the file's path; NULL if it is in memory or standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
     size_t size;
-    // The owner of `bytes`. An importer whose arrays lie in them may give it to the scene's arena (file_move_to_arena). NULL with
-    // load_stream.
+    // The owner of `bytes`. An importer whose arrays point into them may move it to the scene's arena
+    // (file_move_to_arena). NULL with load_stream.
     struct file_bytes *file;
     const lam_load_params *params;
     struct pool *pool;         // may be NULL: no threads
     struct call_control *call; // never NULL; every long loop checks it
-    // Opens a file that the model names, or that a scene file names (companion.h).
+    // Open a file that the model or a scene file names (companion.h).
     open_companion *open, *open_of_scene;
-    // The importer of a model that a scene file names (formats.h).
+    // Finds the importer of a model that a scene file names (formats.h).
     const struct importer *(*importer_for)(const char *name, const struct file_bytes *file, const char *wanted,
                                            lam_error *error);
     void *open_state; // struct companions
@@ -37,15 +37,16 @@ struct importer {
     const char *name;       // "obj"
     const char *extensions; // "obj"; several are separated by spaces
     lam_up up;              // the format's up axis
-    bool up_is_habit;       // the format has none: `up` is what most programs write, and a terrain may tell otherwise
-    bool is_scene_file;     // names other models, whose normals and origins it prepares itself
-    bool flat_normals;      // the format demands that meshes without normals use their triangles'
-    // Whether the bytes are of this format: 0 no, 1 possibly (the file's extension decides), 2 certainly.
+    // the format defines none; `up` is the most common, and the shape of a terrain may override it
+    bool up_is_habit;
+    bool is_scene_file; // names other models, and prepares their normals and origins itself
+    bool flat_normals;  // the format requires flat normals for meshes without normals
+    // Returns whether the bytes are of this format: 0 no, 1 possibly (the file's extension decides), 2 certainly.
     int (*probe)(const uint8_t *bytes, size_t size);
     // Fills an empty scene: meshes, materials, one object per mesh. On failure the caller frees the scene.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
-    // Optional. Loads a large file part by part; the source contains its first FILE_HEAD bytes. False if the layout is
-    // not supported or the file has an error: the caller then runs `load` with an empty scene and the whole file.
+    // Optional. Loads a large file in parts; the source contains its first FILE_HEAD bytes. Returns false if the layout
+    // is not supported or the file has an error: the caller then runs `load` with an empty scene and the whole file.
     bool (*load_stream)(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
 };
 
@@ -56,15 +57,15 @@ struct importer {
 IMPORTERS(IMPORTER)
 #undef IMPORTER
 
-// Returns the crease angle for scene_prepare, of a load with these parameters (0: the default). Flat normals are facet
-// normals.
+// Returns the crease angle for scene_prepare in a load with these parameters (0 means the default). Flat normals are
+// facet normals.
 static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)
 {
     return importer->flat_normals && normals == LAM_NORMALS_FILE && crease_angle_rad == 0 ? FACET_CREASE_RAD
                                                                                           : crease_angle_rad;
 }
 
-// LAM_CANNOT_READ with "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". Return false.
+// Fail with LAM_CANNOT_READ and "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". Return false.
 bool fail_line(lam_error *error, const struct import_source *source, size_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 bool fail_byte(lam_error *error, const struct import_source *source, size_t offset, const char *format, ...)

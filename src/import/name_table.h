@@ -5,13 +5,13 @@
 #include "arena.h"
 
 struct name_entry {
-    const char *name; // NULL: free
+    const char *name; // NULL if free
     int32_t value;
 };
 
-// Zero but for `memory` is empty.
+// All zero except `memory` means empty.
 struct name_table {
-    struct arena *memory; // of the entries; the names are the caller's
+    struct arena *memory; // for the entries; the caller owns the names
     struct name_entry *entries;
     uint32_t capacity, count; // capacity: a power of two, or 0
 };
@@ -19,7 +19,7 @@ struct name_table {
 // Returns the value of a name, or −1 if there is none.
 int32_t name_table_find(const struct name_table *table, const char *name);
 
-// Adds a name; of equal names the first is kept. Returns false if memory runs out.
+// Adds a name; duplicates are ignored. Returns false if memory runs out.
 bool name_table_add(struct name_table *table, const char *name, int32_t value);
 
 #endif

@@ -1,11 +1,11 @@
-// parallel_rows.c: a loop over a file's rows in parallel pieces, whose errors do not depend on the threads.
+// parallel_rows.c: processes a file's rows in parallel chunks, with errors that do not depend on the threads.
 #include "parallel_rows.h"
 
 struct run {
     const struct import_source *source;
     parallel_rows_task *task;
     void *user;
-    size_t first_failed; // atomic; the lowest piece that failed, `count` if none did
+    size_t first_failed; // atomic; the lowest chunk that failed, or `count`
     int stopped;         // atomic; the call was cancelled or ran out of time
 };
 
@@ -13,7 +13,7 @@ static void run_one(void *user, size_t index, int thread)
 {
     (void)thread;
     struct run *run = user;
-    // Pieces after a failed one cannot change the result.
+    // Chunks after a failed one cannot change the result.
     size_t failed = __atomic_load_n(&run->first_failed, __ATOMIC_RELAXED);
     if (index > failed || __atomic_load_n(&run->stopped, __ATOMIC_RELAXED))
         return;
@@ -35,8 +35,8 @@ bool parallel_rows_run(const struct import_source *source, size_t count, paralle
     pool_run(source->pool, count, run_one, &run);
     if (run.stopped)
         return call_error(source->call, error);
-    // Pieces after the first failed one may have been skipped: if it succeeds now, because memory is available again,
-    // they still have to run.
+    // Chunks after the first failed one may have been skipped. If it succeeds now, because memory is available again,
+    // they must still run.
     for (size_t index = run.first_failed; index < count; index++) {
         if (!task(user, index, error))
             return false;

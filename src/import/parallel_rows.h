@@ -1,27 +1,28 @@
-// parallel_rows.h: processes a file's rows in parallel pieces; the reported error does not depend on the threads.
+// parallel_rows.h: processes a file's rows in parallel chunks, with errors that do not depend on the threads.
 #ifndef PARALLEL_ROWS_H
 #define PARALLEL_ROWS_H
 
 #include "importer.h"
 
-// Rows (facets, vertices, faces) per piece: a piece of the usual formats fits the second-level cache.
+// Rows (facets, vertices, faces) per chunk; a chunk of the usual formats fits the second-level cache.
 enum { PARALLEL_ROWS = 4096 };
 
 static inline size_t parallel_rows_count(size_t rows) { return rows / PARALLEL_ROWS + (rows % PARALLEL_ROWS != 0); }
 
-// The rows of piece `index`: [*first, *last).
+// Gets the rows of chunk `index`: [*first, *last).
 static inline void parallel_rows_range(size_t rows, size_t index, size_t *first, size_t *last)
 {
     *first = index * PARALLEL_ROWS;
     *last = rows - *first < PARALLEL_ROWS ? rows : *first + PARALLEL_ROWS;
 }
 
-// Processes piece `index`; may run twice for the same piece. False: the piece has an error, and `error` (may be NULL)
-// describes the first one in it. The call's cancellation and deadline are checked between pieces.
+// Processes chunk `index`; it may run twice for the same chunk. Returns false if the chunk has an error, and `error`
+// (may be NULL) describes the first one in it. The call's cancellation and deadline are checked between chunks.
 typedef bool parallel_rows_task(void *user, size_t index, lam_error *error);
 
-// Runs the task for pieces 0 … count − 1 on the source's pool. If some fail, the first of them runs again on the
-// calling thread to fill `error`: the file's first error is reported. Also false if the call is cancelled.
+// Runs the task for chunks 0 … count − 1 on the source's pool. If some fail, the first of them runs again on the
+// calling thread to fill `error`, so that the file's first error is reported. It also returns false if the call is
+// cancelled.
 bool parallel_rows_run(const struct import_source *source, size_t count, parallel_rows_task *task, void *user,
                        lam_error *error);
 

@@ -1,4 +1,4 @@
-// text_cursor.c: words, lines and names of text files.
+// text_cursor.c: reads words, lines and names of text files.
 #include "text_cursor.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ bool text_is_word(const uint8_t *at, const uint8_t *end, const char *word)
 size_t text_count_word(const uint8_t *at, const uint8_t *end, const char *word)
 {
     size_t count = 0;
-    bool white = true; // before `at`
+    bool white = true; // whether white space precedes `at`
     for (; at < end; at++) {
         if (white && (*at | 0x20) == (uint8_t)word[0] && text_is_word(at, end, word))
             count++;
@@ -34,7 +34,7 @@ size_t text_line(const uint8_t *bytes, const uint8_t *at)
 
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE])
 {
-    // More bytes than are shown.
+    // Examines more bytes than messages show.
     const uint8_t *near = end - at < SHOWN_NAME_SIZE ? end : at + SHOWN_NAME_SIZE, *stop = text_skip_word(at, near);
     char shown[SHOWN_NAME_SIZE];
     if (stop > at)

@@ -34,16 +34,17 @@ static inline const uint8_t *text_line_end(const uint8_t *at, const uint8_t *end
     return at;
 }
 
-// Returns whether the word at `at` is `word` (lower case), in any case.
+// Returns whether the word at `at` is `word` (lower case), ignoring case.
 bool text_is_word(const uint8_t *at, const uint8_t *end, const char *word);
 
-// Returns the number of times that the word occurs in the text.
+// Returns how often the word occurs in the text.
 size_t text_count_word(const uint8_t *at, const uint8_t *end, const char *word);
 
-// Returns the number, from 1, of the line at `at`; lines end in "\n", "\r\n" or "\r". Linear time: for messages only.
+// Returns the line number of `at`, from 1; lines end in "\n", "\r\n" or "\r". It takes linear time, so use it only for
+// messages.
 size_t text_line(const uint8_t *bytes, const uint8_t *at);
 
-// Formats the word at `at` for a message: in quotes, truncated by shown_name; or "the end of the file". Returns `out`.
+// Formats the word at `at` for a message: in quotes, shortened by shown_name, or "the end of the file". Returns `out`.
 enum { TEXT_FOUND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE]);
 

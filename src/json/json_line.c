@@ -1,4 +1,4 @@
-// json_line.c: finds the line of a value in JSON text that was parsed before, so that it is well formed.
+// json_line.c: finds the line of a value in JSON text that was parsed before, and is therefore well formed.
 #include "json_reader.h"
 
 #include <string.h>
@@ -15,7 +15,7 @@ static void skip_space(struct cursor *c)
         c->at++;
 }
 
-// Skips a text, whose first quote is at the cursor.
+// Skips a string; its opening quote is at the cursor.
 static void skip_text(struct cursor *c)
 {
     for (c->at++; c->at < c->end && *c->at != '"'; c->at++)
@@ -44,7 +44,7 @@ static void skip_value(struct cursor *c)
     } while (depth > 0);
 }
 
-// Moves from an object or a list to one of its members: to its key if it has one. Returns false if it is not there.
+// Moves from an object or a list to one of its members, at its key if it has one. Returns false if it is missing.
 static bool enter(struct cursor *c, const struct place *step, const char **found)
 {
     skip_space(c);

@@ -1,4 +1,4 @@
-// json_parse.c: JSON text as a tree of Jansson's.
+// json_parse.c: parses JSON text into Jansson values.
 #include "json_parse.h"
 
 #include "fail.h"
@@ -14,8 +14,8 @@ struct parser {
     const char *file;
     struct call_control *call;
     lam_error *error;
-    size_t values;   // read so far
-    int depth_limit; // of the call
+    size_t values;   // number of values read so far
+    int depth_limit; // the limit of this call
 };
 
 // --- errors
@@ -38,7 +38,7 @@ static bool fail_at(const struct parser *p, const char *at, const char *sentence
     return fail_as(p, LAM_CANNOT_READ, at, sentence);
 }
 
-// At an opening bracket.
+// Fails at an opening bracket that is nested too deep.
 static bool fail_depth(const struct parser *p)
 {
     char sentence[120];
@@ -47,7 +47,7 @@ static bool fail_depth(const struct parser *p)
     return fail_as(p, LAM_LIMIT, p->at, sentence);
 }
 
-// A run of characters that are no punctuation, or one character, is named as found.
+// Names the unexpected text: a run of characters without punctuation, or one character.
 static bool fail_found(const struct parser *p, const char *expected)
 {
     static const char *const ends = " \t\r\n{}[]:,\"";
@@ -63,7 +63,7 @@ static bool fail_found(const struct parser *p, const char *expected)
     return fail_at(p, p->at, sentence);
 }
 
-// Frees a value that was half made.
+// Frees a partly built value.
 static json_t *drop(json_t *value)
 {
     json_decref(value);
@@ -76,7 +76,7 @@ static json_t *no_memory(const struct parser *p, json_t *value)
     return drop(value);
 }
 
-// --- texts
+// --- strings
 
 static void skip_space(struct parser *p)
 {
@@ -84,7 +84,7 @@ static void skip_space(struct parser *p)
         p->at++;
 }
 
-// The next character that is no space is `c`: it is skipped.
+// Skips the next character after spaces if it is `c`.
 static bool accept(struct parser *p, char c)
 {
     skip_space(p);
@@ -94,7 +94,7 @@ static bool accept(struct parser *p, char c)
     return true;
 }
 
-// Returns the four digits of \uXXXX at `at`, or −1 if there are none.
+// Returns the value of the four digits of \uXXXX at `at`, or −1 if they are invalid.
 static int read_unit(const struct parser *p, const char *at)
 {
     int unit = 0;
@@ -131,7 +131,7 @@ static char *put_utf8(char *to, int c)
     return to;
 }
 
-// Returns the escape at the backslash. It is never shorter than its character in UTF-8. Returns NULL on error.
+// Decodes the escape at the backslash, which is never shorter than its character in UTF-8. Returns NULL on error.
 static char *read_escape(struct parser *p, char *to)
 {
     static const char letters[] = "\"\\/bfnrt", characters[] = "\"\\/\b\f\n\r\t";
@@ -155,7 +155,7 @@ static char *read_escape(struct parser *p, char *to)
     return put_utf8(to, unit);
 }
 
-// Returns a text at its opening quote, decoded, from malloc; NULL: an error.
+// Decodes a string at its opening quote, from malloc. Returns NULL on error.
 static char *read_text(struct parser *p, size_t *length)
 {
     const char *start = p->at++, *close = p->at;
@@ -286,7 +286,7 @@ static void fail_twice(struct parser *p, const char *start, const char *key)
     fail_at(p, start, text);
 }
 
-// One pair of key and value.
+// Reads one pair of key and value.
 static bool read_pair(struct parser *p, json_t *object, int depth)
 {
     size_t length;

@@ -1,4 +1,4 @@
-// json_reader.c: places in a JSON file, and the sentences where a value does not fit.
+// json_reader.c: positions in a JSON file, and error sentences about values.
 #include "json_reader.h"
 
 #include "fail.h"
@@ -14,7 +14,7 @@ static size_t print_place(const struct place *place, char *out, size_t capacity)
     size_t used = print_place(place->within, out, capacity);
     if (used >= capacity)
         return used;
-    char shown[SHOWN_NAME_SIZE]; // keys of materials, and unknown ones, are names from the file
+    char shown[SHOWN_NAME_SIZE]; // keys of materials, and unknown keys, are names from the file
     int length = place->key
                      ? snprintf(out + used, capacity - used, "%s%s", used ? "." : "", shown_name(place->key, shown))
                      : snprintf(out + used, capacity - used, "[%zu]", place->index);
@@ -148,7 +148,7 @@ bool json_numbers_of(const struct json_reader *r, const struct place *place, con
     return true;
 }
 
-// --- keys of an object
+// --- the keys of an object
 
 bool json_take_number(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
                       double min, double max, double *out)

@@ -1,5 +1,6 @@
-// layer_inputs.h: the members of struct layer_values (layers.h) that are a material's own at every point, or multiplied by a map.
-// Struct members, rows of points and GLSL are made from these lists: a new one is a line here and a member there.
+// layer_inputs.h: the members of struct layer_values (layers.h) that are numbers of the material, some of them
+// multiplied by a map. Struct members, rows of points and GLSL are made from these lists: to add one, add a line here
+// and a member there.
 #ifndef LAYER_INPUTS_H
 #define LAYER_INPUTS_H
 

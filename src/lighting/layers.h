@@ -1,10 +1,10 @@
-// layers.h: what glTF 2.0's extensions lay over a metallic-roughness surface or put into it: a dielectric of any index, a
-// clear coat, sheen, brushed metal, a thin film, light that goes through.
+// layers.h: the layers that glTF 2.0's extensions add to a metallic-roughness surface: a dielectric of any index, a
+// clear coat, sheen, anisotropy, a thin film, transmission.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). The formulas are those of the Khronos extensions KHR_materials_ior,
-// specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set` has a bit for each layer that the
-// material has (layer_kinds.h); without any of them lobes.h and sum.h are the whole of it. Colours of the base layer are
-// multiplied by pi like every lobe's here.
+// One text for C and GLSL (prelude_c.h, prelude.glsl). The formulas are from the Khronos extensions KHR_materials_ior,
+// specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set` has a bit for each layer of the
+// material (layer_kinds.h); without layers, lobes.h and sum.h are complete. Colours of the base layer are multiplied by
+// pi, like every lobe here.
 
 // The numbers of a material at a point.
 STRUCT(layer_values)
@@ -12,34 +12,34 @@ STRUCT(layer_values)
     vec3 base; // base colour
     num metallic;
     num roughness;
-    num ior;                 // of the dielectric
-    num specular_weight;     // what it reflects at grazing angles
-    vec3 f0_color;           // factor of what it reflects along the normal
-    num specular_glossiness; // share of what it reflects along the normal that the matt part lacks
-    num clearcoat;           // share of the surface that has a coat
+    num ior;                 // the dielectric's index of refraction
+    num specular_weight;     // reflectance at grazing angles
+    vec3 f0_color;           // factor of the reflectance along the normal
+    num specular_glossiness; // share of the reflectance along the normal that the matt part loses
+    num clearcoat;           // share of the surface that is coated
     num clearcoat_roughness;
     vec3 clearcoat_normal; // unit
     vec3 sheen_color;
     num sheen_roughness;
     num anisotropy;
-    vec3 stretch; // unit, along the surface: the direction in which the highlight is stretched
+    vec3 stretch; // unit, along the surface: the direction of the stretched highlight
     num iridescence;
     num iridescence_ior;
     num film; // thickness in nanometres
     num transmission;
-    num thickness;        // of the volume behind the surface
-    num path;             // how far light goes through it, in units of attenuation_distance
-    vec3 attenuation_log; // the volume's colour after a path of 1, as logarithm to the base 2
+    num thickness;        // the thickness of the volume behind the surface
+    num path;             // distance that light travels in it, in units of attenuation_distance
+    vec3 attenuation_log; // log2 of the volume's colour after a path of 1
 };
 
-// The same as the sum over the lights needs it.
+// The numbers that the sum over the lights needs.
 STRUCT(layered)
 {
     vec3 dielectric; // f0
     num grazing;     // the dielectric's f90
     vec3 metal;      // f0
     num metallic;
-    num gain; // light between the mirrors, of f0 = 1
+    num gain; // gain by multiple scattering, for f0 = 1
     num roughness;
     num alpha_t; // anisotropy: alpha along `stretch`
     num alpha_b; // and across
@@ -48,20 +48,20 @@ STRUCT(layered)
     num iridescence;
     num iridescence_ior;
     num film;
-    num opaque; // share of the light in the dielectric that does not go through
-    num matt;   // and leaves as matt light
+    num opaque; // share of the light in the dielectric that is not transmitted
+    num matt;   // share of that light that leaves as matt light
     vec3 sheen_color;
     num sheen_largest; // the largest channel
     num sheen_roughness;
-    num sheen_left; // what the sheen leaves of light that leaves towards the eye
+    num sheen_left; // share of the light towards the eye that the sheen lets through
     vec3 coat_normal;
-    num coat; // share that the coat reflects, Fresnel's factor in it
+    num coat; // share that the coat reflects, including its Fresnel factor
     num coat_roughness;
-    num coat_gain; // light between its mirrors
+    num coat_gain; // gain by multiple scattering in the coat
 };
 
-// The response of all layers to light from one direction: factors of kd Ld and of Ls; and the steps towards them, which drawing
-// does not read.
+// The response of all layers to light from one direction: factors of kd Ld and of Ls; and intermediate values, which
+// drawing does not read.
 STRUCT(layered_value)
 {
     num diffuse;
@@ -69,7 +69,7 @@ STRUCT(layered_value)
     num strength; // S of the base
     num base_diffuse;
     vec3 base;
-    num sheen_left; // what the sheen leaves of the base
+    num sheen_left; // share of the base that the sheen lets through
     vec3 sheen;
     num coat;
 };
@@ -81,17 +81,17 @@ FN vec3 divide3(vec3 a, vec3 b) { return vec3_of(a.x / b.x, a.y / b.y, a.z / b.z
 FN vec3 grey3(num x) { return vec3_of(x, x, x); }
 FN num fifth_power(num x) { return x * x * (x * x) * x; }
 
-// The share that a boundary between two indices of refraction reflects along its normal: ((a - b) / (a + b))^2.
+// The reflectance along the normal of a boundary between two indices of refraction: ((a - b) / (a + b))^2.
 FN num boundary_f0(num a, num b)
 {
     num ratio = (a - b) / (a + b);
     return ratio * ratio;
 }
 
-// A Fresnel factor between its value along the normal and the one at grazing angles (Schlick).
+// The Fresnel factor (Schlick) from its value along the normal and its value at grazing angles.
 FN vec3 fresnel_mix(vec3 f0, num f90, num weight) { return add3(f0, scale3(sub3(grey3(f90), f0), weight)); }
 
-// The cosine of x turns, x from 0 on.
+// The cosine of x turns, for x >= 0.
 FN num cosine_of_turns(num x)
 {
     num part = x - whole(x);
@@ -102,10 +102,10 @@ FN num cosine_of_turns(num x)
     return a * (1.0f + s * (-0.166666667f + s * tail));
 }
 
-// Belcour and Barla (2017), in the approximation of KHR_materials_iridescence: what a thin film over a surface of f0
-// reflects of light whose angle with the film's normal has the cosine `c`. Light that the film's two sides reflect
-// interferes; the integral over the wavelengths is done in Fourier space, with Gaussians for the sensitivities of the eye.
-// `path` is the optical path difference in nanometres times the order, `shift` the phase shifts in turns.
+// Belcour and Barla (2017), in the approximation of KHR_materials_iridescence: the reflectance of a thin film over a
+// surface of f0, for light at an angle to the film's normal with the cosine `c`. Light reflected by both sides of the
+// film interferes; the integral over the wavelengths is computed in Fourier space, with Gaussians for the sensitivities
+// of the eye. `path` is the optical path difference in nanometres times the order, `shift` the phase shifts in turns.
 FN vec3 film_sensitivity(num path, vec3 shift)
 {
     num square = path * path;
@@ -126,7 +126,7 @@ FN vec3 film_reflectance(vec3 f0, num film_ior, num thickness, num c)
     num through = 1.0f - first;
     vec3 root = root3(min3(add3(f0, grey3(num_of(0.0001f))), num_of(0.9999f)));
     vec3 one = grey3(num_of(1.0f));
-    vec3 index = divide3(add3(one, root), sub3(one, root)); // of the base, from its f0
+    vec3 index = divide3(add3(one, root), sub3(one, root)); // index of the base, from its f0
     vec3 second_f0 =
         vec3_of(boundary_f0(index.x, film_ior), boundary_f0(index.y, film_ior), boundary_f0(index.z, film_ior));
     vec3 second = fresnel_mix(second_f0, num_of(1.0f), fifth_power(1.0f - inside));
@@ -149,10 +149,10 @@ FN vec3 film_reflectance(vec3 f0, num film_ior, num thickness, num c)
     return vec3_of(positive(sum.x), positive(sum.y), positive(sum.z));
 }
 
-// Burley's GGX with two roughnesses, along t and b, as KHR_materials_anisotropy has it:
-//     D = 1 / (pi at ab ((h.t)^2 / at^2 + (h.b)^2 / ab^2 + (h.n)^2)^2)
-//     V = 1 / (2 (n.l |(at v.t, ab v.b, v.n)| + |n.v| |(at l.t, ab l.b, l.n)|))
-// S as in ggx_lobe.
+// Burley's GGX with two roughnesses, along t and b, as in KHR_materials_anisotropy:
+//    D = 1 / (pi at ab ((h.t)^2 / at^2 + (h.b)^2 / ab^2 + (h.n)^2)^2)
+//    V = 1 / (2 (n.l |(at v.t, ab v.b, v.n)| + |n.v| |(at l.t, ab l.b, l.n)|))
+// S is as in ggx_lobe.
 FN num stretched_root(vec3 w, vec3 n, layered m)
 {
     num t = m.alpha_t * dot3(w, m.stretch);
@@ -175,11 +175,11 @@ FN num stretched_lobe(surface s, vec3 l, layered m)
     return pick(both(both(n_dot_l > 0.0f, present(s.v)), square > 0.0f), value, num_of(0.0f));
 }
 
-// Conty and Kulla (2017): fibres that stand up from the surface, with a spread of alpha = roughness^2 and s = |n x h|:
-//     S = pi D V n.l
-//     D = (2 + 1/alpha) s^(1/alpha) / (2 pi)
-//     V = 1 / (4 n.l |n.v| (1 + L(|n.v|) + L(n.l)))
-// L is their fit of the shadows that fibres throw on fibres.
+// Conty and Kulla (2017): fibres perpendicular to the surface, with a spread of alpha = roughness^2 and s = |n x h|:
+//    S = pi D V n.l
+//    D = (2 + 1/alpha) s^(1/alpha) / (2 pi)
+//    V = 1 / (4 n.l |n.v| (1 + L(|n.v|) + L(n.l)))
+// L is their fit of the shadowing between fibres.
 FN num sheen_fit(num x, num alpha)
 {
     num part = (1.0f - alpha) * (1.0f - alpha);
@@ -214,7 +214,7 @@ FN num sheen_lobe(surface s, vec3 l, num roughness)
     return pick(both(both(n_dot_l > 0.0f, present(s.v)), square > 0.0f), value, num_of(0.0f));
 }
 
-// The share of light from everywhere that the sheen returns: the integral of S over all l, divided by pi.
+// The share of uniform light that the sheen reflects: the integral of S over all l, divided by pi.
 FN num sheen_albedo(num n_dot_v, num roughness)
 {
     albedo_place p = albedo_place_of(n_dot_v, roughness);
@@ -224,7 +224,7 @@ FN num sheen_albedo(num n_dot_v, num roughness)
     return upper + (lower - upper) * p.down;
 }
 
-// The roughness with which tables of round lobes are read for a stretched one: alpha is the geometric mean.
+// The roughness with which tables of isotropic lobes are read for an anisotropic one: alpha is the geometric mean.
 FN num mean_roughness(num roughness, num anisotropy)
 {
     num rough = max_of(roughness, num_of(ROUGHNESS_MIN));
@@ -233,7 +233,7 @@ FN num mean_roughness(num roughness, num anisotropy)
     return square_root(square_root(alpha * longer));
 }
 
-// `scattering` is 0 without the light that mirrors send to one another.
+// `scattering` is 0 without multiple scattering.
 FN layered layered_of(surface s, layer_values m, int scattering, int set)
 {
     layered y;
@@ -297,7 +297,7 @@ FN layered layered_of(surface s, layer_values m, int scattering, int set)
     return y;
 }
 
-// Fresnel's factors under the angle between the eye and a mirror, of cosine `c` and Schlick's weight.
+// Fresnel factors for the angle between the eye and a microfacet, with the cosine `c` and Schlick's weight.
 FN vec3 layered_dielectric(layered m, num c, num weight, int set)
 {
     vec3 f = fresnel_mix(m.dielectric, m.grazing, weight);
@@ -316,7 +316,7 @@ FN vec3 layered_metal(layered m, num c, num weight, int set)
     return f;
 }
 
-// Both, mixed, each with the light between its own mirrors.
+// Mixes both, each with its own multiple scattering.
 FN vec3 layered_mix(layered m, vec3 dielectric, vec3 metal)
 {
     vec3 one = grey3(num_of(1.0f));
@@ -326,11 +326,11 @@ FN vec3 layered_mix(layered m, vec3 dielectric, vec3 metal)
 }
 
 // The light of one direction:
-//     base   = (1 - metallic) ((1 - max F_d) (1 - max f0_d) (1 - transmission) n.l, F_d S) + metallic F_m S
-//              without the second factor unless the material is one of specular and glossiness; S is that of `lobe`, a
-//              microfacet model's, unless it is stretched
-//     sheen  = sheen_color S_s + base min(1 - max sheen_color E(n.v), 1 - max sheen_color E(n.l))
-//     coated = clearcoat F(n_c.v) S_c + (1 - clearcoat F(n_c.v)) sheen
+//    base   = (1 - metallic) ((1 - max F_d) (1 - max f0_d) (1 - transmission) n.l, F_d S) + metallic F_m S
+//             the second factor is only for specular-glossiness materials; S is from `lobe`, a microfacet model, unless
+//             the highlight is anisotropic
+//    sheen  = sheen_color S_s + base min(1 - max sheen_color E(n.v), 1 - max sheen_color E(n.l))
+//    coated = clearcoat F(n_c.v) S_c + (1 - clearcoat F(n_c.v)) sheen
 FN layered_value layered_light(surface s, layered m, vec3 l, lobe_value lobe, int set)
 {
     layered_value r;
@@ -379,7 +379,7 @@ FN terms add_layered(terms sum, light_source light, light_sample t, layered_valu
     return sum;
 }
 
-// The terms that no direction belongs to: the surface's own light under the coat, and ambient light.
+// Applies the layers to the terms without a direction: the surface's emission under the coat, and ambient light.
 FN terms cover_terms(terms sum, layered m, int set)
 {
     if ((set & LAYER_TRANSMISSION) != 0) {
@@ -395,8 +395,8 @@ FN terms cover_terms(terms sum, layered m, int set)
     return sum;
 }
 
-// The surface whose mirror image of the eye stands for a stretched highlight: its normal is bent towards the eye, across
-// the direction of the stretch (KHR_materials_anisotropy, image-based lighting).
+// The surface whose mirror direction represents an anisotropic highlight: its normal is bent towards the eye, across
+// the stretched direction (KHR_materials_anisotropy, image-based lighting).
 FN surface bent_surface(surface s, layered m, num anisotropy)
 {
     vec3 bent = unit3(cross3(cross3(m.across, s.v), m.across));
@@ -412,7 +412,7 @@ FN surface coat_surface(surface s, layered m)
     return s;
 }
 
-// Light from all around: the split sum of each layer. The sheen takes the mean of the light above the surface.
+// Environment light: the split sum of each layer. The sheen uses the mean of the light above the surface.
 FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surroundings top, int set)
 {
     num c = eye_cosine(s);
@@ -439,7 +439,8 @@ FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surr
     return light;
 }
 
-// The transmittance straight ahead: (1 - max F_d) transmission base, times the volume's attenuation, under sheen and coat.
+// The transmittance straight ahead: (1 - max F_d) transmission base, times the volume's attenuation, under sheen and
+// coat.
 FN vec3 layered_transmittance(surface s, layered m, layer_values given, int set)
 {
     num c = eye_cosine(s);
@@ -459,10 +460,10 @@ FN vec3 layered_transmittance(surface s, layered m, layer_values given, int set)
     return through;
 }
 
-// --- C only: the text of GLSL ends here (src/glsl/embed.py).
+// --- C only: the GLSL text ends here (src/glsl/embed.py).
 
-// The numbers of a material that hold everywhere. Its base colour, the coat's normal and the direction of the stretch belong
-// to a point.
+// The numbers of a material that are the same at all points. Its base colour, the coat's normal and the stretched
+// direction differ between points.
 LANE_FN layer_values layers_of(const lam_material *m)
 {
     layer_values y;

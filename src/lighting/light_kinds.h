@@ -1,16 +1,17 @@
-// light_kinds.h: the numbers of the kinds of light, one numbering for the frame, the CPU and GLSL.
+// light_kinds.h: the numbers of the kinds of light, shared by the frame, the CPU and GLSL.
 //
-// One text for C and GLSL, in front of lights.h. frame.c decides a light's kind and falloff (struct frame_light).
+// One text for C and GLSL, included before lights.h. frame.c determines a light's kind and falloff (struct
+// frame_light).
 
 // Kinds of light that have a direction; each function takes the kind as a uniform number. Ambient and hemisphere light
-// come from everywhere and stand in sum.h.
-#define LIGHT_POINT         0 // from a position to all sides
+// have none and are in sum.h.
+#define LIGHT_POINT         0 // from a point, in all directions
 #define LIGHT_DIRECTIONAL   1 // from infinitely far
 #define LIGHT_SPOT_CUTOFF   2 // a cone with a sharp edge and a power of the cosine inside
 #define LIGHT_SPOT_EXPONENT 3 // a power of the cosine, no edge
-#define LIGHT_SPOT_CONES    4 // full inside an inner cone, nothing outside an outer one, smooth between
+#define LIGHT_SPOT_CONES    4 // full inside an inner cone, zero outside an outer one, smooth between
 
 // Falloff with distance, also a uniform number. Directional lights have FALLOFF_NONE.
-#define FALLOFF_NONE     0 // nothing: attenuation 1/0/0 and no range
+#define FALLOFF_NONE     0 // no falloff: attenuation 1/0/0 and no range
 #define FALLOFF_DISTANCE 1 // 1 / (constant + linear d + quadratic d^2)
-#define FALLOFF_RANGE    2 // the same, times the window that ends at the range
+#define FALLOFF_RANGE    2 // the same, times the window of the range

@@ -1,6 +1,6 @@
-// lighting.h: the equations in C. Include with LANES defined as 1, 4, 8 or 16 (src/base/math/lanes.h).
+// lighting.h: the equations in C. Define LANES as 1, 4, 8 or 16 before including it (src/base/math/lanes.h).
 //
-// In GLSL the files of the equations follow one another in this order after prelude.glsl; hence they have no guards.
+// In GLSL the files of the equations are concatenated in this order after prelude.glsl; therefore they have no guards.
 #ifndef LIGHTING_H
 #define LIGHTING_H
 

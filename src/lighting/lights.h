@@ -1,13 +1,13 @@
 // lights.h: the light that arrives at a point: its direction, distance, attenuation and cone.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). Everything is in eye space, distances in the scene's units.
+// One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space, distances in the scene's units.
 
-// One light as it acts on one material: the colours are products, formed once for each draw. Fields that a
-// kind of light does not have are never read.
+// One light as it acts on one material: the colours are products, computed once for each draw. Fields that a kind of
+// light does not have are never read.
 STRUCT(light_source)
 {
     vec3 position;     // point and spot
-    vec3 direction;    // unit: the direction in which the light travels, the axis of a spot
+    vec3 direction;    // unit: the direction of travel of the light, the axis of a spot
     vec3 diffuse;      // kd * Ld
     vec3 specular;     // ks * Ls
     num constant;      // attenuation: a,
@@ -22,14 +22,14 @@ STRUCT(light_source)
 
 STRUCT(light_sample)
 {
-    vec3 l;          // unit, from the point to the light; 0 where the light is at the point
+    vec3 l;          // unit, from the point to the light; 0 if the light is at the point
     num distance;    // 0 for a directional light
-    num attenuation; // with the range's window
+    num attenuation; // including the range's window
     num spot;        // the cone's factor, 0...1
 };
 
-// 1 / (a + b d + c d^2), and 0 where that sum is 0. With a range, times the window of glTF's KHR_lights_punctual:
-// max(min(1 - (d / range)^4, 1), 0).
+// 1 / (a + b d + c d^2), or 0 if that sum is 0. With a range, times the window of glTF's KHR_lights_punctual: max(min(1
+// - (d / range)^4, 1), 0).
 FN num attenuation_at(num d, light_source light, int falloff)
 {
     num sum = light.constant + (light.linear + light.quadratic * d) * d;
@@ -43,11 +43,11 @@ FN num attenuation_at(num d, light_source light, int falloff)
 }
 
 // The cone's factor from c, the cosine between the spot's axis and the direction from the light to the point:
-//     cutoff:    [c >= cos cutoff] max(c, 0)^exponent
-//     exponent:  max(c, 0)^exponent
-//     cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in KHR_lights_punctual
-// The sharp edge itself is lit however c was rounded: 5e-7 is the largest error of c. The cones multiply that error by
-// 1 / (cos inner - cos outer), the power by its exponent.
+//    cutoff:    [c >= cos cutoff] max(c, 0)^exponent
+//    exponent:  max(c, 0)^exponent
+//    cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in KHR_lights_punctual
+// The edge itself is always lit, however c was rounded: 5e-7 is the largest error of c. The cones multiply that error
+// by 1 / (cos inner - cos outer), the power by its exponent.
 FN num spot_at(num c, light_source light, int kind)
 {
     num spot = num_of(1.0f);
@@ -75,7 +75,7 @@ FN light_sample toward_along(vec3 way, num square, num inverse)
     return t;
 }
 
-// Applies attenuation and cone. No light arrives at the light's own position, since it has no direction there.
+// Applies attenuation and cone. At the light's own position there is no light, because it has no direction there.
 FN light_sample weaken_light(light_sample t, num square, light_source light, int kind, int falloff)
 {
     if (falloff != FALLOFF_NONE) {

@@ -1,19 +1,19 @@
-// lobes.h: how a point of a surface reflects light from one direction: the reflection models and their table.
+// lobes.h: the reflection models: how a point of a surface reflects light from one direction; and their table.
 //
 // One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n is the unit normal, l points to
-// the light, v to the eye, t along the tangent. Each has length 1, or 0 where there is none; the result is then 0.
-// D is the fraction of diffuse light, S the strength of the highlight, both in 0...1; sum.h multiplies them by colours.
-// No light passes through a surface: S is 0 where n.l <= 0, although r.v and n.h may be positive there.
+// the light, v to the eye, t along the tangent. Each has length 1, or 0 if it is missing; the result is then 0. D is
+// the fraction of diffuse light, S the strength of the highlight, both in 0...1; sum.h multiplies them by colours. No
+// light passes through a surface: S is 0 if n.l <= 0, although r.v and n.h may be positive there.
 //
 // `lambent shader` prints this text, and src/glsl/equations.c and specialize.c read it line by line. They rely on its
-// shape, here and in lights.h and sum.h: a definition begins in column 1 and its closing brace stands in column 1; an
-// `if` ends its line with a brace, and the closing brace stands below the `if`; a struct has one member on a line; a
-// comment leads the definition that follows it without an empty line between them. clang-format keeps all of this.
+// layout, here and in lights.h and sum.h: a definition begins in column 1, and so does its closing brace; an `if` ends
+// its line with a brace, and the closing brace is below the `if`; a struct has one member per line; a comment precedes
+// its definition without an empty line between them. clang-format preserves all of this.
 
 STRUCT(surface)
 {
     vec3 p; // the point
-    vec3 n; // its normal, on the visible side
+    vec3 n; // the surface's normal, on the visible side
     vec3 v; // towards the eye
     vec3 t; // along the surface, perpendicular to n; for the lobes of threads
 };
@@ -23,8 +23,8 @@ STRUCT(lobe_sample)
 {
     num diffuse; // D
     num n_dot_l; // cosine between normal and light, -1...1
-    num base;    // of the highlight's power: r.v, n.h or the cosine of Kajiya and Kay's cone, at most 1
-    mask lit;    // whether there is a highlight: S is 0 elsewhere
+    num base;    // base of the highlight's power: r.v, n.h or the cosine of Kajiya and Kay's cone, at most 1
+    mask lit;    // whether there is a highlight; otherwise S is 0
 };
 
 STRUCT(lobe_value)
@@ -42,15 +42,15 @@ FN num cosine(num x) { return min_of(max_of(x, num_of(-1.0f)), num_of(1.0f)); }
 FN mask present(vec3 w) { return dot3(w, w) > 0.0f; }
 
 // The mirror image of w about n:
-//     2 (n.w) n - w
-// Of l it is the lectures' r; of v it is the direction in which an environment is looked up.
+//    2 (n.w) n - w
+// For l it is the r of textbooks; for v it is the direction in which an environment is looked up.
 FN vec3 mirror3(vec3 w, vec3 n) { return sub3(scale3(n, 2.0f * dot3(n, w)), w); }
 
-// The vector halfway between l and v, both of length 1.
+// The unit vector halfway between l and v, both of length 1.
 FN vec3 halfway3(vec3 l, vec3 v) { return unit3(add3(l, v)); }
 
-// w made perpendicular to n and unit (Gram and Schmidt); 0 where w lies along n, |w x n| < 1e-4 |w|: what is left of w
-// is then the error of rounding.
+// w made perpendicular to n and unit (Gram and Schmidt); 0 if w is parallel to n, |w x n| < 1e-4 |w|: the remainder of
+// w is then only rounding error.
 FN vec3 perpendicular3(vec3 w, vec3 n)
 {
     vec3 across = sub3(w, scale3(n, dot3(n, w)));
@@ -58,9 +58,8 @@ FN vec3 perpendicular3(vec3 w, vec3 n)
     return unit3(pick3(along, vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f)), across));
 }
 
-// Lambert (1760): a matt surface reflects light evenly in all directions, and receives less of it the more obliquely
-// the light falls:
-//     D = max(n.l, 0)
+// Lambert (1760): a matt surface reflects light evenly in all directions, and receives less light at oblique angles:
+//    D = max(n.l, 0)
 FN lobe_sample lambert_lobe(surface s, vec3 l)
 {
     lobe_sample b;
@@ -72,9 +71,9 @@ FN lobe_sample lambert_lobe(surface s, vec3 l)
 }
 
 // Phong (1975): the highlight surrounds the mirror image of the light.
-//     S = [n.l > 0] max(r.v, 0)^shininess
-// r.v is computed as 1 - |r - v|^2 / 2, which is equal for unit vectors. Where the highlight is brightest, the product
-// would multiply an error in the length of n by four; this form does not depend on it.
+//    S = [n.l > 0] max(r.v, 0)^shininess
+// r.v is computed as 1 - |r - v|^2 / 2, which is equal for unit vectors. At the brightest point of the highlight, the
+// product would multiply an error in the length of n by four; this form does not depend on it.
 FN num phong_base(vec3 n, vec3 l, vec3 v)
 {
     vec3 apart = sub3(mirror3(l, n), v);
@@ -88,11 +87,11 @@ FN lobe_sample phong_lobe(surface s, vec3 l)
     return b;
 }
 
-// Blinn (1977), the lectures' modified Phong: the highlight is brightest where the normal lies halfway between light and
+// Blinn (1977), also called modified Phong: the highlight is brightest where the normal is halfway between light and
 // eye.
-//     S = [n.l > 0] max(n.h, 0)^shininess   with   h = (l + v) / |l + v|
-// The division by the length follows the product with n, which saves three multiplications; n.l + n.v in place of
-// n.(l + v) would save more, but loses digits where l and v are nearly opposite.
+//    S = [n.l > 0] max(n.h, 0)^shininess   with   h = (l + v) / |l + v|
+// The division by the length follows the product with n, which saves three multiplications; n.l + n.v instead of n.(l +
+// v) would save more, but loses digits if l and v are nearly opposite.
 STRUCT(halfway)
 {
     num product; // n.(l + v)
@@ -116,10 +115,11 @@ FN lobe_sample blinn_phong_lobe(surface s, vec3 l)
     return b;
 }
 
-// Kajiya and Kay (1989): a thread along t reflects light into a cone around t. With the angles between t and l, t and v:
-//     D = sin(t,l)
-//     S = max(sin(t,l) sin(t,v) - cos(t,l) cos(t,v), 0)^shininess
-// On a solid surface D and S are gated by n.l > 0; a fibre (1, else 0) has no inside and no gate.
+// Kajiya and Kay (1989): a thread along t reflects light into a cone around t. With the angles between t and l, t and
+// v:
+//    D = sin(t,l)
+//    S = max(sin(t,l) sin(t,v) - cos(t,l) cos(t,v), 0)^shininess
+// On a solid surface D and S are gated by n.l > 0; a fibre (1, else 0) has no inside and therefore no gate.
 STRUCT(thread_angles)
 {
     num sine;    // sin(t,l)
@@ -127,7 +127,7 @@ STRUCT(thread_angles)
     num cosines; // cos(t,l) cos(t,v)
 };
 
-// sin(t,l) = |t x l|: the root of 1 - (t.l)^2 would lose half of the digits where l is nearly along t.
+// sin(t,l) = |t x l|: the root of 1 - (t.l)^2 would lose half of the digits if l is nearly parallel to t.
 FN thread_angles thread_angles_of(vec3 t, vec3 l, vec3 v)
 {
     thread_angles a;
@@ -165,13 +165,13 @@ FN lobe_sample kajiya_kay_lecture_lobe(surface s, vec3 l)
     return b;
 }
 
-// Oren and Nayar (1994), the qualitative model: a rough matt surface is made of small matt facets, whose slopes vary
-// with the standard deviation sigma (radians). Facets seen from the light's side return more of it, so that such a
-// surface (the moon, clay) looks flatter than Lambert's. With the angles of l and v from the normal, and phi between
-// the planes that they make with it:
-//     A = 1 - 0.5 sigma^2 / (sigma^2 + 0.33)
-//     B = 0.45 sigma^2 / (sigma^2 + 0.09)
-//     D = max(n.l, 0) (A + B max(cos phi, 0) sin(larger angle) tan(smaller angle))
+// Oren and Nayar (1994), the qualitative model: a rough matt surface consists of small matt facets whose slopes have
+// the standard deviation sigma (radians). Facets seen from the light's side return more of the light, so such a surface
+// (the moon, clay) looks flatter than Lambert's. With the angles of l and v from the normal, and phi between the planes
+// that they form with it:
+//    A = 1 - 0.5 sigma^2 / (sigma^2 + 0.33)
+//    B = 0.45 sigma^2 / (sigma^2 + 0.09)
+//    D = max(n.l, 0) (A + B max(cos phi, 0) sin(larger angle) tan(smaller angle))
 // The product of cosine, sine and tangent is (l.v - n.l n.v) / max(n.l, n.v).
 FN lobe_sample oren_nayar_lobe(surface s, vec3 l, num sigma)
 {
@@ -186,25 +186,26 @@ FN lobe_sample oren_nayar_lobe(surface s, vec3 l, num sigma)
     return b;
 }
 
-// The cosine between the eye and the mirrors' plane, |n.v|, as glTF 2.0 (appendix B) has it. An interpolated normal may face
-// away from an eye that sees its triangle's front. Such a point is lit by this cosine, or metals would have black holes.
+// The cosine between the normal and the eye, |n.v|, as in glTF 2.0 (appendix B). An interpolated normal may face away
+// from the eye although the triangle's front is visible. The absolute value lights such points, so that metals have no
+// black holes.
 FN num eye_cosine(surface s) { return min_of(absolute(dot3(s.n, s.v)), num_of(1.0f)); }
 
-// Cook and Torrance (1982) with Walter's distribution GGX (2007): a surface of tiny mirrors, as glTF 2.0 (appendix B)
-// has it for metals and dielectrics. With alpha = roughness^2 and h halfway between l and v
-//     S = pi D V max(n.l, 0)   where h.v > 0
-//     D = alpha^2 / (pi (|n x h|^2 + (n.h)^2 alpha^2)^2)
-//     V = 1 / (2 (n.l root((n.v)^2 (1 - alpha^2) + alpha^2) + |n.v| root((n.l)^2 (1 - alpha^2) + alpha^2)))
-//     D' = max(n.l, 0) (1 - F)
-// where V is Smith's shadowing of mirrors by mirrors, height-correlated (Heitz 2014), D' the diffuse share, and F
-// Schlick's Fresnel factor of a dielectric. pi is there because a matt surface returns kd here, not kd / pi. The
-// textbook's (n.h)^2 (alpha^2 - 1) + 1 for the bracket of D loses three digits on smooth surfaces. h.v is |l + v| / 2, which
-// is 0 only for opposite directions.
+// Cook and Torrance (1982) with Walter's distribution GGX (2007): a surface of microfacets, which glTF 2.0 (appendix B)
+// uses for metals and dielectrics. With alpha = roughness^2 and h halfway between l and v
+//    S = pi D V max(n.l, 0)   where h.v > 0
+//    D = alpha^2 / (pi (|n x h|^2 + (n.h)^2 alpha^2)^2)
+//    V = 1 / (2 (n.l root((n.v)^2 (1 - alpha^2) + alpha^2) + |n.v| root((n.l)^2 (1 - alpha^2) + alpha^2)))
+//    D' = max(n.l, 0) (1 - F)
+// where V is Smith's height-correlated shadowing of microfacets (Heitz 2014), D' the diffuse share, and F Schlick's
+// Fresnel factor of a dielectric. The factor pi is needed because a matt surface returns kd here, not kd / pi. The
+// textbook form (n.h)^2 (alpha^2 - 1) + 1 of D's bracket loses three digits on smooth surfaces. h.v is |l + v| / 2,
+// which is 0 only for opposite directions.
 //
-// Smoother than ROUGHNESS_MIN, a highlight of a light without a size would fall between the pixels.
+// Below ROUGHNESS_MIN, the highlight of a light without a size would be smaller than a pixel.
 #define ROUGHNESS_MIN 0.045f
 
-// Schlick (1994): a mirror reflects f0 + (1 - f0) (1 - v.h)^5; this is the power. v.h = |l + v| / 2.
+// Schlick (1994): a microfacet reflects f0 + (1 - f0) (1 - v.h)^5; this is the power. v.h = |l + v| / 2.
 FN num schlick_weight(vec3 v, vec3 l)
 {
     vec3 sum = add3(l, v);
@@ -216,7 +217,7 @@ FN num schlick_weight(vec3 v, vec3 l)
 // The reflectance of a dielectric along its normal, for an index of refraction of 1.5.
 #define DIELECTRIC_F0 0.04f
 
-// The mirrors' visibility times 2 n.l: n.l / (n.l root(...) + |n.v| root(...)).
+// The microfacets' visibility times 2 n.l: n.l / (n.l root(...) + |n.v| root(...)).
 FN num smith_visibility(num n_dot_l, num n_dot_v, num alpha_square)
 {
     num beyond = 1.0f - alpha_square;
@@ -235,7 +236,7 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
     vec3 across = cross3(s.n, sum);
     num along = dot3(s.n, sum);
     num square = dot3(sum, sum);
-    // All of it times |l + v|^2, so that h need not be made.
+    // Everything is multiplied by |l + v|^2, so that h is not needed.
     num bracket = dot3(across, across) + along * along * alpha_square;
     num spread = alpha * square / max_of(bracket, num_of(1.0e-30f));
     b.base = 0.5f * spread * spread * smith_visibility(positive(b.n_dot_l), eye_cosine(s), alpha_square);
@@ -244,12 +245,12 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
     return b;
 }
 
-// A place in the tables of what GGX's mirrors return of light from everywhere: 32 roughnesses, ROUGHNESS_MIN to 1, times 32
-// roots of n.v (scripts/albedo_tables.py).
+// A position in the tables of the light that GGX's microfacets return under uniform light: 32 roughnesses,
+// ROUGHNESS_MIN to 1, times 32 roots of n.v (scripts/albedo_tables.py).
 STRUCT(albedo_place)
 {
     num first;  // the entry above and to the left
-    num across; // fractions towards the next
+    num across; // fractions towards the next entries
     num down;
 };
 
@@ -266,8 +267,8 @@ FN albedo_place albedo_place_of(num n_dot_v, num roughness)
     return p;
 }
 
-// The share of light that mirrors of f0 = 1 return at once, the rest being light that other mirrors take up: the
-// integral of S over all l, divided by pi.
+// The share of light that microfacets of f0 = 1 return after one reflection: the integral of S over all l, divided by
+// pi. The rest hits other microfacets.
 FN num single_scattering(num n_dot_v, num roughness)
 {
     albedo_place p = albedo_place_of(n_dot_v, roughness);
@@ -287,11 +288,11 @@ FN num schlick_scattering(num n_dot_v, num roughness)
     return upper + (lower - upper) * p.down;
 }
 
-// The light that is scattered more than once, over the light that is scattered once, for f0 = 1.
+// The ratio of multiply to singly scattered light, for f0 = 1.
 FN num scattering_gain(surface s, num roughness) { return 1.0f / single_scattering(eye_cosine(s), roughness) - 1.0f; }
 
-// The level of a prefiltered environment for a roughness: 0 at ROUGHNESS_MIN, PREFILTERED_LAST at 1, even in its fourth
-// root.
+// The level of a prefiltered environment for a roughness: 0 at ROUGHNESS_MIN, PREFILTERED_LAST at 1, linear in its
+// fourth root.
 #define PREFILTERED_LAST   11.0f
 #define ROUGHNESS_MIN_ROOT 0.46057798f
 
@@ -323,7 +324,7 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
     return r;
 }
 
-// --- C only: the text of GLSL ends here (src/glsl/embed.py).
+// --- C only: the GLSL text ends here (src/glsl/embed.py).
 
 // The numbers of a material that lobes read. They have the same names in lam_material, its table of fields and shaders. A number
 // that only lobes read has the columns of its lam_field here; src/scene/fields/material_fields.c makes its row of them.

@@ -1,8 +1,9 @@
-// prelude_c.h: gives the words of the equations their meaning in C: one pixel with LANES 1, or 4, 8, 16 at a time.
+// prelude_c.h: defines the vocabulary of the equations in C: one pixel with LANES 1, or 4, 8, 16 at a time.
 //
-// The equations (lobes.h, lights.h, sum.h, point.h, layers.h) are one text for C and GLSL. Its words are + − * / and comparisons on num,
-// the functions below and those of lanes.h and functions.h named in prelude.glsl, which gives the same words their
-// meaning there. A new word is one line here, one there, and one row in tests/lighting/words.h.
+// The equations (lobes.h, lights.h, sum.h, point.h, layers.h) are one text for C and GLSL. They use only + − * / and
+// comparisons on num, the functions below, and the functions of lanes.h and functions.h that prelude.glsl names;
+// prelude.glsl defines the same vocabulary in GLSL. A new function is one line here, one line there, and one row in
+// tests/lighting/words.h.
 #ifndef PRELUDE_C_H
 #define PRELUDE_C_H
 
@@ -22,7 +23,7 @@ FN vec3 xyz(vec4 a) { return (vec3){a.x, a.y, a.z}; }
 
 FN vec3 add3(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 FN vec3 sub3(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
-FN vec3 mul3(vec3 a, vec3 b) { return (vec3){a.x * b.x, a.y * b.y, a.z * b.z}; } // ⊙, one by one
+FN vec3 mul3(vec3 a, vec3 b) { return (vec3){a.x * b.x, a.y * b.y, a.z * b.z}; } // ⊙, per component
 FN vec3 scale3(vec3 a, num s) { return (vec3){a.x * s, a.y * s, a.z * s}; }
 FN vec3 negate3(vec3 a) { return (vec3){-a.x, -a.y, -a.z}; }
 FN num dot3(vec3 a, vec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
@@ -30,16 +31,16 @@ FN vec3 cross3(vec3 a, vec3 b) { return (vec3){a.y * b.z - a.z * b.y, a.z * b.x 
 FN vec3 mix3(vec3 a, vec3 b, num t) { return add3(a, scale3(sub3(b, a), t)); } // a at 0, b at 1
 FN vec3 pick3(mask m, vec3 a, vec3 b) { return (vec3){pick(m, a.x, b.x), pick(m, a.y, b.y), pick(m, a.z, b.z)}; }
 
-// Numbers of the tables that single_scattering, schlick_scattering and sheen_albedo read (tables.c).
+// The tables for single_scattering, schlick_scattering and sheen_albedo (tables.c).
 extern const float albedo_table[], bias_table[], sheen_table[];
 FN num albedo_texel(num index) { return num_of_bits(igather((const int32_t *)albedo_table, int_of(index))); }
 FN num bias_texel(num index) { return num_of_bits(igather((const int32_t *)bias_table, int_of(index))); }
 FN num sheen_texel(num index) { return num_of_bits(igather((const int32_t *)sheen_table, int_of(index))); }
 
-// The whole part of a number from 0 to 2^31.
+// Rounds a number from 0 to 2^31 down.
 FN num whole(num x) { return num_of_int(int_of(x)); }
 
-// Length 1, for lengths from 1e-15 to 1e15; the zero vector stays zero.
+// Normalises vectors of lengths from 1e-15 to 1e15; the zero vector stays zero.
 FN vec3 unit3(vec3 a) { return scale3(a, rsqrt(dot3(a, a))); }
 
 #endif

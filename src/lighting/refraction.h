@@ -1,10 +1,11 @@
-// refraction.h: what a surface that transmits makes of the picture behind it (KHR_materials_transmission, volume and ior; the
-// formulas of the standard's notes, which three.js and the Khronos sample viewer use). C only: OpenGL refuses such surfaces.
+// refraction.h: the effect of a transmitting surface on the picture behind it (KHR_materials_transmission, volume and
+// ior; the formulas of the extensions' notes, which three.js and the Khronos sample viewer use). C only: OpenGL rejects
+// such surfaces.
 #ifndef REFRACTION_H
 #define REFRACTION_H
 
-// The direction in which a ray from the eye goes on behind the surface (Snell): v is the direction to the eye, n the normal on its
-// side, both unit; the index of refraction is at least 1.
+// Returns the direction of a ray from the eye after refraction (Snell): v is the direction to the eye, n the normal on
+// its side, both unit; the index of refraction is at least 1.
 FN vec3 refracted3(vec3 v, vec3 n, num ior)
 {
     num inverse = 1.0f / ior, c = positive(cosine(dot3(v, n)));
@@ -12,10 +13,10 @@ FN vec3 refracted3(vec3 v, vec3 n, num ior)
     return unit3(sub3(scale3(n, c * inverse - inside), scale3(v, inverse)));
 }
 
-// The width over which a surface blurs what is behind it, as a share of the picture's height: 1024^(r − 1) with
-// r = roughness · min(2 ior − 2, 1), at most 1/8. In a picture of 1024 pixels that is a texel of the level r log2(1024) of the
-// picture's mipmaps, which three.js reads; without the limit, which r = 0.7 reaches, the roughest glass would have the mean colour of
-// the whole picture with its background. 0 for r = 0.
+// Returns the width over which a surface blurs the picture behind it, as a fraction of the picture's height: 1024^(r −
+// 1) with r = roughness · min(2 ior − 2, 1), at most 1/8. In a picture of 1024 pixels this is a texel of the level r
+// log2(1024) of the picture's mipmaps, which three.js uses; without the limit, which r = 0.7 reaches, the roughest
+// glass would have the mean colour of the whole picture with its background. 0 for r = 0.
 FN num transmission_blur(num roughness, num ior)
 {
     num r = roughness * min_of(positive(2.0f * ior - 2.0f), num_of(1.0f));

@@ -2,24 +2,26 @@
 //
 // One text for C and GLSL (prelude_c.h, prelude.glsl).
 //
-//     I = emission + ka * (La global + sum of La_i + sum of hemisphere_i)
-//         + sum over lights of  spot_i attenuation_i (kd * Ld_i D_i + ks * Ls_i S_i)
-//         + kr * environment, or the split sum of metallic-roughness materials
 //
-// where * multiplies colours channel by channel. The products ka * La, kd * Ld, ks * Ls are formed once for each draw
+//    I = emission + ka * (La global + sum of La_i + sum of hemisphere_i)
+//        + sum over lights of  spot_i attenuation_i (kd * Ld_i D_i + ks * Ls_i S_i)
+//        + kr * environment, or the split sum of metallic-roughness materials
+//
+//
+// where * multiplies colours channel by channel. The products ka * La, kd * Ld, ks * Ls are computed once for each draw
 // and are parameters here. Ambient light is neither attenuated nor limited by a cone, so all of it is one colour.
 
 // The terms before their sum, for pictures of one term and the explanation of a pixel.
 STRUCT(terms) { vec3 ambient, diffuse, specular, emission, reflection; };
 
-// A sky over a ground, as products with the material: ka * sky, ka * ground.
+// A hemisphere light, as products with the material: ka * sky, ka * ground.
 STRUCT(hemisphere)
 {
     vec3 up; // unit, towards the sky
     vec3 sky, ground;
 };
 
-// The viewer: at the eye's position (local), or infinitely far in front, as with an orthographic camera.
+// The viewer: at the eye's position (local), or infinitely far in front, as for an orthographic camera.
 #define VIEWER_LOCAL    0
 #define VIEWER_INFINITE 1
 
@@ -58,7 +60,7 @@ FN terms start_terms(vec3 ambient, vec3 emission)
     return sum;
 }
 
-// The model `none`: the diffuse colour as it is; no light is read.
+// The model `none`: the diffuse colour unchanged; lights are ignored.
 FN terms unlit_terms(vec3 kd)
 {
     terms sum = start_terms(black3(), black3());
@@ -66,7 +68,7 @@ FN terms unlit_terms(vec3 kd)
     return sum;
 }
 
-// Adds ka * mix(ground, sky, 1/2 + 1/2 n.up), the light of a sky over a ground (0 without a normal).
+// Adds ka * mix(ground, sky, 1/2 + 1/2 n.up), the light of a hemisphere light (0 without a normal).
 FN terms add_hemisphere(terms sum, surface s, hemisphere h)
 {
     vec3 light = mix3(h.ground, h.sky, 0.5f + 0.5f * cosine(dot3(s.n, h.up)));
@@ -74,12 +76,12 @@ FN terms add_hemisphere(terms sum, surface s, hemisphere h)
     return sum;
 }
 
-// Fresnel's factor of a metallic-roughness material, f0 + rest (1 - v.h)^5, for each channel.
+// The Fresnel factor of a metallic-roughness material, f0 + rest (1 - v.h)^5, for each channel.
 STRUCT(fresnel) { vec3 f0, rest; };
 
 // glTF 2.0, appendix B, the normative mix of a dielectric and a metal whose f0 is the base colour:
-//     (1 - metallic) (0.04 + 0.96 w) + metallic (base + (1 - base) w)
-// Each part times 1 + its f0 gain: the light that mirrors send to one another before it leaves (0: none of it).
+//    (1 - metallic) (0.04 + 0.96 w) + metallic (base + (1 - base) w)
+// Each part is multiplied by 1 + its f0 gain, for multiple scattering between microfacets (gain 0: none).
 FN fresnel fresnel_of(vec3 base, num metallic, num gain)
 {
     fresnel f;
@@ -91,7 +93,7 @@ FN fresnel fresnel_of(vec3 base, num metallic, num gain)
     return f;
 }
 
-// The light with Fresnel's factor in its specular colour.
+// The light with the Fresnel factor in its specular colour.
 FN light_source with_fresnel(light_source light, fresnel f, vec3 v, vec3 l)
 {
     light.specular = mul3(light.specular, add3(f.f0, scale3(f.rest, schlick_weight(v, l))));
@@ -107,7 +109,7 @@ FN terms add_reflected(terms sum, light_source light, light_sample t, lobe_value
     return sum;
 }
 
-// Adds a light's ambient colour as OpenGL 1 did: multiplied by attenuation and cone like the other terms.
+// Adds a light's ambient colour as in OpenGL 1: multiplied by attenuation and cone like the other terms.
 FN terms add_arriving_ambient(terms sum, vec3 ambient, light_sample t)
 {
     sum.ambient = add3(sum.ambient, scale3(ambient, t.attenuation * t.spot));
@@ -121,7 +123,7 @@ FN terms add_environment(terms sum, vec3 kr, vec3 colour)
     return sum;
 }
 
-// Light from all around on a metallic-roughness material.
+// Environment light on a metallic-roughness material.
 STRUCT(surroundings)
 {
     vec3 irradiance;  // divided by pi: the mean of the light above the surface, weighted by the cosine
@@ -130,10 +132,11 @@ STRUCT(surroundings)
     num bias;         // schlick_scattering
 };
 
-// The split sum (Karis 2013): the integral of light times lobe is taken as the light's mean times the lobe's integral,
-//     kd irradiance (1 - (0.04 scale + bias)) + prefiltered (f0 scale + bias)
-// with the mix of dielectric and metal, and the light that mirrors send to one another, as fresnel_of has them:
-// f0 scale + bias = f0 (scale + bias) + (1 - f0) bias.
+// The split sum (Karis 2013): the integral of light times lobe is approximated by the light's mean times the lobe's
+// integral,
+//    kd irradiance (1 - (0.04 scale + bias)) + prefiltered (f0 scale + bias)
+// with the mix of dielectric and metal, and multiple scattering, as in fresnel_of: f0 scale + bias = f0 (scale + bias)
+// + (1 - f0) bias.
 FN vec3 surroundings_light(fresnel f, vec3 kd, surroundings e)
 {
     num dielectric = DIELECTRIC_F0 * e.albedo + (1.0f - DIELECTRIC_F0) * e.bias;

@@ -1,10 +1,10 @@
 // surroundings.h: the light of an environment around a point of a physical material.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). Who includes it looks the light up: in C with SCENE and IN_SCENE defined as a
-// parameter and its argument, which GLSL does not have.
+// One text for C and GLSL (prelude_c.h, prelude.glsl). The including file defines the lookups; in C it defines SCENE
+// and IN_SCENE as a parameter and its argument, which GLSL does not need.
 
-// The environment's irradiance divided by pi at a surface of that normal, and its light around a direction, prefiltered for a level
-// (prefilter_level). Directions are in eye space.
+// The environment's irradiance divided by pi for a surface with that normal, and its light around a direction,
+// prefiltered for a level (prefilter_level). Directions are in eye space.
 FN vec3 irradiance_at(SCENE vec3 normal);
 FN vec3 prefiltered_at(SCENE vec3 direction, num level);
 
@@ -19,7 +19,7 @@ FN surroundings surroundings_of(SCENE surface s, num roughness)
     return e;
 }
 
-// The surroundings of both boundaries: of the base, whose mirror image of the eye may be stretched, and of the coat.
+// The surroundings of both boundaries: of the base, whose mirror direction may be bent by anisotropy, and of the coat.
 STRUCT(layered_around)
 {
     surroundings base;

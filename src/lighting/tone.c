@@ -1,4 +1,4 @@
-// tone.c: the names of the tone curves, and one colour by one of them.
+// tone.c: the names of the tone curves, and their application to a single colour.
 #define LANES 1
 #include "lighting.h"
 

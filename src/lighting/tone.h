@@ -1,9 +1,9 @@
-// tone.h: tone curves, from linear light of any strength to linear light of a screen, 0...1 (docs/lighting/tone.md).
+// tone.h: tone curves, from linear light of any strength to linear light of a display, 0...1 (docs/lighting/tone.md).
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). The colours have the primaries of sRGB, and no channel is below 0.
+// One text for C and GLSL (prelude_c.h, prelude.glsl). Colours have the primaries of sRGB, and no channel is below 0.
 
-// Reinhard, Stark, Shirley and Ferwerda (2002), each channel by itself:
-//     x / (1 + x)
+// Reinhard, Stark, Shirley and Ferwerda (2002), for each channel:
+//    x / (1 + x)
 FN vec3 reinhard_tone(vec3 c) { return vec3_of(c.x / (1.0f + c.x), c.y / (1.0f + c.y), c.z / (1.0f + c.z)); }
 
 // Hill's fit of the reference and output transforms of ACES for sRGB screens (BakingLab, ACES.hlsl): into the working
@@ -24,8 +24,9 @@ FN vec3 aces_tone(vec3 c)
                    dot3(vec3_of(num_of(-0.00327f), num_of(-0.07276f), num_of(1.07602f)), curved));
 }
 
-// Sobotka's AgX (2022) by Wrensch's polynomial for its default contrast: into the inset primaries, the logarithm of 2^-12.47393
-// to 2^4.026069, a sigmoid, back, and from the curve's encoding (2.2) to linear light.
+// Sobotka's AgX (2022) with Wrensch's polynomial for its default contrast: convert to the inset primaries, take the
+// logarithm from 2^-12.47393 to 2^4.026069, apply a sigmoid, convert back, and decode the curve's encoding (2.2) to
+// linear light.
 FN num agx_curve(num light)
 {
     num x = saturate((log2_of(light) + 12.47393f) / (4.026069f + 12.47393f));
@@ -48,8 +49,8 @@ FN vec3 agx_tone(vec3 c)
                    power(positive(b), num_of(2.2f)));
 }
 
-// Khronos PBR Neutral (2024): the mirror light of a dielectric is subtracted, so that a base colour comes out as it is; above
-// 0.76 the brightest channel is compressed towards 1, and the colour fades to white.
+// Khronos PBR Neutral (2024): the mirror reflection of a dielectric is subtracted, so that a base colour is reproduced
+// exactly; above 0.76 the brightest channel is compressed towards 1, and the colour fades to white.
 #define NEUTRAL_START        0.76f
 #define NEUTRAL_DESATURATION 0.15f
 
@@ -66,14 +67,14 @@ FN vec3 khronos_neutral_tone(vec3 c)
     return pick3(peak < NEUTRAL_START, base, bright);
 }
 
-// The range of a tone curve's argument: not below 0, not infinite.
+// Limits the argument of a tone curve: not below 0, not infinite.
 FN num tone_limit(num x) { return min_of(positive(x), num_of(1.0e6f)); }
 
 FN vec3 tone_input(vec3 c) { return vec3_of(tone_limit(c.x), tone_limit(c.y), tone_limit(c.z)); }
 
 FN vec3 saturate3(vec3 c) { return vec3_of(saturate(c.x), saturate(c.y), saturate(c.z)); }
 
-// --- C only: the text of GLSL ends here (src/glsl/embed.py).
+// --- C only: the GLSL text ends here (src/glsl/embed.py).
 
 // The table of the curves: enumerator of lam_tone without LAM_TONE_, function, word, summary.
 // clang-format off
@@ -84,7 +85,7 @@ FN vec3 saturate3(vec3 c) { return vec3_of(saturate(c.x), saturate(c.y), saturat
     X(KHRONOS_NEUTRAL, khronos_neutral_tone, "khronos-neutral", "colours as they are, highlights compressed")
 // clang-format on
 
-// AUTO and NONE: cut off at 1.
+// AUTO and NONE clip at 1.
 LANE_FN vec3 tone_color(vec3 c, int tone)
 {
     switch (tone) {

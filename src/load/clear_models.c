@@ -17,10 +17,11 @@ static bool colors_are_clear(const lam_mesh *mesh)
     return clear;
 }
 
-// Iterates over the materials of an object's front, part by part, then of its back. Returns false after the last.
+// Iterates over the materials of an object's front, part by part, then of its back. `next` returns false after the last
+// one.
 struct shown {
     uint32_t part;
-    lam_material *front, *back; // NULL: back faces show the front's
+    lam_material *front, *back; // a NULL back uses the front's material
 };
 
 static bool next_shown(struct lam_scene *scene, const lam_object *object, struct shown *shown)
@@ -40,7 +41,7 @@ static bool is_clear(struct lam_scene *scene, const lam_object *object)
     struct shown shown = {0};
     while (next_shown(scene, object, &shown)) {
         bool materials = !(shown.front->diffuse.a > 0) && (!shown.back || !(shown.back->diffuse.a > 0));
-        if (!materials) // the colours of the mesh decide about all of it
+        if (!materials) // the mesh's colours determine its opacity
             return colors_are_clear(scene_mesh(scene, object->mesh));
     }
     return true;

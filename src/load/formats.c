@@ -53,7 +53,7 @@ static bool has_ending(const struct importer *importer, const char *ending)
     return false;
 }
 
-// Content decides. If the content is ambiguous, the extension decides.
+// The content decides. If the content is ambiguous, the extension decides.
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error)
 {
@@ -86,10 +86,10 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     }
     if (best == 2)
         return by_content;
-    // The reader that matches the name reports the clearest error.
+    // The importer that matches the name reports the clearest error.
     if (by_content && by_content == by_ending)
         return by_content;
-    // Recognised as another kind of file, whatever its name.
+    // Recognise other kinds of files by their content, whatever their name is.
     const struct unsupported_format *foreign = unsupported_format_of(file->data, file->size);
     if (!foreign && !by_ending)
         foreign = unsupported_format_named(ending);
@@ -104,7 +104,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
         return NULL;
     }
     if (by_ending)
-        return by_ending; // its reader reports the error
+        return by_ending; // its importer reports the error
     fail(error, LAM_CANNOT_READ, "%s: unknown model format; lambent reads %s", name, format_list(list));
     return NULL;
 }

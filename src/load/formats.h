@@ -4,17 +4,17 @@
 
 #include "importer.h"
 
-// ".obj, .stl, .ply, .gltf, .glb, .3mf and scene files (.json)": the formats that can be read. Returns `out`.
+// Lists the readable formats: ".obj, .stl, .ply, .gltf, .glb, .3mf and scene files (.json)". Returns `out`.
 enum { FORMAT_LIST_SIZE = 128 };
 const char *format_list(char out[FORMAT_LIST_SIZE]);
 
-// Returns the importer for these bytes: by content, else by the name's ending; `wanted`: by this name of a format. NULL
-// and the reason if there is none.
+// Returns the importer for these bytes: by content, or else by the name's extension; `wanted` selects a format by its
+// name. Returns NULL and fills the error if there is none.
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error);
 
-// Returns the importer that reads a file of this beginning (FILE_HEAD bytes) and size as a stream: the one that
-// importer_for would choose for the whole file. Returns NULL if the file is read as a whole.
+// Returns the importer that streams a file with these first FILE_HEAD bytes and this size: the one that importer_for
+// would choose for the whole file. Returns NULL if the file must be read as a whole.
 const struct importer *importer_for_stream(const char *name, const uint8_t *head, size_t size, const char *wanted);
 
 #endif

@@ -80,7 +80,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     scene->read_ms = (double)(read_ns - start_ns) * 1e-6;
     call_progress(source->call, 0.8, "normals");
     double crease_angle_rad = importer_crease(importer, params->normals, params->crease_angle_rad);
-    bool tangents = scene_needs_tangents(scene); // which need normals first
+    bool tangents = scene_needs_tangents(scene); // computing tangents requires normals
     if (params->normals_when_drawn && !importer->is_scene_file && !tangents)
         scene_defer_normals(scene, params->normals, crease_angle_rad);
     else if (!scene_prepare(scene, params->normals, crease_angle_rad, source->pool, source->call, error))
@@ -99,8 +99,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     return true;
 }
 
-// Adds to the error of a path that cannot be opened that it names no file that could be read: an address, or a format of other
-// programs.
+// If a path cannot be opened, adds an explanation to its error: it is an address, or a format of another program.
 static void explain_path(const char *path, lam_error *error)
 {
     char list[FORMAT_LIST_SIZE];
@@ -117,7 +116,7 @@ static void explain_path(const char *path, lam_error *error)
                  foreign ? ": export the model as " : "", foreign ? foreign->instead : "");
 }
 
-// Streams a large file of a supported layout. NULL: not such a file; no error is reported.
+// Streams a large file of a supported layout. Returns NULL without an error for other files.
 static struct lam_scene *load_stream(struct import_source *source, const struct importer **importer)
 {
     uint8_t *head = malloc(FILE_HEAD + FILE_PADDING);
@@ -125,8 +124,8 @@ static struct lam_scene *load_stream(struct import_source *source, const struct 
     struct lam_scene *scene = NULL;
     if (head && source->path && file_open_parts(source->path, head, &file)) {
         bool allowed =
-            call_check_file(source->call, source->name, file.size, NULL); // otherwise the reader of whole files reports
-                                                                          // it
+            // otherwise the reader of whole files reports it
+            call_check_file(source->call, source->name, file.size, NULL);
         source->bytes = head;
         source->size = FILE_HEAD;
         call_add_input(source->call, file.size);
@@ -137,7 +136,7 @@ static struct lam_scene *load_stream(struct import_source *source, const struct 
             lam_scene_free(scene);
             scene = NULL;
         }
-        if (!scene) // the whole file is read, and counted, later
+        if (!scene) // the file is read as a whole, and counted, later
             call_add_input(source->call, 0 - file.size);
         file_close_parts(&file);
         source->bytes = NULL;
@@ -147,7 +146,7 @@ static struct lam_scene *load_stream(struct import_source *source, const struct 
     return scene;
 }
 
-// `path` or else `bytes`.
+// Loads from `path`, or from `bytes` if it is NULL.
 static lam_scene *load(const char *path, const void *bytes, size_t size, const char *name, const lam_load_params *given,
                        const lam_control *control, lam_error *error)
 {
@@ -158,7 +157,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     uint64_t state = float_state_enter(), start_ns = now_ns();
     struct call_control call;
     call_start(&call, control);
-    // The folder of the path as it is given, with its '/'.
+    // The folder of the path as given, with its '/'.
     char *folder = path ? strndup(path, (size_t)(path_name(path) - path)) : NULL;
     struct file_list files;
     file_list_start(&files);

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
-// A file is of the first kind whose `magic` is at `offset` and that contains `within` (NULL: no such test).
+// A file is of the first kind whose `magic` is at `offset` and whose `within` occurs in it (NULL if not required).
 static const struct kind {
     struct unsupported_format kind;
     unsigned offset, length;
@@ -69,7 +69,7 @@ static const struct text_kind {
     {{"a MTL file (materials only; give the .obj that names it)", NULL}, 'n', "newmtl "},
 };
 
-// Formats by the endings of their files, separated by blanks.
+// Formats by their file extensions, separated by blanks.
 static const struct named_kind {
     const char *endings;
     struct unsupported_format kind;
@@ -112,14 +112,14 @@ static bool holds(const uint8_t *bytes, size_t size, const char *word)
     return memmem(bytes, size, word, strlen(word)) != NULL;
 }
 
-// A 3DS file is one chunk: 0x4d4d and the length of the whole.
+// A 3DS file is one chunk: 0x4d4d and the total length.
 static bool is_3ds(const uint8_t *bytes, size_t size)
 {
     return size >= 6 && bytes[0] == 0x4d && bytes[1] == 0x4d &&
            ((size_t)bytes[2] | (size_t)bytes[3] << 8 | (size_t)bytes[4] << 16 | (size_t)bytes[5] << 24) == size;
 }
 
-// IGES has cards of 80 columns, the first of them numbered S      1.
+// IGES files consist of 80-column cards, the first of which is numbered S 1.
 static bool is_iges(const uint8_t *bytes, size_t size) { return size > 80 && memcmp(bytes + 72, "S      1", 8) == 0; }
 
 const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size)

@@ -7,13 +7,13 @@
 
 struct unsupported_format {
     const char *name;    // "a PNG picture"
-    const char *instead; // the ending of a format that programs of this 3D format export; NULL: it is no 3D format
+    const char *instead; // extension of a format to export instead; NULL if not a 3D format
 };
 
-// NULL: not recognised.
+// Returns NULL if the content is not recognised.
 const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size);
 
-// Returns the 3D format whose files have this ending (without its dot); NULL: not known.
+// Returns the 3D format with this file extension (without its dot), or NULL if it is unknown.
 const struct unsupported_format *unsupported_format_named(const char *ending);
 
 #endif

@@ -5,13 +5,13 @@
 
 #include <math.h>
 
-// A terrain is a surface that is much thinner along z than along x and y, and that faces +z almost everywhere.
+// A terrain is a surface that is much thinner along z than along x and y, and whose area faces +z almost everywhere.
 #define THIN     0.3
-#define NOT_FLAT 0.01 // a flat picture is often upright
+#define NOT_FLAT 0.01 // flat pictures are often upright
 #define FACING   0.6
-#define EVEN     0.999 // cards that lie over one another have no slopes
+#define EVEN     0.999 // stacked cards have no slopes
 
-// Adds the areas of a mesh's triangles: of all, and, with the sign of z, of triangles perpendicular to z.
+// Adds the areas of a mesh's triangles: the total, and the signed area that faces z.
 static void add_areas(const lam_mesh *mesh, double *all, double *facing)
 {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -29,7 +29,7 @@ static void add_areas(const lam_mesh *mesh, double *all, double *facing)
     }
 }
 
-// Fewer triangles are a sheet, which may well stand upright.
+// With fewer triangles it may be an upright sheet.
 enum { TRIANGLES_MIN = 1000 };
 
 bool is_terrain_on_z(const struct lam_scene *scene)

@@ -1,9 +1,9 @@
-// occlusion_pattern.c: the rays of ambient occlusion.
+// occlusion_pattern.c: computes the rays of ambient occlusion.
 #include "occlusion_pattern.h"
 
 #include "linear.h"
 
-// Returns the bits of a number 0…1023, with a 0 between each two.
+// Spreads the bits of a number 0…1023, with a 0 between each two bits.
 static uint32_t spread_bits(uint32_t n)
 {
     uint32_t spread = 0;
@@ -12,7 +12,7 @@ static uint32_t spread_bits(uint32_t n)
     return spread;
 }
 
-// Returns the place of a point of the disc along a curve that fills it (Morton, 1966).
+// Returns the position of a point of the disc along a space-filling curve (Morton, 1966).
 static uint32_t place_of(double x, double y)
 {
     return spread_bits((uint32_t)(511.5 * (x + 1))) | spread_bits((uint32_t)(511.5 * (y + 1))) << 1;
@@ -41,7 +41,7 @@ void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count)
         pattern->z[at] = math_sqrt(1 - share);
         pattern->length[at] = length - (int)length;
     }
-    for (int i = count; i < OCCLUSION_RAYS_MAX; i++) { // of lanes without a ray
+    for (int i = count; i < OCCLUSION_RAYS_MAX; i++) { // lanes without a ray
         pattern->x[i] = pattern->y[i] = pattern->length[i] = 0;
         pattern->z[i] = 1;
     }

@@ -1,27 +1,29 @@
-// occlusion_pattern.h: the rays of ambient occlusion that every lit point sends.
+// occlusion_pattern.h: the rays of ambient occlusion from every lit point.
 //
-// Directions come from points of a disc below the hemisphere (Malley's method: each then has an equal share
-// of the cosine-weighted integral); the disc has the spiral of Vogel (1979), as lights with a size have it
-// (light_pattern.h). Every lit point turns the disc by an angle of its own, so that the steps become fine grain. A surface at the distance d occludes by the share
-//     w(d) = clamp((radius − d) / (OCCLUSION_FADING radius), 0, 1)
-// of its direction: as many of the rays reach as far as d, if their lengths are spread evenly from (1 − OCCLUSION_FADING)
-// radius to the whole of it. So a ray is stopped or it is not, and its distance does not matter.
+// Directions are projected from points of a disc below the hemisphere (Malley's method), so that each has an equal
+// share of the cosine-weighted integral. The points form Vogel's spiral (1979), as for lights with a size
+// (light_pattern.h). Every lit point rotates the disc by its own angle, which turns steps into fine grain. A surface at
+// the distance d occludes its direction by the share
+//    w(d) = clamp((radius − d) / (OCCLUSION_FADING radius), 0, 1)
+// This is the fraction of rays that reach as far as d if their lengths are evenly distributed from (1 −
+// OCCLUSION_FADING) radius to the radius. A ray is therefore either blocked or not, and the distance of its hit does
+// not matter.
 #ifndef OCCLUSION_PATTERN_H
 #define OCCLUSION_PATTERN_H
 
 #include <stdint.h>
 
-// The part of the radius in which surfaces occlude less and less.
+// The part of the radius over which occlusion fades out.
 #define OCCLUSION_FADING 0.4f
 
 enum { OCCLUSION_RAYS_MAX = 1024, OCCLUSION_TURNS = 256 };
 
-// Rays about +z, neighbours in the list pointing in similar directions.
+// Rays about +z; neighbours in the list have similar directions.
 struct occlusion_pattern {
     int count;
-    double x[OCCLUSION_RAYS_MAX], y[OCCLUSION_RAYS_MAX], z[OCCLUSION_RAYS_MAX]; // unit
+    double x[OCCLUSION_RAYS_MAX], y[OCCLUSION_RAYS_MAX], z[OCCLUSION_RAYS_MAX]; // the rotations of occlusion_turn
     double length[OCCLUSION_RAYS_MAX];                     // 0…1, from the longest ray to the shortest
-    double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // of the turns of occlusion_turn
+    double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // the cosines and sines of the turns of occlusion_turn
 };
 
 // Returns the turn at a pixel: interleaved gradient noise (Jimenez 2014) in whole numbers, whose neighbours differ as

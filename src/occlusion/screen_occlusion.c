@@ -6,20 +6,21 @@
 
 enum { LANES_MAX = 16 };
 
-// Rows have LANES_MAX floats more at either end, and planes of cells precede the planes of pixels. In pieces, by all
-// threads: first use of the memory of a large picture takes seconds, in which the call may be stopped.
-enum { PIECE = 1 << 17, CELL_PLANES = 5 };
+// Rows have LANES_MAX more floats at either end, and planes of cells precede the planes of pixels. All threads fill
+// them in chunks: the first use of the memory of a large picture takes seconds, and the call may be stopped during that
+// time.
+enum { CHUNK = 1 << 17, CELL_PLANES = 5 };
 struct emptying {
     float *at;
     size_t count;
     struct call_control *call;
 };
 
-static void empty_piece(void *user, size_t index, int thread)
+static void empty_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     const struct emptying *emptying = user;
-    size_t first = index * PIECE, end = first + PIECE < emptying->count ? first + PIECE : emptying->count;
+    size_t first = index * CHUNK, end = first + CHUNK < emptying->count ? first + CHUNK : emptying->count;
     if (!call_should_continue(emptying->call))
         return;
     for (size_t i = first; i < end; i++)
@@ -38,7 +39,7 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
         return false;
     float *depth = storage->data, *at = fits ? lent.memory : depth + pixels;
     struct emptying emptying = {depth, pixels, call};
-    pool_run(pool, (pixels + PIECE - 1) / PIECE, empty_piece, &emptying);
+    pool_run(pool, (pixels + CHUNK - 1) / CHUNK, empty_chunk, &emptying);
     if (!call_should_continue(call))
         return call_error(call, error);
     at += LANES_MAX;
@@ -73,11 +74,11 @@ static void fill_beside(const struct screen_occlusion *o, float *plane, int y, f
         row[x] = value;
     for (int x = o->grid_width; x < o->stride - LANES_MAX; x++)
         row[x] = value;
-    for (int x = o->stride - LANES_MAX; x < o->stride && y + 1 < o->grid_height; x++) // before the next row
+    for (int x = o->stride - LANES_MAX; x < o->stride && y + 1 < o->grid_height; x++) // up to the next row
         row[x] = value;
 }
 
-// Beside the cells a filter reads numbers, which do not count, and sees no surface.
+// Outside the cells, filters read arbitrary numbers with weight 0 and no surface.
 static void fill_rows_beside(const struct screen_occlusion *o, int first, int end)
 {
     for (int y = first; y < end; y++) {
@@ -108,12 +109,12 @@ static void run_rows(void *user, size_t index, int thread)
 void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occlusion_kernels *kernels,
                            struct pool *pool, struct call_control *call)
 {
-    size_t pieces = ((size_t)occlusion->grid_height + OCCLUSION_ROWS - 1) / OCCLUSION_ROWS;
-    pool_run(pool, pieces, run_rows, &(struct pass){occlusion, fill_rows_beside, call});
+    size_t chunks = ((size_t)occlusion->grid_height + OCCLUSION_ROWS - 1) / OCCLUSION_ROWS;
+    pool_run(pool, chunks, run_rows, &(struct pass){occlusion, fill_rows_beside, call});
     if (occlusion->step > 1)
-        pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->cell_rows, call});
-    pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->occlude_rows, call});
-    pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->smooth_rows_across, call});
-    pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->smooth_rows_down, call});
-    pool_run(pool, pieces, run_rows, &(struct pass){occlusion, kernels->pixel_rows, call});
+        pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->cell_rows, call});
+    pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->occlude_rows, call});
+    pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->smooth_rows_across, call});
+    pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->smooth_rows_down, call});
+    pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->pixel_rows, call});
 }

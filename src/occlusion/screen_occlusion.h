@@ -1,10 +1,10 @@
-// screen_occlusion.h: ambient occlusion of every pixel from the distances of the surfaces around it.
+// screen_occlusion.h: ambient occlusion of every pixel from the depths of the surfaces around it.
 //
-// The picture's surfaces are taken as a landscape of heights, as the eye sees it. Around a pixel a plane through the
-// view vector cuts that landscape; in it the horizon to either side bounds the part of the hemisphere that light
-// from all around comes from (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016).
-// Sixteen neighbours turn their slices by different angles, and a filter of that size that stops at edges averages them.
-// docs/lighting/occlusion.md has the formulas.
+// The visible surfaces are treated as a height field. Around a pixel, a plane through the view vector cuts the height
+// field; in this plane, the horizon on either side bounds the part of the hemisphere that surrounding light comes from
+// (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016). Sixteen neighbours rotate
+// their planes by different angles, and an edge-aware filter of that size averages them. docs/lighting/occlusion.md
+// lists the formulas.
 #ifndef SCREEN_OCCLUSION_H
 #define SCREEN_OCCLUSION_H
 
@@ -15,42 +15,41 @@
 
 struct pool;
 
-// The grid of cells that occlusion is found for: the picture's pixels or, in pictures of more than SCREEN_FINE pixels, cells of
-// two by two of them, which take a quarter of the time; their pixels then have the mean of the cells around that lie on
-// the same surface.
+// The grid of cells for which occlusion is computed: the picture's pixels or, in pictures of more than SCREEN_FINE
+// pixels, cells of two by two pixels, which take a quarter of the time. Each pixel then gets the mean of the
+// surrounding cells on its surface.
 struct screen_occlusion {
-    int width, height;           // of the picture
-    int step;                    // 1, or 2: pixels to a side of a cell
-    int grid_width, grid_height; // cells; those at the picture's edge may have one pixel less
+    int width, height;           // the size of the picture
+    int step;                    // pixels along the side of a cell: 1 or 2
+    int grid_width, grid_height; // cells; cells at the picture's edge may be one pixel smaller
     int stride;                  // floats from row to row of a plane
     size_t plane;                // floats from plane to plane
     bool orthographic;
-    float pixel_size;    // of a pixel in eye units, at distance 1 or, where orthographic, everywhere
-    float radius;        // within which surfaces occlude, eye units; 0: there is none of this size
-    float cavity_radius; // the same of the cavity (lam_cavity)
-    bool ridges;         // the cavity's ridges are lighter
-    // Distance in front of the eye of the surface at each pixel, SCREEN_EMPTY if there is none: a plane for each pixel
-    // of a cell (screen_pixel). To be filled by the caller, with SCREEN_EMPTY beside the picture
-    // (screen_occlusion_start does that).
+    float pixel_size;    // size of a pixel in eye units, at distance 1 or, if orthographic, everywhere
+    float radius;        // radius of occlusion, eye units; 0 if there is none at this radius
+    float cavity_radius; // radius of cavity shading (lam_cavity)
+    bool ridges;         // whether cavity shading lightens ridges
+    // The distance of the visible surface in front of the eye at each pixel, or SCREEN_EMPTY: one plane for each pixel
+    // of a cell (screen_pixel). The caller fills it; screen_occlusion_start writes SCREEN_EMPTY around the picture.
     float *depth;
-    float *cell_depth; // of each cell: the first of its pixels that shows a surface
-    // Of the surface of each cell, found with its occlusion: how the distance grows from cell to cell.
+    float *cell_depth; // the depth of the first pixel of each cell that shows a surface
+    // The slope of each cell's surface, computed with its occlusion: the change of distance from cell to cell.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
-    // The result, in the order of `depth` and, with step 2, in its memory: 1 if all light from around arrives … 0 if
-    // none does, and more than 1 on ridges.
+    // The result, in the order of `depth` and, with step 2, in its memory: 1 if all surrounding light arrives, 0 if
+    // none does, above 1 on ridges.
     float *unoccluded;
 };
 
-// Farther than any surface; its square is a float.
+// Larger than any distance; its square is a finite float.
 #define SCREEN_EMPTY 1.0e17f
 
 enum {
     SCREEN_FINE = 512 * 512,
-    OCCLUSION_ROWS = 16, // of a piece of parallel work
+    OCCLUSION_ROWS = 16, // rows per task
 };
 
-// Where a pixel is in `depth` and `unoccluded`.
+// Returns the position of a pixel in `depth` and `unoccluded`.
 static inline size_t screen_pixel(const struct screen_occlusion *o, int x, int y)
 {
     int half = o->step - 1;
@@ -58,7 +57,7 @@ static inline size_t screen_pixel(const struct screen_occlusion *o, int x, int y
            (size_t)(x >> half);
 }
 
-// Returns the distance of a frame's ground at a pixel's centre, SCREEN_EMPTY if it is not visible.
+// Returns the distance of a frame's ground at a pixel's centre, or SCREEN_EMPTY if it is not visible.
 static inline float screen_ground_depth(const struct frame *frame, int x, int y)
 {
     const struct frame_ground *ground = &frame->ground;
@@ -80,15 +79,15 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
     return seen && (dx * dx + dy * dy) + dz * dz < end * end ? depth : SCREEN_EMPTY;
 }
 
-// Sets up a picture's rows in `storage`, without any surface, by several threads (`pool` NULL: one). `lent` is memory,
-// if any, that nothing else uses from screen_occlusion_find on until the result has been read; the cells lie there if
-// it is large enough.
+// Sets up a picture's rows in `storage`, without any surface, using the threads of `pool` (may be NULL). `lent` is
+// optional memory that nothing else uses from screen_occlusion_find until the result has been read; if it is large
+// enough, it stores the cells.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory lent,
                             struct buffer *storage, struct pool *pool, struct call_control *call, lam_error *error);
 
-// The steps (screen_occlusion.inc, compiled for each instruction set), for rows of cells from `first` to before `end`: the
-// depth of each cell (with step 2), its occlusion, the two passes of its filter, and its pixels. Each step takes all rows
-// before the next begins.
+// The steps (screen_occlusion.inc, compiled for each instruction set), for rows of cells from `first` to before `end`:
+// the depth of each cell (with step 2), its occlusion, the two passes of its filter, and its pixels. Each step
+// processes all rows before the next step begins.
 struct occlusion_kernels {
     void (*cell_rows)(const struct screen_occlusion *occlusion, int first, int end);
     void (*occlude_rows)(const struct screen_occlusion *occlusion, int first, int end);
@@ -97,8 +96,8 @@ struct occlusion_kernels {
     void (*pixel_rows)(const struct screen_occlusion *occlusion, int first, int end);
 };
 
-// Finds `unoccluded` from `depth`, by several threads (`pool` NULL: one). It ends early, unfinished, where the call should
-// not continue.
+// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL). If the call must end, it stops with
+// incomplete results.
 void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occlusion_kernels *kernels,
                            struct pool *pool, struct call_control *call);
 

@@ -5,11 +5,11 @@
 #include "hierarchy.h"
 #include "loop_status.h"
 
-// Triangles are prepared, and the largest ranges divided, in pieces of this many.
-enum { RAY_PIECE = 4096 };
+// Triangles per task, for preparing triangles and dividing the largest ranges.
+enum { RAY_CHUNK = 4096 };
 
-// The box of a triangle. low[3] contains the bits of its number, high[3] the bits of 1. Or of a cell's triangles
-// (cells.c): low[3] is the first and high[3] the count.
+// The box of a triangle. low[3] contains the bits of its number, high[3] the bits of 1. For a cell's triangles
+// (cells.c), low[3] is the first triangle and high[3] the count.
 struct primitive {
     _Alignas(16) float low[4];
     float high[4];
@@ -41,8 +41,8 @@ struct builder {
     struct ray_triangle *triangles; // in the order of the leaves
     struct ray_node *nodes;
     uint32_t *twins;
-    struct primitive *primitives; // of the ranges that are divided
-    struct primitive *in_cells;   // of a large range, sorted by its cells
+    struct primitive *primitives; // the primitives of the ranges that are being divided
+    struct primitive *in_cells;   // the primitives of a large range, sorted by cell
     struct pool *pool;
     struct loop_status loop;
 };
@@ -50,8 +50,8 @@ struct builder {
 // Fills primitives, and the hierarchy's centre and scale.
 bool ray_triangles_prepare(struct builder *builder, lam_error *error);
 
-// Returns the largest number of nodes below a range of this many triangles. A node with fewer than NODE_CHILDREN
-// children has leaves alone, and more than LEAF_MIN triangles; hence, by induction, (2 count − 1)/7.
+// Returns the largest number of nodes for a range of this many triangles. A node with fewer than NODE_CHILDREN children
+// has only leaves, and more than LEAF_MIN triangles; by induction this gives (2 count − 1)/7.
 static inline uint32_t ray_nodes_below(uint32_t count) { return count ? (uint32_t)((2 * (uint64_t)count - 1) / 7) : 0; }
 
 // Divides the primitives into nodes and leaves.

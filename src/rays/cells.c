@@ -1,10 +1,10 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and distributes small ranges to threads.
 //
-// The middles of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
-// of its cells in place of the far more numerous triangles. A range of few triangles leaves its cells and is divided by
-// one thread (splits.c); so is one that fills a cell, within a grid of its own if it is large. Tasks follow from the
-// number of triangles, and a range's nodes have a position that follows only from its triangles, so neither the threads
-// nor their number matter.
+// The centres of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
+// of its cells instead of the far more numerous triangles. A range of few triangles is removed from its cells and
+// divided by one thread (splits.c), and so is a range within one cell; if that range is large, it gets its own grid.
+// Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its triangles, so
+// the result does not depend on threads.
 #include "ranges.h"
 
 #include "fail.h"
@@ -12,21 +12,22 @@
 #include <string.h>
 
 enum {
-    PART = 32,                    // triangles of a part of a node that cells do not divide any more
-    SMALL = NODE_CHILDREN * PART, // triangles of a range that one thread divides; above, a node has all its children
+    PART = 32, // triangles of a node's part that cells no longer divide
+    // a range up to this size is divided by one thread; the nodes of larger ones have all their children
+    SMALL = NODE_CHILDREN * PART,
     CELL_BITS_MAX = 16,
-    PIECES_MAX = 16,
-    CELLS_PIECE = 256 // cells that are measured together
+    CHUNKS_MAX = 16,
+    CELLS_CHUNK = 256 // cells measured together
 };
 
-// A grid over the middles of a range's triangles.
+// A grid over the centres of a range's triangles.
 struct grid {
-    num start, factor, last; // from twice a middle to the column, row and layer, and the last of these
-    int shift[3];            // where their bits are in a cell's number
+    num start, factor, last; // convert twice a centre to a cell index up to `last`
+    int shift[3];            // the positions of their bits in a cell's number
     uint32_t cell_count;
 };
 
-// Ranges that are still to be divided.
+// Ranges that remain to be divided.
 struct list {
     struct buffer memory;
     size_t count;
@@ -36,19 +37,19 @@ struct large {
     struct builder *builder;
     const struct range *range;
     struct grid grid;
-    uint32_t piece, pieces;  // triangles sorted together
-    uint16_t *keys;          // of each triangle, its cell
-    uint32_t *places;        // of each task and cell: the number of triangles, then the position of the next one
-    struct primitive *cells; // those with triangles
+    uint32_t chunk, chunks;  // triangles sorted together
+    uint16_t *keys;          // the cell of each triangle
+    uint32_t *places;        // for each task and cell, the number of triangles, then the position of the next one
+    struct primitive *cells; // cells that contain triangles
     uint32_t used_cells;
-    struct box *boxes;          // of each piece: of its triangles, and of twice their middles
-    struct list small, waiting; // to be divided by one thread; in grids of their own
+    struct box *boxes;          // for each task, the box of its triangles and the box of twice their centres
+    struct list small, waiting; // ranges to be divided by one thread, and in grids of their own
     struct buffer keys_memory, places_memory, cells_memory;
 };
 
 // --- the grid
 
-// Each bit of a cell's number halves the longest side that is left.
+// Each bit of a cell's number halves the longest remaining side.
 static struct grid grid_over(const struct box *middles, uint32_t count)
 {
     int bits = 31 - __builtin_clz(count) - 2, of_axis[3] = {0, 0, 0};
@@ -87,28 +88,28 @@ static uint32_t cell_of(const struct grid *grid, const struct primitive *p)
     return (uint32_t)(ilane(i, 0) << grid->shift[0] | ilane(i, 1) << grid->shift[1] | ilane(i, 2) << grid->shift[2]);
 }
 
-static uint32_t piece_count(const struct large *l, size_t index)
+static uint32_t chunk_count(const struct large *l, size_t index)
 {
-    uint32_t first = (uint32_t)index * l->piece;
-    return l->range->count - first < l->piece ? l->range->count - first : l->piece;
+    uint32_t first = (uint32_t)index * l->chunk;
+    return l->range->count - first < l->chunk ? l->range->count - first : l->chunk;
 }
 
 static void measure_task(void *user, size_t index, int thread)
 {
     (void)thread;
     struct large *l = user;
-    const struct primitive *p = l->builder->primitives + l->range->first + index * l->piece;
-    range_measure(p, piece_count(l, index), &l->boxes[2 * index], &l->boxes[2 * index + 1]);
+    const struct primitive *p = l->builder->primitives + l->range->first + index * l->chunk;
+    range_measure(p, chunk_count(l, index), &l->boxes[2 * index], &l->boxes[2 * index + 1]);
 }
 
 static void count_task(void *user, size_t index, int thread)
 {
     (void)thread;
     struct large *l = user;
-    const struct primitive *p = l->builder->primitives + l->range->first + index * l->piece;
-    uint16_t *keys = l->keys + index * l->piece;
+    const struct primitive *p = l->builder->primitives + l->range->first + index * l->chunk;
+    uint16_t *keys = l->keys + index * l->chunk;
     uint32_t *places = l->places + index * l->grid.cell_count;
-    for (uint32_t i = 0, count = piece_count(l, index); i < count; i++) {
+    for (uint32_t i = 0, count = chunk_count(l, index); i < count; i++) {
         keys[i] = (uint16_t)cell_of(&l->grid, &p[i]);
         places[keys[i]]++;
     }
@@ -118,10 +119,10 @@ static void sort_task(void *user, size_t index, int thread)
 {
     (void)thread;
     struct large *l = user;
-    const struct primitive *p = l->builder->primitives + l->range->first + index * l->piece;
-    const uint16_t *keys = l->keys + index * l->piece;
+    const struct primitive *p = l->builder->primitives + l->range->first + index * l->chunk;
+    const uint16_t *keys = l->keys + index * l->chunk;
     uint32_t *places = l->places + index * l->grid.cell_count;
-    for (uint32_t i = 0, count = piece_count(l, index); i < count; i++)
+    for (uint32_t i = 0, count = chunk_count(l, index); i < count; i++)
         l->builder->in_cells[places[keys[i]]++] = p[i];
 }
 
@@ -130,8 +131,8 @@ static void cells_task(void *user, size_t index, int thread)
     (void)thread;
     struct large *l = user;
     uint32_t end =
-        (uint32_t)(index + 1) * CELLS_PIECE < l->used_cells ? (uint32_t)(index + 1) * CELLS_PIECE : l->used_cells;
-    for (uint32_t i = (uint32_t)index * CELLS_PIECE; i < end; i++) {
+        (uint32_t)(index + 1) * CELLS_CHUNK < l->used_cells ? (uint32_t)(index + 1) * CELLS_CHUNK : l->used_cells;
+    for (uint32_t i = (uint32_t)index * CELLS_CHUNK; i < end; i++) {
         struct primitive *cell = &l->cells[i];
         uint32_t first = primitive_number(cell), count = primitive_weight(cell);
         struct box box, middles;
@@ -142,24 +143,24 @@ static void cells_task(void *user, size_t index, int thread)
     }
 }
 
-// Sorts the primitives of a range into cells, with the range's box and middles.
+// Sorts the primitives of a range into cells, and computes the range's box and centres.
 static bool sort_into_cells(struct large *l, struct range *r)
 {
     struct builder *b = l->builder;
     l->range = r;
-    l->piece = r->count / PIECES_MAX > 8 * RAY_PIECE ? r->count / PIECES_MAX + 1 : 8 * RAY_PIECE;
-    l->pieces = (r->count + l->piece - 1) / l->piece;
-    struct box boxes[2 * (PIECES_MAX + 1)];
+    l->chunk = r->count / CHUNKS_MAX > 8 * RAY_CHUNK ? r->count / CHUNKS_MAX + 1 : 8 * RAY_CHUNK;
+    l->chunks = (r->count + l->chunk - 1) / l->chunk;
+    struct box boxes[2 * (CHUNKS_MAX + 1)];
     l->boxes = boxes;
-    pool_run(b->pool, l->pieces, measure_task, l);
+    pool_run(b->pool, l->chunks, measure_task, l);
     r->box = r->middles = empty_box();
-    for (uint32_t i = 0; i < l->pieces; i++) {
+    for (uint32_t i = 0; i < l->chunks; i++) {
         r->box = around(r->box, boxes[2 * i]);
         r->middles = around(r->middles, boxes[2 * i + 1]);
     }
     l->grid = grid_over(&r->middles, r->count);
     size_t cells = l->grid.cell_count;
-    size_t keys_bytes = r->count * sizeof *l->keys, places_bytes = l->pieces * cells * sizeof *l->places;
+    size_t keys_bytes = r->count * sizeof *l->keys, places_bytes = l->chunks * cells * sizeof *l->places;
     if (!buffer_reserve(&l->keys_memory, keys_bytes, b->loop.call, NULL) ||
         !buffer_reserve(&l->places_memory, places_bytes, b->loop.call, NULL) ||
         !buffer_reserve(&l->cells_memory, cells * sizeof *l->cells, b->loop.call, NULL)) {
@@ -169,21 +170,21 @@ static bool sort_into_cells(struct large *l, struct range *r)
     l->keys = l->keys_memory.data;
     l->places = memset(l->places_memory.data, 0, places_bytes);
     l->cells = l->cells_memory.data;
-    pool_run(b->pool, l->pieces, count_task, l);
+    pool_run(b->pool, l->chunks, count_task, l);
     uint32_t at = 0;
     l->used_cells = 0;
     for (size_t cell = 0; cell < cells; cell++) {
         uint32_t first = at;
-        for (uint32_t piece = 0; piece < l->pieces; piece++) {
-            uint32_t *place = &l->places[piece * cells + cell], count = *place;
+        for (uint32_t chunk = 0; chunk < l->chunks; chunk++) {
+            uint32_t *place = &l->places[chunk * cells + cell], count = *place;
             *place = at;
             at += count;
         }
         if (at > first)
             primitive_note(&l->cells[l->used_cells++], first, at - first);
     }
-    pool_run(b->pool, l->pieces, sort_task, l);
-    pool_run(b->pool, (l->used_cells + CELLS_PIECE - 1) / CELLS_PIECE, cells_task, l);
+    pool_run(b->pool, l->chunks, sort_task, l);
+    pool_run(b->pool, (l->used_cells + CELLS_CHUNK - 1) / CELLS_CHUNK, cells_task, l);
     r->first_cell = 0;
     r->cell_count = l->used_cells;
     struct box unused;
@@ -191,7 +192,7 @@ static bool sort_into_cells(struct large *l, struct range *r)
     return true;
 }
 
-// --- the division
+// --- dividing ranges
 
 static struct range *ranges_of(const struct list *list) { return list->memory.data; }
 
@@ -213,7 +214,7 @@ static void add(struct large *l, const struct range *r, struct list *list)
     ranges_of(list)[list->count++] = *r;
 }
 
-// Divides a range by its cells. Returns false if it has one, or all their middles are the same, or it is too deep.
+// Divides a range by its cells. Returns false if it has only one cell, all its centres are equal, or it is too deep.
 static bool halve_cells(struct large *l, struct range *r, struct range *right)
 {
     struct split split;
@@ -232,7 +233,7 @@ static bool halve_cells(struct large *l, struct range *r, struct range *right)
     return true;
 }
 
-// The triangles of a range leave their cells.
+// Removes the triangles of a range from their cells.
 static void leave_cells(const struct large *l, struct range *r)
 {
     struct primitive *to = l->builder->primitives + r->first;
@@ -256,7 +257,7 @@ static void divide_by_cells(struct large *l, const struct range *r)
     while (count < NODE_CHILDREN && (i = widest_part(parts, open, count)) >= 0) {
         if (!halve_cells(l, &parts[i], &parts[count])) {
             leave_cells(l, &parts[i]);
-            if (!range_halve(l->builder, &parts[i], &parts[count])) // no memory
+            if (!range_halve(l->builder, &parts[i], &parts[count])) // memory ran out
                 return;
         }
         open[i] = parts[i].count > PART;

@@ -1,11 +1,11 @@
-// hierarchy.c: builds the hierarchy of a frame on demand, and keeps it while the meshes do not move.
+// hierarchy.c: builds the hierarchy of a frame on demand, and keeps it as long as no mesh moves.
 #include "builder.h"
 
 #include "fail.h"
 
 #include <string.h>
 
-// Everything that a hierarchy depends on: equal pointers mean equal contents, since a scene never modifies its arrays.
+// Everything that a hierarchy depends on. Equal pointers mean equal contents, since a scene never modifies its arrays.
 struct source {
     const float *positions;
     const uint32_t *indices;
@@ -26,15 +26,15 @@ static bool same_sources(const struct hierarchy_memory *memory, const struct fra
             s->triangle_count != draw->mesh->triangle_count || s->first_id != draw->first_id ||
             s->casts != frame_draw_casts(draw))
             return false;
-        // Objects that cast no shadows may change from frame to frame, and are left out.
+        // Objects without shadows may change from frame to frame, so they are excluded.
         if (s->casts && memcmp(s->world, draw->world, sizeof s->world) != 0)
             return false;
     }
     return true;
 }
 
-// Besides the coordinates of the file (frame_draw.rounding), the operations round from there to the hierarchy's space, and to a
-// point of a triangle: fewer than eight, in double, of numbers up to the sum below.
+// Besides the coordinates of the file (frame_draw.rounding), the transforms to the hierarchy's space and to a point of
+// a triangle round too: fewer than eight operations in double, on numbers up to the sum below.
 static void add_rounding(struct hierarchy *h, const struct frame_draw *draw)
 {
     for (int i = 0; i < 3; i++) {
@@ -95,7 +95,7 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
                             .node_count = (uint32_t)nodes,
                             .triangle_count = (uint32_t)count};
     bool ok = ray_triangles_prepare(&builder, error) && ray_nodes_build(&builder, error);
-    // The scratch memory is half as large as the hierarchy, and not needed again before something moves.
+    // The scratch memory is half as large as the hierarchy, and only needed again after something moves.
     buffer_release(&memory->scratch, call);
     if (!ok)
         return NULL;

@@ -1,5 +1,5 @@
-// light_rays.h: computes the light that passes along LANES rays (docs/lighting/shadows.md). Include with LANES defined,
-// before or after ray_lanes.h.
+// light_rays.h: computes the light that passes along LANES rays (docs/lighting/shadows.md). Define LANES before
+// including it, before or after ray_lanes.h.
 #ifndef LIGHT_RAYS_H
 #define LIGHT_RAYS_H
 
@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-// Where LANES rays start: their rows in ray_lanes.
+// The start points of LANES rays, as rows for ray_lanes.
 struct ray_starts {
     const double *origin[3], *point[3];
     const int32_t *own;
@@ -18,13 +18,13 @@ struct ray_starts {
 struct light_rays {
     const struct frame *frame;
     const struct hierarchy *hierarchy;
-    const struct light_pattern *pattern; // of lights with a size
+    const struct light_pattern *pattern; // used for lights with a size
     struct ray_layers *layers;
-    uint64_t sent; // rays
+    uint64_t sent; // number of traced rays
 };
 
-// A ray through an edge crosses both of its triangles, which an opaque surface does not mind. Of translucent ones it
-// counts for one: the one with the edge on one side, seen along the ray, as in coverage.
+// A ray through an edge meets both of its triangles, which does not matter for opaque surfaces. For translucent ones it
+// must count once: for the triangle on one side of the edge, seen along the ray, as in coverage.
 static bool owns_edges(const struct ray_triangle *triangle, const double origin[3], const double d[3],
                        const double weights[3])
 {
@@ -45,8 +45,8 @@ static bool owns_edges(const struct ray_triangle *triangle, const double origin[
     return true;
 }
 
-// Records the light that a translucent triangle lets pass, and returns the rays that it ends. The side that the light
-// falls on counts.
+// Records the light that a translucent triangle lets through, and returns the rays that it blocks. It uses the side
+// that faces the light.
 static unsigned filter_ray(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                            const struct ray_view *view, unsigned lanes)
 {
@@ -111,10 +111,10 @@ static int by_number(const void *a, const void *b)
     return (x->number > y->number) - (x->number < y->number);
 }
 
-// Returns the channels of the light that passes: one unless something tints it.
+// Returns the number of channels of the passing light: one unless something tints it.
 static int passed_channels(const struct frame *frame) { return frame->tints_rays ? 3 : 1; }
 
-// Returns the share of the light that passes along LANES rays, for each of passed_channels.
+// Computes the share of the light that passes along LANES rays, for each of passed_channels.
 static __attribute__((noinline)) void trace(struct light_rays *r, const struct ray_lanes *ray, unsigned active,
                                             float passed[3][LANES])
 {
@@ -137,7 +137,7 @@ static __attribute__((noinline)) void trace(struct light_rays *r, const struct r
             passed[c][layers->list[i].lane] *= layers->list[i].passed[c];
 }
 
-// Two unit vectors at right angles to d and to each other.
+// Computes two unit vectors perpendicular to d and to each other.
 static void across(const double d[3], double u[3], double v[3])
 {
     double length = __builtin_sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);
@@ -156,7 +156,7 @@ static void across(const double d[3], double u[3], double v[3])
         v[i] = n[j] * u[k] - n[k] * u[j];
 }
 
-// Sets the rays to point n of a disc with the axes u and v.
+// Aims the rays at point n of a disc with the axes u and v.
 LANE_FN void aim_at_point(struct ray_lanes *ray, const struct ray_lanes *centre, const struct light_points *points,
                           int n, double u[3][LANES], double v[3][LANES])
 {
@@ -168,8 +168,8 @@ LANE_FN void aim_at_point(struct ray_lanes *ray, const struct ray_lanes *centre,
                            (points->x[n] * dnum_load(u[k] + part) + points->y[n] * dnum_load(v[k] + part)));
 }
 
-// Stores the light along the first ray, and returns the lanes for which another ray finds a different light: those in a
-// penumbra.
+// Stores the light along the first probe, and returns the lanes for which another probe finds different light, which
+// are in a penumbra.
 static unsigned trace_probes(struct light_rays *r, const struct ray_lanes *centre, double u[3][LANES],
                              double v[3][LANES], unsigned active, float passed[3][LANES])
 {
@@ -186,7 +186,7 @@ static unsigned trace_probes(struct light_rays *r, const struct ray_lanes *centr
     return active & ~agree;
 }
 
-// The mean over the points of a light with a size.
+// Computes the mean over the points of a light with a size.
 static void trace_disc(struct light_rays *r, const struct frame_light *light, const struct ray_lanes *centre,
                        unsigned active, float passed[3][LANES])
 {
@@ -227,7 +227,7 @@ LANE_FN void rays_from(struct ray_lanes *ray, const struct ray_starts *from)
     inum_store(ray->own, inum_load(from->own));
 }
 
-// Rays to the middle of a light.
+// Aims rays at the centre of a light.
 LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, const struct ray_starts *from,
                            const struct frame_light *light)
 {
@@ -243,7 +243,7 @@ LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, co
     }
 }
 
-// Returns the share of a light that reaches LANES points, the `active` ones; for each of passed_channels.
+// Computes the share of a light that reaches LANES points, the `active` ones, for each of passed_channels.
 LANE_FN void trace_light(struct light_rays *r, const struct ray_starts *from, const struct frame_light *light,
                          unsigned active, float passed[3][LANES])
 {

@@ -1,4 +1,4 @@
-// opacity.c: computes the opacity of a point on a triangle, and the light that passes it, from its material, vertex
+// opacity.c: computes the opacity of a point on a triangle, and the light that it transmits, from its material, vertex
 // colours and maps.
 #include "opacity.h"
 
@@ -55,7 +55,7 @@ static float vertex_color(const lam_mesh *mesh, uint32_t triangle, int channel, 
     return at_weights(value, b1, b2);
 }
 
-// Returns a channel of a map at level 0; 1 where the mesh has no texture coordinates for it.
+// Returns a channel of a map at level 0, or 1 if the mesh lacks texture coordinates for it.
 static float map_value(const lam_mesh *mesh, const lam_texture_map *map, int channel, uint32_t triangle, float b1,
                        float b2)
 {

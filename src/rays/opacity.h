@@ -1,30 +1,30 @@
-// opacity.h: computes the fractions of light that a triangle blocks and lets pass.
+// opacity.h: computes the fractions of light that a triangle blocks and transmits.
 #ifndef OPACITY_H
 #define OPACITY_H
 
 #include "frame.h"
 
-// Returns the opacity of a triangle of the frame, 0…1, where its corners have the weights 1 − b1 − b2, b1 and b2,
-// textures taken at their level 0. A masked surface has 0 or 1. `back`: of its back side.
+// Returns the opacity, 0…1, of a triangle of the frame at the point with the weights 1 − b1 − b2, b1 and b2; textures
+// are read at level 0. A masked surface has 0 or 1. With `back`, returns the opacity of its back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
-// The light that such a point lets pass, red, green, blue: 1 − opacity, and of the opaque share the light that
-// continues behind a transmitting surface: transmission (1 − metallic) · base. The boundary of a volume counts where
-// light enters it.
+// Gets the light, red, green and blue, that passes such a point: 1 − opacity, plus, of the opaque share, the light that
+// continues behind a transmitting surface: transmission (1 − metallic) · base. The boundary of a volume counts only
+// where light enters it.
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3]);
 
-// The translucent triangles in the way of rays that travel together.
+// The translucent triangles that a group of rays passes.
 struct ray_layers {
     struct ray_layer {
-        uint32_t lane, number; // the ray, and the triangle in the frame
-        float passed[3];       // share of the light; where nothing tints it, the first
-    } *list;                   // grows; freed by its owner
+        uint32_t lane, number; // the ray, and the index of the triangle in the frame
+        float passed[3];       // share of the light; only the first channel if nothing tints it
+    } *list;                   // grows; its owner frees it
     int count, capacity;
     bool failed; // out of memory
 };
 
-// The colour of a corner of a mesh with colours, linear and with alpha, and its texture coordinates in a map's set, or
-// false if the mesh has none. Corners are counted over all triangles.
+// Get the linear colour with alpha of a corner of a mesh with colours, and its texture coordinates in a map's set; the
+// latter returns false if the mesh has none. Corners are counted over all triangles.
 void ray_corner_color(const lam_mesh *mesh, uint32_t corner, float out[4]);
 bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float out[2]);
 

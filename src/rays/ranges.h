@@ -1,10 +1,9 @@
-// ranges.h: ranges of primitives of which a hierarchy's nodes are made, and the bins by which they are divided.
+// ranges.h: ranges of primitives that become a hierarchy's nodes, and the bins by which they are divided.
 //
-// The surface area heuristic (MacDonald and Booth, 1990) with the candidates of Wald, "On fast construction of SAH-based
-// bounding volume hierarchies", 2007: a range's primitives are sorted into bins by the middles of their boxes, and the
-// boundary between two bins is taken where
-//     area(left) count(left) + area(right) count(right)
-// is least.
+// The surface area heuristic (MacDonald and Booth, 1990) with the candidates of Wald, "On fast construction of
+// SAH-based bounding volume hierarchies", 2007: a range's primitives are sorted into bins by the centres of their
+// boxes, and the range is divided at the boundary between two bins with the smallest
+//    area(left) count(left) + area(right) count(right)
 #ifndef RANGES_H
 #define RANGES_H
 
@@ -17,9 +16,9 @@
 
 enum {
     BINS = 16,
-    FEW_BINS = 8, // of ranges of up to FEW triangles
+    FEW_BINS = 8, // the number of bins for ranges of up to FEW triangles
     FEW = 64,
-    BALANCED_AT = 48 // nodes above one that is divided in the middle
+    BALANCED_AT = 48 // at this depth, ranges are divided in the middle
 };
 
 // Four floats; the last is unused.
@@ -36,7 +35,7 @@ static inline struct box around(struct box a, struct box b)
 
 static inline struct box box_of(const struct primitive *p) { return (struct box){num_load(p->low), num_load(p->high)}; }
 
-// Twice the middle of a triangle's box.
+// Returns twice the centre of a triangle's box.
 static inline num middle_of(const struct primitive *p) { return num_load(p->low) + num_load(p->high); }
 
 static inline float half_area(struct box b)
@@ -45,19 +44,19 @@ static inline float half_area(struct box b)
     return lane(d, 0) * lane(d, 1) + lane(d, 1) * lane(d, 2) + lane(d, 2) * lane(d, 0);
 }
 
-// Primitives that become nodes.
+// A range of primitives that becomes nodes.
 struct range {
     uint32_t first, count; // triangles
-    uint32_t node;         // the first of ray_nodes_below(count) nodes that it may use
+    uint32_t node;         // index of the first of ray_nodes_below(count) nodes reserved for it
     int depth;
-    bool sorted;                     // the middles are the same; the primitives lie in the order of sort_group
-    uint32_t first_cell, cell_count; // the cells that contain the triangles; none: builder.primitives does
-    struct box box, middles;         // of the primitives or cells; of twice the middles of their boxes
-    float area;                      // half of the box's
-    uint32_t *child, *child_count;   // where its node or leaf is entered; NULL: it is the root
+    bool sorted;                     // all centres are equal; the primitives are in the order of sort_group
+    uint32_t first_cell, cell_count; // the cells that contain the triangles; 0 if builder.primitives contains them
+    struct box box, middles;         // the box of the primitives or cells, and the box of twice their centres
+    float area;                      // half of the box's surface area
+    uint32_t *child, *child_count;   // receive its node or leaf; NULL if it is the root
 };
 
-// Makes a range the part with its first `left` triangles, and *right that with the others.
+// Reduces a range to its first `left` triangles, and sets *right to the rest.
 static inline void halves_of(struct range *r, uint32_t left, const struct box boxes[2], const struct box middles[2],
                              struct range *right)
 {
@@ -74,7 +73,7 @@ static inline void halves_of(struct range *r, uint32_t left, const struct box bo
     r->area = half_area(boxes[0]);
 }
 
-// Returns the part with the largest box among the ones `open` to division, or −1 if none is.
+// Returns the part with the largest box among the parts `open` to division, or −1 if there is none.
 static inline int widest_part(const struct range *parts, const bool *open, int count)
 {
     int widest = -1;
@@ -95,7 +94,7 @@ struct bins {
     uint32_t counts[BINS];
 };
 
-// How a range is divided: bin numbers below `bin` go to the left.
+// The division of a range: bin numbers below `bin` go to the left.
 struct split {
     int axis, bin, bins;
     float start, factor;
@@ -128,7 +127,7 @@ static inline void fill_bins(struct bins *bins, const struct split *s, const str
     }
 }
 
-// Fills the bins along the longest side of the box of middles. Returns false if the middles are the same.
+// Fills the bins along the longest side of the box of centres. Returns false if the centres are equal.
 static inline bool choose_axis(const struct range *r, struct split *s)
 {
     num size = r->middles.high - r->middles.low;
@@ -183,7 +182,7 @@ static inline uint32_t sides_of(const struct bins *bins, int bin, struct box box
     return left;
 }
 
-// Moves the primitives of the left side to the front; returns their number.
+// Moves the primitives of the left side to the front. Returns their number.
 static inline uint32_t partition(struct primitive *p, uint32_t count, const struct split *s)
 {
     uint32_t low = 0, high = count;
@@ -202,16 +201,16 @@ static inline uint32_t partition(struct primitive *p, uint32_t count, const stru
 
 // --- the nodes of one range (splits.c)
 
-// The box of a range's primitives and of twice their middles.
+// Computes the box of a range's primitives, and of twice their centres.
 void range_measure(const struct primitive *p, uint32_t count, struct box *box, struct box *middles);
 
-// Divides a range in two: itself, and *right. Returns false if it becomes a leaf, or there is no memory.
+// Divides a range into itself and *right. Returns false if it becomes a leaf, or memory runs out.
 bool range_halve(struct builder *builder, struct range *range, struct range *right);
 
-// Enters the node of a range that was divided into `parts`, and says where theirs go.
+// Stores the node of a range that was divided into `parts`, and sets where the parts store their nodes.
 void range_enter_node(struct builder *builder, const struct range *range, struct range *parts, int count);
 
-// Makes the nodes of a range, or a leaf if it is not divided. The root is a node always.
+// Makes the nodes of a range, or a leaf if it is not divided. The root is always a node.
 void range_divide(struct builder *builder, const struct range *range);
 
 #endif

@@ -1,19 +1,20 @@
-// ray_lanes.h: intersects LANES rays at a time with a hierarchy. Include with LANES defined as 1, 4, 8 or 16.
+// ray_lanes.h: intersects LANES rays at a time with a hierarchy. Define LANES as 1, 4, 8 or 16 before including it.
 //
-// A ray is origin + t direction with 0 < t < end, in the hierarchy's space. Whether a triangle is in its way is decided
-// in double by crosses() alone, in a fixed order of operations; boxes only save work. Hence neither the hierarchy, nor
-// the number of lanes, nor which rays travel together matters.
+// A ray is origin + t direction with 0 < t < end, in the hierarchy's space. Only crosses() decides whether a ray meets
+// a triangle, in double and in a fixed order of operations; boxes merely save work. The result therefore does not
+// depend on the hierarchy, on the number of lanes, or on which rays are traced together.
 //
-// The test is that of Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013): seen along the ray,
-// with the origin at (0, 0), a triangle's edges are decided by the signs of cross products of its corners. Rounding is
-// monotonic, so that such a sign is never wrong, only 0, and 0 belongs to both triangles at an edge: no ray slips
-// between them. A corner that is the origin itself gives t = 0: triangles around a point are not in the way of its rays.
-// Nor is a triangle whose plane has the point that a ray leaves (through_points): there t is 0 but for rounding.
+// The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013): seen along the ray, with
+// the origin at (0, 0), the signs of cross products of a triangle's corners decide on which side of each edge the ray
+// passes. Rounding is monotonic, so that such a sign is never wrong, only 0, and 0 belongs to both triangles at an
+// edge: no ray passes between them. A corner at the origin gives t = 0, so triangles around a point do not block its
+// rays. Nor does a triangle whose plane contains the start point of the ray (through_points), since t is then 0 except
+// for rounding.
 //
-// Of LANES rays those that go nearly the same way, a bundle, walk the hierarchy together: at a node the intervals in which
-// their origins and directions lie are tested against the boxes of all its children at once (Boulos, Wald and Shirley,
-// "Geometric and arithmetic culling methods for entire ray packets", 2006), and only at a leaf the rays themselves. A ray that
-// goes its own way is a bundle of one.
+// Rays with nearly the same direction form a bundle and traverse the hierarchy together: at a node, the intervals of
+// their origins and directions are tested against the boxes of all its children at once (Boulos, Wald and Shirley,
+// "Geometric and arithmetic culling methods for entire ray packets", 2006); only leaves test individual rays. A ray
+// with a different direction is a bundle of one.
 #ifndef RAY_LANES_H
 #define RAY_LANES_H
 
@@ -21,25 +22,25 @@
 #include "eights.h"
 #include "hierarchy.h"
 
-// The rays of a bundle lie no farther than this from one of them where they start and, had all its length (at most 1),
-// where they end; coordinates summed.
+// The rays of a bundle differ from one of them by at most this, where they start and where they would end at their full
+// length (at most 1); summed over coordinates.
 #define BUNDLE_APART 0.2f
 
 struct ray_lanes {
-    _Alignas(64) double origin[3][LANES], direction[3][LANES]; // the direction's length is the unit of t
+    _Alignas(64) double origin[3][LANES], direction[3][LANES]; // t is measured in lengths of the direction
     double end[LANES];                                         // may be infinite
-    // The twin of the triangle that the ray starts on, which is not in its way; NO_TRIANGLE: of none.
+    // The twin of the triangle on which the ray starts, which never blocks it; NO_TRIANGLE: none.
     int32_t own[LANES];
-    double point[3][LANES]; // that the ray leaves: its origin, unless that was moved off the surface
+    double point[3][LANES]; // the start point: the origin, unless that was moved off the surface
 };
 
-// Rays seen along their directions d with k as the largest component: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
-// and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one 0, which are exact: rays of
-// different k can go through the same operations, and those that have k in common through fewer, with the same results.
+// Rays seen along their directions d, with k the largest component: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
+// and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one is 0, both exact. Rays with
+// different k can therefore use the same operations, and rays with a common k fewer operations, with the same results.
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // the rays with each k
-    int k, i, j;      // of all rays that are asked about, which then have row k alone; k −1: they differ
+    int k, i, j;      // the same for all requested rays, which then use only row k; k is −1 if they differ
 };
 
 LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
@@ -59,7 +60,7 @@ LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
         dnum to_x = -(dpick(on_x, d[1], dpick(on_y, d[2], d[0])) * inverse);
         dnum to_y = -(dpick(on_x, d[2], dpick(on_y, d[0], d[1])) * inverse);
         for (int k = 0; k < 3; k++) {
-            int before = (k + 2) % 3, after = (k + 1) % 3; // i is after, j before k
+            int before = (k + 2) % 3, after = (k + 1) % 3; // i is after, j is before k
             v->of_k[k] |= dmask_bits(on[k]) << at;
             dnum_store(v->x[k] + at, dpick(on[k], to_x, dpick(on[before], one, zero)));
             dnum_store(v->y[k] + at, dpick(on[k], to_y, dpick(on[after], one, zero)));
@@ -82,8 +83,8 @@ LANE_FN dnum along(const double row[3][LANES], int at, const dnum p[3])
     return (dnum_load(row[0] + at) * p[0] + dnum_load(row[1] + at) * p[1]) + dnum_load(row[2] + at) * p[2];
 }
 
-// Returns the lanes of `active` whose rays a triangle is in the way of. `weights` (may be NULL) gets the weights of its
-// corners, each times their sum, and `t` the rays' t.
+// Returns the lanes of `active` whose rays a triangle blocks. `weights` (may be NULL) gets the weights of its corners,
+// each times their sum, and `t` the rays' t.
 LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_lanes *ray, const struct ray_view *view,
                          unsigned active, double weights[3][LANES], double t[LANES])
 {
@@ -110,7 +111,7 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
                 dnum depth = triangle->p[c][k] - of_k;
                 x[c] = (triangle->p[c][i] - of_i) + to_x * depth;
                 y[c] = (triangle->p[c][j] - of_j) + to_y * depth;
-                z[c] = depth; // of the few that come so far it is scaled below
+                z[c] = depth; // scaled below, for the few rays that get this far
             }
         }
         w[0] = x[1] * y[2] - y[1] * x[2];
@@ -138,11 +139,12 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
     return hit ? hit & mask_bits(inum_load(ray->own) != (int32_t)triangle->twin) : 0;
 }
 
-// Of `lanes`, whose rays cross a triangle, those whose points lie in its plane, as far as rounding allows to tell:
-//     |N·(p_0 − point)| ≤ 2 Σ_i |N_i| rounding_i + 2⁻⁵⁰ Σ_i (|a_j b_k| + |a_k b_j|) |p_0 − point|_i    N = a × b
-// where a and b lead from corner p_0 to the others. Triangle and point are both rounded (hierarchy.rounding); the last term is
-// the error of this determinant (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
-// predicates", 1997, has 7 · 2⁻⁵³ for 8 · 2⁻⁵³).
+// Returns the `lanes`, whose rays cross a triangle, for which the start point is in the triangle's plane within the
+// rounding error:
+//    |N·(p_0 − point)| ≤ 2 Σ_i |N_i| rounding_i + 2⁻⁵⁰ Σ_i (|a_j b_k| + |a_k b_j|) |p_0 − point|_i    N = a × b
+// where a and b lead from corner p_0 to the others. Both triangle and point are rounded (hierarchy.rounding); the last
+// term is the error of this determinant (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
+// geometric predicates", 1997, has 7 · 2⁻⁵³ instead of 8 · 2⁻⁵³).
 LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_triangle *triangle,
                                 const struct ray_lanes *ray, unsigned lanes)
 {
@@ -167,15 +169,15 @@ LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_tria
 
 // --- boxes
 
-// The floats of a ray that the test of boxes reads.
+// The floats of a ray for box tests.
 //
-// Coordinates of triangles lie within −1…1. Rounding origin, direction, its inverse and the box moves the crossing with a
-// plane of a box by less than 2⁻²¹ (1 + |origin|) altogether; each plane is taken that much farther out.
+// Coordinates of triangles are within −1…1. Rounding origin, direction, its inverse and the box moves the intersection
+// with a plane of a box by less than 2⁻²¹ (1 + |origin|) in total; each plane is moved outwards by that much.
 struct box_rays {
-    _Alignas(64) float low[3][LANES], high[3][LANES]; // the origin, to be taken from a box's low and high planes
+    _Alignas(64) float low[3][LANES], high[3][LANES]; // the origin, to be subtracted from a box's low and high planes
     float direction[3][LANES], inverse[3][LANES], end[LANES];
     unsigned down[3]; // the rays that meet the high plane of an axis first
-    unsigned proper;  // rays with a direction: not from a light to itself, which meets nothing
+    unsigned proper;  // rays with a direction; a ray from a light to itself has none, and meets nothing
 };
 
 LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
@@ -205,7 +207,7 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
         sum += (d + num_load(origin[i])) * 0.0f;
         num_store(b->low[i], num_load(origin[i]) + reach);
         num_store(b->high[i], num_load(origin[i]) - reach);
-        // A direction along the planes: the ray never reaches them, or so far away that it does not matter.
+        // The direction is parallel to the planes: the ray never reaches them, or too far away to matter.
         num least = pick(d < 0.0f, num_of(-1e-30f), num_of(1e-30f));
         num_store(b->inverse[i], 1.0f / pick(absolute(d) < 1e-30f, least, d));
     }
@@ -215,18 +217,18 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
 
 // --- bundles
 
-// Rays that walk together, and the intervals in which they lie: a box that one of them meets, the bundle meets too. Rounding is
-// monotonic, so that this holds for the computed numbers.
+// Rays that are traced together, and the intervals that contain them: the bundle meets every box that one of them
+// meets. Rounding is monotonic, so this also holds for the computed numbers.
 struct ray_bundle {
     unsigned lanes;
-    int first[3], last[3];           // the planes that they meet first and last, among the floats of a node
-    const float *start[3], *stop[3]; // of box_rays: the origin, to be taken from these planes
-    eight near[3], far[3];           // the same of all
-    eight least[3], most[3];         // of the inverse of their directions
+    int first[3], last[3];           // the planes that they meet first and last, as positions among a node's floats
+    const float *start[3], *stop[3]; // for box_rays: the origin, to be subtracted from these planes
+    eight near[3], far[3];           // the same for all rays
+    eight least[3], most[3];         // the range of the inverse of their directions
     eight end;
 };
 
-// Returns the first ray of `rest` and those beside it that go nearly the same way.
+// Returns the first ray of `rest`, and the rays after it with nearly the same direction.
 LANE_FN unsigned bundle_lanes(const struct box_rays *b, unsigned rest)
 {
     int first = __builtin_ctz(rest);
@@ -247,7 +249,7 @@ LANE_FN void bundle_of(struct ray_bundle *bundle, const struct box_rays *b, unsi
     int one = __builtin_ctz(lanes);
     mask within = mask_of_bits(lanes);
     bundle->lanes = lanes;
-    // In place of the others counts the ray `one`.
+    // Rays outside the bundle are replaced by the ray `one`.
     bundle->end = eight_of(single ? b->end[one] : -min_lane(-pick(within, num_load(b->end), num_of(b->end[one]))));
     for (int i = 0; i < 3; i++) {
         bool down = b->down[i] >> one & 1;
@@ -270,7 +272,7 @@ LANE_FN void bundle_of(struct ray_bundle *bundle, const struct box_rays *b, unsi
     }
 }
 
-// Returns the children of a node that a bundle may meet, as bits. `single`: it is one ray.
+// Returns the children of a node that a bundle may meet, as bits. `single` means that the bundle is one ray.
 LANE_FN unsigned meets_children(const struct ray_bundle *b, const struct ray_node *node, bool single)
 {
     const float *planes = node->planes[0][0];
@@ -298,13 +300,13 @@ LANE_FN unsigned meets_child(const struct box_rays *b, const struct ray_bundle *
     return mask_bits(near <= far);
 }
 
-// --- the walk
+// --- traversal
 
-// Decides about the rays that a triangle may block: returns the `lanes` that end there.
+// Decides which rays a triangle blocks. Returns the `lanes` that end there.
 typedef unsigned ray_filter(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                             const struct ray_view *view, unsigned lanes);
 
-// Returns the lanes of a bundle whose rays have a triangle in their way.
+// Returns the lanes of a bundle whose rays are blocked.
 LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *ray, const struct ray_view *view,
                              const struct box_rays *boxes, const struct ray_bundle *bundle, ray_filter *filter,
                              void *user, bool single)
@@ -355,7 +357,7 @@ LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *
     }
 }
 
-// Returns the lanes of `active` whose rays have a triangle in their way. `filter` NULL: every triangle ends a ray.
+// Returns the lanes of `active` whose rays are blocked. If `filter` is NULL, every triangle blocks a ray.
 LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray, unsigned active, ray_filter *filter,
                          void *user)
 {
@@ -379,8 +381,8 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
 }
 
 #if LANES == 1
-// Returns the nearest triangle in the way of a ray, by its number in the frame, of several at the same place the
-// lowest; *t: where. NO_TRIANGLE: none is. `counts`: whether a triangle does.
+// Returns the nearest triangle on a ray by its number in the frame (at equal distances the lowest), and its distance
+// *t. Returns NO_TRIANGLE if there is none. `counts` decides whether a triangle is considered.
 LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *ray,
                              bool (*counts)(void *user, const struct ray_triangle *triangle,
                                             const struct ray_lanes *ray, const struct ray_view *view),

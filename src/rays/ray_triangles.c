@@ -1,7 +1,7 @@
-// ray_triangles.c: the triangles of a frame in the hierarchy's space, and their boxes.
+// ray_triangles.c: transforms the triangles of a frame to the hierarchy's space, and computes their boxes.
 //
-// Corners are computed on demand, three times: for the total extent, for boxes, and for the leaves. To store them first
-// would take more time, most of it for memory.
+// Corners are computed on demand, three times: for the total extent, for boxes, and for the leaves. Storing them would
+// take longer, mostly for memory access.
 #include "ray_triangles.h"
 
 #include "fail.h"
@@ -14,7 +14,7 @@ struct bounds {
 
 struct preparation {
     struct builder *builder;
-    struct bounds *bounds; // of each piece, in world space
+    struct bounds *bounds; // the bounds of each task in world space
 };
 
 static void place_task(void *user, size_t index, int thread)
@@ -22,8 +22,8 @@ static void place_task(void *user, size_t index, int thread)
     (void)thread;
     struct preparation *preparation = user;
     struct builder *b = preparation->builder;
-    uint32_t first = (uint32_t)index * RAY_PIECE, end = b->frame->triangle_count;
-    end = end - first < RAY_PIECE ? end : first + RAY_PIECE;
+    uint32_t first = (uint32_t)index * RAY_CHUNK, end = b->frame->triangle_count;
+    end = end - first < RAY_CHUNK ? end : first + RAY_CHUNK;
     struct point low = {dnum_of(1e308), dnum_of(1e308)}, high = {dnum_of(-1e308), dnum_of(-1e308)};
     struct placement place = {0};
     if (!should_continue(&b->loop))
@@ -42,14 +42,14 @@ static void place_task(void *user, size_t index, int thread)
     store_point(high, bounds->high);
 }
 
-// The boxes in the hierarchy's space, rounded to the nearest floats (ray_lanes.h takes care of that).
+// Computes the boxes in the hierarchy's space, rounded to the nearest floats; ray_lanes.h allows for the rounding.
 static void box_task(void *user, size_t index, int thread)
 {
     (void)thread;
     struct preparation *preparation = user;
     struct builder *b = preparation->builder;
-    uint32_t first = (uint32_t)index * RAY_PIECE, end = b->frame->triangle_count;
-    end = end - first < RAY_PIECE ? end : first + RAY_PIECE;
+    uint32_t first = (uint32_t)index * RAY_CHUNK, end = b->frame->triangle_count;
+    end = end - first < RAY_CHUNK ? end : first + RAY_CHUNK;
     struct placement place = {0};
     if (!should_continue(&b->loop))
         return;
@@ -63,7 +63,7 @@ static void box_task(void *user, size_t index, int thread)
     }
 }
 
-// A space in which all coordinates lie within −1…1.
+// Chooses a space in which all coordinates are within −1…1.
 static void choose_space(struct hierarchy *h, const struct bounds *bounds)
 {
     double half = 0;
@@ -83,9 +83,9 @@ static void choose_space(struct hierarchy *h, const struct bounds *bounds)
 
 bool ray_triangles_prepare(struct builder *builder, lam_error *error)
 {
-    size_t pieces = ((size_t)builder->frame->triangle_count + RAY_PIECE - 1) / RAY_PIECE;
+    size_t chunks = ((size_t)builder->frame->triangle_count + RAY_CHUNK - 1) / RAY_CHUNK;
     struct call_control *call = builder->loop.call;
-    size_t bytes = (pieces + 1) * sizeof(struct bounds);
+    size_t bytes = (chunks + 1) * sizeof(struct bounds);
     if (call && !call_charge(call, bytes))
         return call_memory_error(call, bytes, error);
     struct preparation preparation = {builder, calloc(1, bytes)};
@@ -94,16 +94,16 @@ bool ray_triangles_prepare(struct builder *builder, lam_error *error)
             call_refund(call, bytes);
         return fail_memory(error, bytes);
     }
-    pool_run(builder->pool, pieces, place_task, &preparation);
+    pool_run(builder->pool, chunks, place_task, &preparation);
     struct bounds all = {{1e308, 1e308, 1e308}, {-1e308, -1e308, -1e308}};
-    for (size_t i = 0; i < pieces; i++)
+    for (size_t i = 0; i < chunks; i++)
         for (int axis = 0; axis < 3; axis++) {
             const struct bounds *own = &preparation.bounds[i];
             all.low[axis] = own->low[axis] < all.low[axis] ? own->low[axis] : all.low[axis];
             all.high[axis] = own->high[axis] > all.high[axis] ? own->high[axis] : all.high[axis];
         }
     choose_space(builder->hierarchy, &all);
-    pool_run(builder->pool, pieces, box_task, &preparation);
+    pool_run(builder->pool, chunks, box_task, &preparation);
     free(preparation.bounds);
     if (call)
         call_refund(call, bytes);

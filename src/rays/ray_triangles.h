@@ -1,4 +1,4 @@
-// ray_triangles.h: the corners of a frame's triangles, two coordinates to a register.
+// ray_triangles.h: the corners of a frame's triangles, with two coordinates per register.
 #ifndef RAY_TRIANGLES_H
 #define RAY_TRIANGLES_H
 
@@ -9,15 +9,15 @@
 
 #include "builder.h"
 
-// The second of z means nothing.
+// The second number of z is unused.
 struct point {
     dnum xy, z;
 };
 
-// The draw of the triangle before, and its matrix by columns; at first zeros.
+// The draw of the previous triangle, and its matrix by columns; initially zero.
 struct placement {
     const struct frame_draw *draw;
-    uint32_t first, end; // its triangles in the frame
+    uint32_t first, end; // the range of its triangles in the frame
     struct point column[4];
 };
 
@@ -53,15 +53,16 @@ static __attribute__((noinline, unused)) void place_draw(struct placement *place
     }
 }
 
-// The corners of a triangle in world space, bit for bit as ray_corners has them. False: no ray meets it, since they are not
-// finite, or since it belongs to rectangles of lines and points, which face the eye: no things that could cast a shadow.
+// Computes the corners of a triangle in world space, bit-identical to ray_corners. Returns false if no ray can meet it:
+// its corners are not finite, or it belongs to the rectangles of lines and points, which face the eye and cast no
+// shadows.
 LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct placement *place, struct point p[3])
 {
     if (number - place->first >= place->end - place->first)
         place_draw(place, frame, number);
     const struct point *column = place->column;
     const lam_mesh *mesh = place->draw->mesh;
-    struct point sum = {dnum_of(0), dnum_of(0)}; // 0 times anything finite
+    struct point sum = {dnum_of(0), dnum_of(0)}; // 0 if all terms are finite
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t corner = 3 * (number - place->first) + k;
         const float *from = mesh->positions + 3 * (size_t)(mesh->indices ? mesh->indices[corner] : corner);
@@ -74,7 +75,7 @@ LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct pl
     return (sum.xy[0] + sum.xy[1]) + sum.z[0] == 0 && frame_draw_casts(place->draw);
 }
 
-// Returns the corners in the hierarchy's space; all 0 if no ray meets the triangle.
+// Computes the corners in the hierarchy's space; all are 0 if no ray meets the triangle.
 LANE_FN void ray_space_corners(const struct builder *b, uint32_t number, struct placement *place, struct point p[3])
 {
     const double *centre = b->hierarchy->centre, scale = b->hierarchy->scale;

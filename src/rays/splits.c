@@ -9,11 +9,11 @@
 
 enum {
     LEAF_MAX = 8,   // triangles
-    LEAF_MIN = 3,   // triangles that are not divided any more
-    MIDDLE_MAX = 12 // triangles of a range that is divided in its middle; LEAF_MAX or more
+    LEAF_MIN = 3,   // ranges of up to this many triangles are not divided
+    MIDDLE_MAX = 12 // ranges of up to this many triangles are divided in the middle; at least LEAF_MAX
 };
 
-// The work of a ray at a triangle, where that at a node is 1.
+// The cost of testing a triangle, relative to visiting a node.
 #define TRIANGLE_WORK 1.0f
 
 // --- leaves
@@ -46,7 +46,7 @@ static bool same_box(const struct primitive *p, const struct primitive *q)
 }
 
 // Makes a leaf. Triangles with the same positions have the same box, and are therefore in one leaf, or in one group
-// (sort_group), which has found them.
+// (sort_group), which has already found them.
 static void make_leaf(struct builder *b, const struct range *r, struct placement *place)
 {
     const struct primitive *p = b->primitives + r->first;
@@ -71,7 +71,7 @@ static void make_leaf(struct builder *b, const struct range *r, struct placement
 
 // --- nodes
 
-// Enters the node of a range that was divided into `parts`, and says where theirs go.
+// Stores the node of a range that was divided into `parts`, and sets where the parts store their nodes.
 void range_enter_node(struct builder *b, const struct range *r, struct range *parts, int count)
 {
     struct ray_node *node = &b->nodes[r->node];
@@ -117,7 +117,7 @@ static void divide_at(struct builder *b, struct range *r, uint32_t left, struct 
     halves_of(r, left, boxes, middles, right);
 }
 
-// Compared by twice the middle along one axis, then by number.
+// Compares by twice the centre along one axis, then by number.
 static int compare_along(const void *a, const void *b, int axis)
 {
     const struct primitive *p = a, *q = b;
@@ -130,8 +130,8 @@ static int along_x(const void *a, const void *b) { return compare_along(a, b, 0)
 static int along_y(const void *a, const void *b) { return compare_along(a, b, 1); }
 static int along_z(const void *a, const void *b) { return compare_along(a, b, 2); }
 
-// Where bins have divided again and again, and always unevenly: divides in the middle, so that the depth is bounded, at the
-// nearest place between two different middles.
+// Divides in the middle if bins have repeatedly given uneven parts, so that the depth is bounded; it uses the nearest
+// position between two different centres.
 static uint32_t divide_evenly(struct primitive *p, uint32_t count, int axis)
 {
     static int (*const along[3])(const void *, const void *) = {along_x, along_y, along_z};
@@ -143,7 +143,7 @@ static uint32_t divide_evenly(struct primitive *p, uint32_t count, int axis)
                 p[at - 1].low[axis] + p[at - 1].high[axis] < p[at].low[axis] + p[at].high[axis])
                 return (uint32_t)at;
         }
-    return count / 2; // not reached: the middles differ
+    return count / 2; // unreachable: the centres differ
 }
 
 // A triangle with its corners in ascending order.
@@ -185,7 +185,8 @@ static void sort_corners(double p[3][3])
     }
 }
 
-// More triangles than fit into a leaf, all with the same middle: sorts them, and finds twins. Any halves will do then.
+// For more triangles than fit into a leaf, all with the same centre: sorts them, and finds twins. They can then be
+// divided anywhere.
 static bool sort_group(struct builder *b, const struct range *r)
 {
     struct placement place = {0};
@@ -220,15 +221,15 @@ static bool sort_group(struct builder *b, const struct range *r)
     return true;
 }
 
-// Divides a range of few triangles at the middle between the outermost middles, which is hardly worse there than the
-// best of many boundaries, and much sooner found. Returns false if it becomes a leaf.
+// Divides a range of few triangles at the midpoint between the outermost centres, which is hardly worse than the best
+// of many boundaries, and much faster to find. Returns false if it becomes a leaf.
 static bool halve_few(struct primitive *p, struct range *r, int axis, struct range *right)
 {
     struct primitive sorted[MIDDLE_MAX];
     float low = lane(r->middles.low, axis), high = lane(r->middles.high, axis), middle = 0.5f * low + 0.5f * high;
-    float boundary = middle > low ? middle : high; // both sides have triangles
+    float boundary = middle > low ? middle : high; // both sides contain triangles
     uint32_t left = 0, end = r->count;
-    for (uint32_t i = 0; i < r->count; i++) { // without branches: to the front and to the back; one of both is kept
+    for (uint32_t i = 0; i < r->count; i++) { // branchless: written to the front and to the back; one of both is kept
         bool on_left = p[i].low[axis] + p[i].high[axis] < boundary;
         sorted[left] = sorted[end - 1] = p[i];
         left += on_left;
@@ -276,7 +277,7 @@ bool range_halve(struct builder *b, struct range *r, struct range *right)
     return true;
 }
 
-// Makes the nodes of a range, or a leaf if it is not divided. The root is a node always.
+// Makes the nodes of a range, or a leaf if it is not divided. The root is always a node.
 static void divide(struct builder *b, const struct range *r, struct placement *place)
 {
     struct range parts[NODE_CHILDREN];

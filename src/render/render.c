@@ -1,4 +1,4 @@
-// render.c: lam_render: loads, fits the camera and draws with the defaults of the `lambent` program.
+// render.c: lam_render: loads a model, fits the camera and draws with the defaults of the `lambent` program.
 #include "fail.h"
 
 #include <lambent/render.h>
@@ -23,7 +23,8 @@ static lam_scene *make_shape(const char *name, const lam_control *control, lam_e
 
 static bool reads_tangents(const lam_draw_params *draw)
 {
-    const lam_reflection_info *info = lam_reflection_describe(draw->reflection); // NULL: drawing will refuse it
+    // if it is NULL, drawing reports the error
+    const lam_reflection_info *info = lam_reflection_describe(draw->reflection);
     return info && info->tangents;
 }
 
@@ -31,8 +32,8 @@ static lam_scene *load(const char *model, const lam_render_params *params, lam_e
 {
     if (lam_shape_find(model) >= 0)
         return make_shape(model, params->control, error);
-    // A device of this call draws one frame: the normals that it shows are enough, and the CPU device makes them. Threads
-    // (Kajiya–Kay) need tangents, which are made from all normals.
+    // A device made by this call draws one frame, so the CPU device can compute the normals of visible triangles
+    // itself. Kajiya–Kay needs tangents, which depend on all normals.
     bool draws_once = !params->device && !(params->draw && reads_tangents(params->draw));
     lam_load_params plain = {.threads = params->threads, .normals_when_drawn = draws_once};
     lam_scene *scene = lam_scene_load(model, params->load ? params->load : &plain, params->control, error);
@@ -68,7 +69,7 @@ static bool has_file_lights(const lam_scene *scene, const lam_picture_settings *
            (strcmp(format, "gltf") == 0 || (strcmp(format, "scene") == 0 && !(settings->present & LAM_SETTING_LIGHTS)));
 }
 
-// Draws the loaded scene; the settings are its own where the caller gives none.
+// Draws the loaded scene; its own settings are used if the caller passes none.
 static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *image, lam_render_report *report,
                  lam_error *error)
 {

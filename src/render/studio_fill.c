@@ -1,4 +1,4 @@
-// studio_fill.c: lam_studio_fill: a dim studio where a file's own lights leave most of the picture black.
+// studio_fill.c: lam_studio_fill: adds a dim studio if a file's own lights leave most of the picture black.
 #include "fail.h"
 #include "linear.h"
 
@@ -11,15 +11,15 @@
 #define BLACK 0.01
 #define DARK  0.05
 
-enum { SIDE_MAX = 96 }; // of the pictures that are measured
+enum { SIDE_MAX = 96 }; // the largest side of the measured pictures
 
 static double luminance(const float *p)
 {
     return 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
 }
 
-// Returns the share of the picture that is black. Of the model: pixels whose surface is not black itself. With a
-// ground, its pixels count too: `lit` has a white background.
+// Returns the fraction of the picture that is black although its surface is not. With a ground, the ground's pixels
+// count too: `lit` has a white background.
 static double black_share(const lam_image *lit, const lam_image *surfaces, bool ground)
 {
     size_t counted = 0, black = 0;
@@ -32,7 +32,8 @@ static double black_share(const lam_image *lit, const lam_image *surfaces, bool 
     return counted ? (double)black / (double)counted : 0;
 }
 
-// Draws two pictures, the lit one and the colours of the surfaces, and returns the share that is black; −1: see `error`.
+// Draws two pictures, the lit one and the colours of the surfaces, and returns the share that is black, or −1 on
+// failure.
 static double measure(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                       const lam_draw_params *params, int width, int height, const lam_control *control,
                       lam_error *error)
@@ -65,7 +66,7 @@ static lam_rgb times(lam_rgb c, double factor)
     return (lam_rgb){(float)((double)c.r * factor), (float)((double)c.g * factor), (float)((double)c.b * factor)};
 }
 
-// Multiplies the light of the scene's lights.
+// Multiplies the intensity of the scene's lights.
 static bool scale_lights(lam_scene *scene, double factor, lam_error *error)
 {
     for (int i = 0; i < lam_scene_light_count(scene); i++) {

@@ -24,7 +24,7 @@ bool lam_camera_project(const lam_camera *camera, int width, int height, lam_vec
         return false;
     uint64_t state = float_state_enter();
     double half = flat ? camera->ortho_half_height : -p.z * math_tan(camera->fovy_rad / 2);
-    double pixels = height / (2 * half); // of a model unit
+    double pixels = height / (2 * half); // pixels per model unit
     *x = width / 2.0 + p.x * pixels;
     *y = height / 2.0 - p.y * pixels;
     float_state_leave(state);

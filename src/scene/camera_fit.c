@@ -8,7 +8,7 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// The fraction of the picture's width or height that the scene fills. On a ground, the rest leaves space for the
+// The fraction of the picture's width or height that the scene fills. With a ground, the rest leaves space for the
 // shadow.
 #define FILL           0.92
 #define FILL_ON_GROUND 0.8
@@ -20,7 +20,7 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, la
     double sin_azimuth = math_sin(azimuth), cos_azimuth = math_cos(azimuth), sin_elevation = math_sin(elevation),
            cos_elevation = math_cos(elevation);
     lam_up up = lam_scene_up(scene);
-    // Seen from above, `right` still follows the azimuth: the view does not tumble.
+    // Seen from above, `right` still follows the azimuth, so that the view does not roll.
     return (struct view_axes){
         .right = from_y_up(up, v3(cos_azimuth, 0, -sin_azimuth)),
         .above = from_y_up(up, v3(-sin_azimuth * sin_elevation, cos_elevation, -cos_azimuth * sin_elevation)),
@@ -29,14 +29,14 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, la
     };
 }
 
-// The view that the camera is to have.
+// The input of a fit.
 struct fitting {
     struct view_axes axes;
     double aspect, fill, fovy, zoom;
     bool orthographic;
 };
 
-// Extents to be found in perspective, for this fraction of the picture.
+// Returns the extents that a perspective fit finds, for this fraction of the picture.
 static struct view_extents extents_of(const struct fitting *fitting, double fraction)
 {
     double ky = math_tan(fitting->fovy / 2) * fraction;
@@ -50,7 +50,8 @@ static lam_vec3 to_world(const struct view_axes *axes, double x, double y, doubl
     return v3_add(axes->centre, v3_add(across, v3_scale(axes->back, z)));
 }
 
-// Orthographic: centred on the box of the view extents, half its size divided by the fill.
+// Orthographic: the camera is centred on the box of the view extents; its half height is half of the box divided by the
+// fill.
 static lam_camera fit_orthographic(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;
@@ -68,14 +69,16 @@ static lam_camera fit_orthographic(const struct fitting *fitting, const struct v
                         .ortho_half_height = size / fill};
 }
 
-// Centres the horizontal (vertical) axis for an eye at ez: finds the k at which the points touch x = ex ± k·(ez − z)
-// on both sides. That k is the root of R(k) + L(k) − 2k·ez, which is convex, its slope given by the points that have the
-// maxima R and L; of vertices it is piecewise linear. A step of Newton's method,
+// Centres the horizontal (vertical) axis for an eye at ez. It finds the k at which the points touch x = ex ± k·(ez − z)
+// on both sides. That k is the root of R(k) + L(k) − 2k·ez, a convex function whose slope is given by the points with
+// the maxima R and L; for vertices it is piecewise linear. A step of Newton's method,
 //
-//   k = (x_R − x_L) / (2ez − z_R − z_L)
 //
-// therefore lands at the root or to its left, from where k only grows: when it no longer does, the root is found. No
-// number in it depends on where the scene lies.
+//  k = (x_R − x_L) / (2ez − z_R − z_L)
+//
+//
+// therefore ends at the root or to its left, and further steps only increase k. When k no longer increases, the root is
+// found. The position of the scene does not affect the numbers.
 static void centre_axis(const struct view_points *points, bool horizontal, double ez, struct view_extents *extents)
 {
     double k = horizontal ? extents->kx : extents->ky;
@@ -93,16 +96,20 @@ static void centre_axis(const struct view_points *points, bool horizontal, doubl
     }
 }
 
-// Perspective, for one axis of the picture. A point is visible if
+// Fits one axis of the picture in perspective. A point is visible if
 //
-//   ±(x − ex) ≤ k·(ez − z),   that is   ±x + k·z ≤ ±ex + k·ez
+//
+//  ±(x − ex) ≤ k·(ez − z),   that is   ±x + k·z ≤ ±ex + k·ez
+//
 //
 // With R and L the maxima of x + k·z and −x + k·z, both sides touch the frame at
 //
-//   ex = (R − L)/2,   ez = (R + L)/(2k)
 //
-// which is exact and takes one pass over the points. The axis with the larger ez determines it. The other axis
-// is centred with the smaller k at which it would touch the frame at this ez.
+//  ex = (R − L)/2,   ez = (R + L)/(2k)
+//
+//
+// which is exact and takes one pass over the points. The axis with the larger ez determines the distance. The other
+// axis is centred with the smaller k at which it would touch the frame at this ez.
 static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;
@@ -127,7 +134,8 @@ static lam_camera fit(const struct fitting *fitting, const struct view_points *p
     return fitting->orthographic ? fit_orthographic(fitting, points, fill) : fit_perspective(fitting, points, fill);
 }
 
-// The camera of a view: false: a field of the view is unknown, or the scene has no triangles, and `camera` says so.
+// Prepares the fit of a view. Returns false if a field of the view is unknown, or if the scene has no triangles;
+// `camera` is then the result.
 static bool start(struct fitting *fitting, const lam_scene *scene, int width, int height, const lam_view *view,
                   double fill, lam_camera *camera)
 {
@@ -164,10 +172,10 @@ static void apply_zoom(const struct fitting *fitting, lam_camera *camera)
         camera->fovy_rad = 2 * math_atan2(math_tan(fitting->fovy / 2), fitting->zoom);
 }
 
-// --- a scene that turns
+// --- a rotating scene
 
-// Angles at which a turning scene is looked at. Between two of them a vertex is farther out than at both by at most
-// 1 − cos(π/48) = 0.2 % of its distance from the axis.
+// The number of angles that are tested for a rotating scene. Between two of them a vertex moves outwards by at most 1 −
+// cos(π/48) = 0.2 % of its distance from the axis.
 enum { TURNS = 48 };
 
 // Returns whether the camera sees all points, with this fraction of the picture.
@@ -202,19 +210,19 @@ static void fit_turning(const struct fitting *fitting, const lam_scene *scene, l
                                  .axes = axes,
                                  .axes_count = any_axis ? 1 : TURNS,
                                  .ball_radius = any_axis ? scene_radius(scene, centre) : 0};
-    for (int i = 0; i < points.axes_count; i++) { // the scene turns one way, or the view the other way
+    for (int i = 0; i < points.axes_count; i++) { // rotating the scene means rotating the view backwards
         lam_mat4 turn = mat4_rotate(any_axis ? 0 : 2 * PI * i / TURNS, any_axis ? v3(0, 0, 1) : axis);
         axes[i] = (struct view_axes){.right = mat4_vector(&turn, fitting->axes.right),
                                      .above = mat4_vector(&turn, fitting->axes.above),
                                      .back = mat4_vector(&turn, fitting->axes.back),
                                      .centre = centre};
     }
-    // A quarter of the margin remains, which is more than the difference between two angles.
+    // A quarter of the margin remains, which is larger than the change between two angles.
     if (!holds(fitting, camera, &points, fitting->fill + 0.75 * (1 - fitting->fill)))
         *camera = fit(fitting, &points, fitting->fill);
 }
 
-// lam_camera_fit, or with an axis lam_camera_fit_turning, with this fill if the view sets none.
+// Implements lam_camera_fit, and with an axis lam_camera_fit_turning; `fill` is used if the view sets none.
 static lam_camera fit_view(const lam_scene *scene, int width, int height, const lam_view *view, lam_vec3 centre,
                            const lam_vec3 *axis, double fill)
 {
@@ -244,7 +252,8 @@ lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_v
 lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
                                  const lam_view *view, lam_vec3 centre, const lam_vec3 *axis)
 {
-    bool lines_alone = params && params->no_surfaces && params->output == LAM_OUTPUT_PICTURE; // they have no ground
+    // such pictures show no ground
+    bool lines_alone = params && params->no_surfaces && params->output == LAM_OUTPUT_PICTURE;
     bool ground = params && params->ground && !lines_alone;
     return fit_view(scene, width, height, view, centre, axis, ground ? FILL_ON_GROUND : FILL);
 }

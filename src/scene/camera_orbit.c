@@ -1,4 +1,4 @@
-// camera_orbit.c: a camera that turns about a point, moves with it and zooms.
+// camera_orbit.c: a camera that orbits a point, pans and zooms.
 #include <lambent/camera.h>
 
 #include "float_state.h"
@@ -6,7 +6,7 @@
 #include "up_axis.h"
 
 struct orbit_axes {
-    lam_vec3 right, above, back; // of the picture, unit, world space
+    lam_vec3 right, above, back; // unit axes of the picture in world space
 };
 
 static struct orbit_axes axes_of(const lam_orbit *orbit)
@@ -42,7 +42,7 @@ lam_orbit lam_orbit_of(const lam_camera *camera, const lam_scene *scene)
     orbit.elevation_rad = math_atan2(at.y, level);
     if (level > 1e-9) {
         orbit.azimuth_rad = math_atan2(at.x, at.z);
-    } else { // straight up or down: the picture's top decides
+    } else { // straight up or down: use the picture's up direction
         const lam_vec3 above = v3_scale(to_y_up(orbit.up, camera->up), at.y > 0 ? -1 : 1);
         orbit.azimuth_rad = math_atan2(above.x, above.z);
     }
@@ -59,7 +59,7 @@ lam_camera lam_orbit_camera(const lam_orbit *orbit)
                          .up = axes.above,
                          .fovy_rad = orbit->fovy_rad,
                          .ortho_half_height = orbit->ortho_half_height};
-    for (int i = 0; i < 8; i++) // a field that this version does not know: every call refuses the camera
+    for (int i = 0; i < 8; i++) // a field that this version does not know: every call rejects the camera
         camera.reserved[0] |= orbit->reserved[i];
     float_state_leave(state);
     return camera;

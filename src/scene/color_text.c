@@ -1,4 +1,4 @@
-// color_text.c: parses colours as users write them.
+// color_text.c: parses colours in the forms that users write.
 #include "scene_internal.h"
 
 #include "fail.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// The sixteen names of HTML 4 with their usual doubles, and orange.
+// The sixteen names of HTML 4, their common synonyms, and orange.
 static const struct {
     const char *name;
     uint32_t rgb;
@@ -37,7 +37,7 @@ static lam_rgba from_bytes(uint32_t rgba, lam_color_mode mode)
     return (lam_rgba){(float)part[0], (float)part[1], (float)part[2], (float)((double)(rgba & 255) / 255)};
 }
 
-// "rgb", "rrggbb" or "rrggbbaa" behind the '#'.
+// Parses "rgb", "rrggbb" or "rrggbbaa" after the '#'.
 static bool read_hex(const char *text, uint32_t *rgba)
 {
     size_t length = strlen(text);
@@ -57,7 +57,7 @@ static bool read_hex(const char *text, uint32_t *rgba)
     return true;
 }
 
-// One number for all three channels, "r/g/b" or "r/g/b/a", not negative; a up to 1.
+// Parses one number for all three channels, "r/g/b" or "r/g/b/a". Numbers are not negative, and a is at most 1.
 static bool read_numbers(const char *text, lam_rgba *color)
 {
     float part[4] = {0, 0, 0, 1};
@@ -88,8 +88,8 @@ enum { NAMES = sizeof names / sizeof names[0] };
 
 const char *lam_color_name(int index) { return index >= 0 && index < NAMES ? names[index].name : NULL; }
 
-// The hexadecimal form of a colour as other programs write it: "ff8800", "0xff8800", "255,136,0" or "rgb(255, 136, 0)".
-// Returns false if it is none of these.
+// Converts a colour in the notation of other programs ("ff8800", "0xff8800", "255,136,0" or "rgb(255, 136, 0)") to
+// hexadecimal. Returns false if it is none of these.
 static bool hex_of(const char *text, char hex[16])
 {
     static const char digits[] = "0123456789abcdef";
@@ -140,7 +140,7 @@ bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam
         *color = numbers;
         return true;
     }
-    // Users often forget the '#', and a shell treats it as the beginning of a comment.
+    // Users often forget the '#', or the shell treats it as the beginning of a comment.
     char hex[16];
     struct spelling spelling = spelling_of(text);
     for (int i = 0; i < NAMES; i++)

@@ -1,4 +1,4 @@
-// light.c: default lights, checks of lights, and the built-in rigs.
+// light.c: default lights, validation of lights, and the built-in rigs.
 #include "fail.h"
 #include "fields.h"
 #include "linear.h"
@@ -70,7 +70,7 @@ bool lam_light_check(const lam_light *light, lam_error *error)
 
 // --- Rigs
 
-// Returns a directional light in the camera's frame. `from`: the direction to the light; x right, y up, z towards the
+// Returns a directional light in the camera's frame. `from` is the direction to the light: x right, y up, z towards the
 // viewer.
 static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, float specular)
 {
@@ -83,15 +83,18 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
     return light;
 }
 
-// The default rig. The key light is near, 3.2 halves of the box's diagonal from the centre, in front and to the left, so that the
-// light changes across a flat face: from 1.3 times its strength on the side of the model that faces it to 0.75 on the other.
-// The rim light comes from above and behind: tops are brightest, sides that face left darker, sides that face right darkest,
-// and the three faces of a cube differ from each azimuth. A point reflects ka or kd times at most
+// The default rig. The key light is near: 3.2 times half the box's diagonal from the centre, in front and to the left,
+// so that the light varies across a flat face. Its strength ranges from 1.3 on the side of the model that faces it to
+// 0.75 on the other side. The rim light comes from above and behind. Tops are brightest, left sides darker and right
+// sides darkest, so that the three visible faces of a cube differ at each azimuth. A point reflects ka or kd times at
+// most
 //
-//   0.64·1.33 (key) + 0.19 (sky, there) = 1.04
 //
-// at the corner of the box that is nearest to the key. Where shadows are cast (--shadows, --ground), the key alone
-// casts them, soft ones: the others represent large surfaces, whose shadows are ambient occlusion.
+//  0.64·1.33 (key) + 0.19 (sky, there) = 1.04
+//
+//
+// at the corner of the box that is nearest to the key light. Only the key light casts shadows (--shadows, --ground),
+// and they are soft. The other lights represent large surfaces, whose shadows are the ambient occlusion.
 static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);
@@ -134,7 +137,7 @@ static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 4;
 }
 
-// Returns the light of the first program in a lighting course.
+// Returns the light used by the first program of a typical lighting course.
 static int lecture(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);

@@ -15,7 +15,7 @@ struct named_material {
 // The published shininess is a fraction of OpenGL's maximum exponent, 128.
 #define SHININESS(share) ((float)((share) * 128.0))
 
-// The numbers of SGI's demo teapots.c, unchanged: colours as a display of the time showed them (sRGB).
+// The numbers of SGI's demo teapots.c, unchanged. Its colours were chosen on displays of the time (sRGB).
 static const struct named_material named[LAM_MATERIAL_COUNT] = {
     [LAM_MATERIAL_EMERALD] = {"emerald",
                               {0.0215f, 0.1745f, 0.0215f},
@@ -101,7 +101,7 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
 };
 
 // Returns a grey that ranges from sRGB 60 to 230 under the studio rig, with headroom for a highlight that shows the
-// form but does not look like metal or wet clay.
+// shape but does not look like metal or wet clay.
 lam_material lam_material_default(void)
 {
     lam_material material = {.illum = -1};
@@ -137,7 +137,7 @@ lam_material lam_material_named(lam_material_id id, lam_color_mode color)
 
 const char *lam_material_name(lam_material_id id) { return known(id) ? named[id].name : NULL; }
 
-// Returns a letter in the table's spelling. ASCII only, independent of the locale.
+// Returns a letter in the spelling of the table. ASCII only, independent of the locale.
 static char canonical_letter(char c)
 {
     if (c >= 'A' && c <= 'Z')

@@ -1,5 +1,5 @@
-// mesh_bounds.c: the vertices that a mesh's triangles, lines or points use, bounding boxes of meshes and scenes, the origin of meshes
-// that lie far from zero, and translucency of vertex colours.
+// mesh_bounds.c: the used vertices of a mesh, bounding boxes of meshes and scenes, the origin of meshes far from zero,
+// and translucency of vertex colours.
 #include "scene_internal.h"
 
 #include "linear.h"
@@ -8,8 +8,8 @@
 #include <float.h>
 #include <string.h>
 
-// Corners or colours per parallel piece; constant, so that the result does not depend on the number of threads.
-enum { PIECE = 1 << 16 };
+// Corners or colours per parallel chunk; constant, so that the result does not depend on the number of threads.
+enum { CHUNK = 1 << 16 };
 
 struct marking {
     const uint32_t *indices;
@@ -17,21 +17,21 @@ struct marking {
     uint8_t *used;
 };
 
-static void mark_piece(void *user, size_t index, int thread)
+static void mark_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     const struct marking *marking = user;
     const uint32_t *indices = marking->indices;
     uint8_t *used = marking->used;
-    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    size_t first = index * (size_t)CHUNK, end = first + CHUNK;
     if (end > marking->corners)
         end = marking->corners;
-    // Several threads may mark the same vertex, with the same value.
+    // Several threads may mark the same vertex with the same value.
     for (size_t i = first; i < end; i++)
         __atomic_store_n(&used[indices[i]], 1, __ATOMIC_RELAXED);
 }
 
-// Sets the list of used vertices if some are unused. Returns false if memory runs out.
+// Builds the list of used vertices if some are unused. Returns false if memory runs out.
 static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                       lam_error *error)
 {
@@ -46,7 +46,7 @@ static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scen
     bool ok = used || call_memory_error(scratch.call, mesh->vertex_count, error);
     if (ok) {
         struct marking marking = {mesh->indices, corners, used};
-        pool_run(pool, (corners + PIECE - 1) / PIECE, mark_piece, &marking);
+        pool_run(pool, (corners + CHUNK - 1) / CHUNK, mark_chunk, &marking);
         uint32_t count = 0;
         for (uint32_t i = 0; i < mesh->vertex_count; i++)
             count += used[i];
@@ -69,12 +69,12 @@ struct alpha_search {
     int found; // atomic
 };
 
-static void search_piece(void *user, size_t index, int thread)
+static void search_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     struct alpha_search *alpha_search = user;
     const lam_mesh *mesh = alpha_search->mesh;
-    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    size_t first = index * (size_t)CHUNK, end = first + CHUNK;
     if (end > mesh->color_count)
         end = mesh->color_count;
     bool found = false;
@@ -96,29 +96,29 @@ static bool has_translucent_colors(const lam_mesh *mesh, struct pool *pool)
 {
     struct alpha_search alpha_search = {.mesh = mesh};
     if (mesh->colors)
-        pool_run(pool, ((size_t)mesh->color_count + PIECE - 1) / PIECE, search_piece, &alpha_search);
+        pool_run(pool, ((size_t)mesh->color_count + CHUNK - 1) / CHUNK, search_chunk, &alpha_search);
     return alpha_search.found;
 }
 
 struct shifting {
     const float *from;
     float *to;    // may be `from`
-    size_t count; // of points, three values each
+    size_t count; // the number of points, three values each
     double by[3];
 };
 
-// A vertex that no triangle uses may lie anywhere: it is kept finite.
+// Vertices that no triangle uses may be anywhere, so the result is clamped to finite numbers.
 static float shifted(float value, double by)
 {
     double moved = (double)value - by;
     return (float)(moved<-(double)FLT_MAX ? -(double)FLT_MAX : moved>(double) FLT_MAX ? (double)FLT_MAX : moved);
 }
 
-static void shift_piece(void *user, size_t index, int thread)
+static void shift_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     const struct shifting *shifting = user;
-    size_t first = index * (size_t)PIECE, end = first + PIECE;
+    size_t first = index * (size_t)CHUNK, end = first + CHUNK;
     if (end > shifting->count)
         end = shifting->count;
     for (size_t i = first; i < end; i++)
@@ -126,10 +126,10 @@ static void shift_piece(void *user, size_t index, int thread)
             shifting->to[3 * i + axis] = shifted(shifting->from[3 * i + axis], shifting->by[axis]);
 }
 
-// Gives a mesh that lies far from zero an origin, so that drawing, which computes in floats, keeps the detail that its
-// positions have. The new positions are exact: they and the origin are multiples of the old ones' last places, and
-// smaller. The mesh's arrays are the scene's own; if meshes share them, the mesh gets an array of its own. Returns
-// false if memory runs out.
+// Gives a mesh far from zero an origin, because drawing computes in floats and would lose the detail of its positions.
+// The new positions are exact: they and the origin are multiples of the last bits of the old positions, and smaller.
+// The scene owns the mesh's arrays; if several meshes share them, the mesh gets its own copy. Returns false if memory
+// runs out.
 static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool,
                         lam_error *error)
 {
@@ -142,11 +142,11 @@ static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tre
         return true;
     if (scene->shared_arrays && !(shifting.to = arena_array(&scene->arena, shifting.count, 3 * sizeof(float))))
         return call_memory_error(scene->arena.call, shifting.count * 3 * sizeof(float), error);
-    pool_run(pool, (shifting.count + PIECE - 1) / PIECE, shift_piece, &shifting);
+    pool_run(pool, (shifting.count + CHUNK - 1) / CHUNK, shift_chunk, &shifting);
     mesh->positions = shifting.to;
     shifting.from = shifting.to = (float *)(uintptr_t)boxes->boxes;
     shifting.count = 2 * (boxes->first[boxes->levels - 1] + boxes->count[boxes->levels - 1]);
-    pool_run(pool, (shifting.count + PIECE - 1) / PIECE, shift_piece, &shifting);
+    pool_run(pool, (shifting.count + CHUNK - 1) / CHUNK, shift_chunk, &shifting);
     for (int axis = 0; axis < 3; axis++)
         mesh->origin[axis] += shifting.by[axis];
     return true;
@@ -193,7 +193,7 @@ static lam_vec3 upper(lam_vec3 a, lam_vec3 b)
     return v3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
-// Returns whether the transform maps boxes to boxes: it only scales and permutes axes.
+// Returns whether the transform maps boxes to boxes, because it only scales and permutes axes.
 static bool keeps_boxes(const lam_mat4 *m)
 {
     for (int i = 0; i < 3; i++)

@@ -98,7 +98,7 @@ int scene_append(struct lam_scene *scene, struct scene_list *list, const void *i
     return list->count++;
 }
 
-// A scene made by hand has no limit of its own: drawing has one.
+// A scene built by a program has no limit of its own, but drawing has one.
 static bool check_items(const struct lam_scene *scene, const char *what, uint64_t items, lam_error *error)
 {
     return !scene->arena.call ||
@@ -161,7 +161,7 @@ void scene_warn(struct lam_scene *scene, const char *format, ...)
     va_end(arguments);
     if (text)
         scene_append(scene, &scene->warnings, &text, sizeof text,
-                     NULL); // a lost warning is no reason to fail
+                     NULL); // losing a warning must not fail the call
 }
 
 void scene_note_clear(struct lam_scene *scene, const char *format, ...)

@@ -1,4 +1,4 @@
-// scene_add.c: public functions that add to a scene or change it: arguments are checked and copied.
+// scene_add.c: public functions that add to a scene or change it; they check and copy their arguments.
 #include "scene_internal.h"
 
 #include "fail.h"
@@ -26,7 +26,8 @@ static bool indices_below(const uint32_t *indices, size_t count, uint32_t limit)
     return true;
 }
 
-// Checks an attribute of a mesh: its values and its indices (`own`; NULL: the positions').
+// Checks an attribute of a mesh: its values and its indices `own`. If `own` is NULL, the indices of the positions
+// apply.
 static bool check_attribute(const char *name, const float *values, uint32_t count, int width, const uint32_t *own,
                             const lam_mesh *mesh, lam_error *error)
 {
@@ -40,7 +41,7 @@ static bool check_attribute(const char *name, const float *values, uint32_t coun
     return true;
 }
 
-// Returns the word for the items of a mesh in messages.
+// Returns the noun for the items of a mesh in messages.
 static const char *items_word(const lam_mesh *mesh)
 {
     return mesh->line_count ? "lines" : mesh->point_count ? "points" : "triangles";
@@ -215,7 +216,7 @@ static bool copy_maps(lam_scene *scene, lam_material *material, lam_error *error
     return true;
 }
 
-// Checks a material and copies it with its strings and maps. False: error.
+// Checks a material and copies it with its strings and maps. Returns false on error.
 static bool copy_material(lam_scene *scene, const lam_material *material, lam_material *out, lam_error *error)
 {
     if (!scene || !material)
@@ -265,7 +266,7 @@ bool lam_scene_set_part_material(lam_scene *scene, int mesh, uint32_t part, int 
         return fail(error, LAM_BAD_ARGUMENT, "part: %u of the %u that mesh %d has", part, m->part_count, mesh);
     if (material < -1 || material >= scene->materials.count)
         return fail(error, LAM_BAD_ARGUMENT, "part: material %d of %d", material, scene->materials.count);
-    ((lam_part *)(uintptr_t)m->parts)[part].material = material; // the array is the scene's own
+    ((lam_part *)(uintptr_t)m->parts)[part].material = material; // the scene owns the array
     return true;
 }
 

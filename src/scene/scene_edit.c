@@ -1,4 +1,4 @@
-// scene_edit.c: replacing, hiding and removing meshes and objects of a scene.
+// scene_edit.c: replaces, hides and removes meshes and objects of a scene.
 #include "scene_internal.h"
 
 #include "fail.h"
@@ -30,7 +30,8 @@ bool scene_keep_meshes(struct lam_scene *scene, lam_error *error)
     return true;
 }
 
-// A new mesh may get the addresses of freed arrays: with another token, caches of devices do not take it for the old one.
+// A new mesh may get the addresses of freed arrays. A new token prevents device caches from confusing it with the old
+// one.
 static void change_token(struct lam_scene *scene, struct scene_token *token)
 {
     __atomic_store_n(&scene->token->gone, 1, __ATOMIC_RELEASE);
@@ -55,11 +56,12 @@ static void note_edit(const struct lam_scene *scene, int mesh)
         origin->edited = true;
 }
 
-// Copies a mesh into an arena of its own and measures it there. False: error, and the arena is as good as empty.
+// Copies a mesh into an arena of its own and measures it there. Returns false on error; the arena can then be
+// discarded.
 static bool build_mesh(lam_scene *scene, const lam_mesh *mesh, struct arena *own, lam_mesh *copy,
                        struct scene_extent *extent, lam_error *error)
 {
-    struct arena whole = scene->arena; // the steps below allocate in the scene's arena
+    struct arena whole = scene->arena; // the steps below allocate from the scene's arena
     scene->arena = *own;
     uint64_t state = float_state_enter();
     bool ok = scene_copy_mesh(scene, mesh, copy, error) && scene_measure_mesh(scene, copy, extent, NULL, error);

@@ -1,11 +1,11 @@
-// scene_mark.c: a state of a scene to come back to, for pictures that differ in a few things.
+// scene_mark.c: saves and restores the state of a scene, for pictures that differ in a few settings.
 #include "scene_internal.h"
 
 #include "fail.h"
 
 #include <string.h>
 
-// The lists that come back, and the size of their items. Cameras and origins come from files and are only added.
+// The restored lists, with the size of their items. Cameras and origins come from files and are never removed.
 static const struct {
     size_t list, item;
 } lists[] = {
@@ -21,7 +21,7 @@ enum { LISTS = sizeof lists / sizeof *lists };
 
 struct scene_mark {
     struct scene_list saved[LISTS];
-    int *part_materials; // of all parts of the meshes, in order
+    int *part_materials; // the materials of all parts of the meshes, in order
     lam_up up;
     lam_mat4 placement;
     lam_rgb ambient;
@@ -81,7 +81,7 @@ bool lam_scene_reset(lam_scene *scene, lam_error *error)
     if (!scene || !scene->mark)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_reset: %s", scene ? "no state is marked" : "the scene is NULL");
     const struct scene_mark *mark = scene->mark;
-    for (int i = 0; i < LISTS; i++) { // lists only grow, so each has space for its earlier elements
+    for (int i = 0; i < LISTS; i++) { // lists never shrink, so each has space for its earlier elements
         struct scene_list *list = list_of(scene, i);
         list->count = mark->saved[i].count;
         if (list->count)

@@ -1,4 +1,4 @@
-// scene_place.c: bounding sphere and transforms of a whole scene, and the positions of a rig's lights.
+// scene_place.c: the bounding sphere and transforms of a whole scene, and the positions of a rig's lights.
 #include "scene_internal.h"
 
 #include "fail.h"
@@ -82,7 +82,7 @@ static bool transform_objects(lam_scene *scene, const lam_mat4 *transform, lam_e
 {
     if (!check_transform(transform, error))
         return false;
-    // All products are checked before any object changes: they may overflow.
+    // All products are checked before any object changes, because they may overflow.
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < scene->objects.count; i++) {
             lam_object *object = (lam_object *)scene->objects.items + i;
@@ -138,7 +138,7 @@ bool scene_lit_by_environment(const struct lam_scene *scene)
     return physical && !classic;
 }
 
-// Moves a light of a rig for a scene of radius 1 to its place in this one.
+// Moves a light of a rig for a scene of radius 1 to its position in this scene.
 static void place_rig_light(const lam_scene *scene, lam_light *light)
 {
     lam_vec3 low, high, centre = v3(0, 0, 0);
@@ -147,7 +147,8 @@ static void place_rig_light(const lam_scene *scene, lam_light *light)
         return;
     if (light->frame == LAM_FRAME_WORLD)
         lam_scene_sphere(scene, -1, &centre, &radius);
-    else if (scene && lam_scene_bounds(scene, &low, &high)) // around the box, which takes no look at every vertex
+    // relative to the box, which needs no pass over the vertices
+    else if (scene && lam_scene_bounds(scene, &low, &high))
         radius = 0.5 * v3_length(v3_sub(high, low));
     if (radius == 0)
         radius = 1;

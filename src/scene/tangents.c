@@ -1,11 +1,11 @@
-// tangents.c: tangents of a scene's meshes, by MikkTSpace.
+// tangents.c: computes tangents of a scene's meshes by MikkTSpace.
 #include "mikktspace.h"
 #include "scene_internal.h"
 
 #include "fail.h"
 #include "float_state.h"
 
-// Returns the first map that reads tangents.
+// Returns the first map of a material that uses tangents.
 static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int material)
 {
     bool there = material >= 0 && material < scene->materials.count;
@@ -17,8 +17,8 @@ static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int m
                                                : m->maps[LAM_MAP_ANISOTROPY];
 }
 
-// Returns the map that reads a mesh's tangents: the first one of its parts, or else of the first object that gives it a
-// material with one. Returns NULL if there is none.
+// Returns the map that uses a mesh's tangents: the first such map of its parts, or else of the first object that has
+// one in its material. Returns NULL if there is none.
 static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int mesh)
 {
     const lam_mesh *m = scene_mesh(scene, mesh);
@@ -31,10 +31,11 @@ static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int m
     return map;
 }
 
-// Tangents run along the coordinates with which the map is sampled, those after its transform: then the slopes of a map that is turned or
-// mirrored on the surface stay slopes of the same bumps. glTF says "the texture coordinates associated with the normal texture" (section
-// 3.7.2.1), which leaves KHR_texture_transform open; three.js and Khronos' sample renderer take the coordinates after it, too. `t_down`: the
-// second coordinate of the result grows downwards in the picture. A transform that only shifts and stretches needs no new coordinates.
+// Tangents follow the texture coordinates after the map's transform, so that the slopes of a rotated or mirrored map
+// still describe the same bumps. glTF says "the texture coordinates associated with the normal texture" (section
+// 3.7.2.1), which leaves KHR_texture_transform undefined; three.js and Khronos' sample renderer also use the
+// transformed coordinates. `t_down` means that the second transformed coordinate grows downwards in the picture. A
+// transform that only shifts and scales needs no new coordinates.
 static bool transformed_texcoords(lam_mesh *seen, const lam_texture_map *map, struct arena *arena, bool *t_down)
 {
     const float(*m)[3] = map->transform;
@@ -56,7 +57,7 @@ static bool transformed_texcoords(lam_mesh *seen, const lam_texture_map *map, st
     return out != NULL;
 }
 
-// Gives a mesh its own tangents, for the texture coordinates of the map that reads them, or else for the first ones.
+// Computes tangents of one mesh, for the texture coordinates of the map that uses them, or else for the first set.
 static bool make_tangents(struct lam_scene *scene, lam_mesh *mesh, const lam_texture_map *map,
                           struct call_control *call, lam_error *error)
 {

@@ -1,11 +1,11 @@
-// up_axis.c: the up axes of scenes: their names, and the rotations to and from Y up.
+// up_axis.c: names of up axes, and rotations to and from y up.
 #include "up_axis.h"
 
 #include "linear.h"
 
 #include <strings.h>
 
-// Components are exchanged and negated, so that nothing is rounded.
+// Components are permuted and negated, so nothing is rounded.
 lam_vec3 from_y_up(lam_up up, lam_vec3 d)
 {
     switch (up) {

@@ -1,14 +1,13 @@
 // view_extents.c: extents of a scene's vertices along the axes of a view.
 //
-// The extents are computed vertex by vertex, always by the same operations; the tree of boxes only excludes vertices
-// that cannot change them.
+// Each vertex is measured by the same operations; the tree of boxes only skips vertices that cannot change the extents.
 #include "view_extents.h"
 
 #include "linear.h"
 #include "scene_internal.h"
 
-// The search in one mesh, for the directions [first, end). In the axes of the view, x, y and z of a vertex are
-// row · position + shift.
+// The search in one mesh for the directions [first, end). In the axes of the view, a component of a vertex is row ·
+// position + shift.
 struct search {
     const lam_mesh *mesh;
     const struct scene_extent *extent;
@@ -16,7 +15,7 @@ struct search {
     int first, end;
     lam_vec3 row[3];
     double shift[3];
-    // Upper bounds: axis · position + offset, which includes the rounding error; axis_size is |axis|.
+    // Upper bounds: axis · position + offset, where offset includes the rounding error; axis_size is |axis|.
     lam_vec3 axis[EXTENT_DIRECTIONS], axis_size[EXTENT_DIRECTIONS];
     double offset[EXTENT_DIRECTIONS];
 };
@@ -37,7 +36,7 @@ static void set_directions(struct search *s)
 {
     lam_vec3 across[EXTENT_DIRECTIONS];
     set_across(s->extents, across);
-    box_of_six box; // relative to the mesh's origin, as the positions are
+    box_of_six box; // relative to the mesh's origin, like the positions
     box_tree_whole(&s->extent->boxes, box);
     double far[3]; // upper bounds of |coordinate|
     for (int a = 0; a < 3; a++)
@@ -57,7 +56,7 @@ static void set_directions(struct search *s)
         }
         s->axis[d] = v3(sum[0], sum[1], sum[2]);
         s->axis_size[d] = v3(absolute(sum[0]), absolute(sum[1]), absolute(sum[2]));
-        // Fewer than 64 operations, each with an error below 2⁻⁵² of that sum.
+        // Fewer than 64 operations, each with a relative error below 2⁻⁵².
         s->offset[d] += steps * 0x1p-46;
     }
 }
@@ -76,7 +75,7 @@ static void extend(const struct search *s, lam_vec3 q)
         }
 }
 
-// Searches the vertices of a block. Most are excluded by their upper bound, which is cheaper than their extents.
+// Searches the vertices of a block. Most are skipped by their upper bound, which is cheaper than their extents.
 static void search_block(const struct search *s, size_t block, int d)
 {
     const struct aabb_tree *tree = &s->extent->boxes;
@@ -91,7 +90,7 @@ static void search_block(const struct search *s, size_t block, int d)
     }
 }
 
-// Returns the upper bound for the vertices of a box: its centre, plus its half sides along the direction.
+// Returns the upper bound for the vertices of a box: the value at its centre plus its half extents along the direction.
 static double bound_of(const struct search *s, const box_of_six box, int d)
 {
     lam_vec3 low = v3((double)box[0], (double)box[1], (double)box[2]);
@@ -100,7 +99,7 @@ static double bound_of(const struct search *s, const box_of_six box, int d)
     return v3_dot(s->axis[d], middle) + v3_dot(s->axis_size[d], half) + s->offset[d];
 }
 
-// Descends to the box with the largest bound and searches it first: its extents exclude most other boxes.
+// Descends to the box with the largest bound and searches it first, because its extents exclude most other boxes.
 static void search_best_block(const struct search *s, int d)
 {
     const struct aabb_tree *tree = &s->extent->boxes;
@@ -149,7 +148,7 @@ static void search_object(const lam_scene *scene, const lam_object *object, cons
                        .end = end};
     if (!s.extent->used_count)
         return;
-    // View axes times the transform: each vertex takes three dot products.
+    // The view axes are multiplied by the transform once, so that each vertex takes three dot products.
     const lam_mat4 *t = &object->transform;
     lam_vec3 rows[3] = {axes->right, axes->above, axes->back};
     lam_vec3 origin = mat4_point(t, v3(s.mesh->origin[0], s.mesh->origin[1], s.mesh->origin[2]));

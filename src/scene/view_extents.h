@@ -21,7 +21,8 @@ struct view_points {
     double ball_radius; // > 0: a ball around the axes' centre in place of the scene
 };
 
-// The maxima over all points of ±x + kx·z, ±y + ky·z and z, in the axes of the view. k = 0: the bounding box.
+// The maxima over all points of ±x + kx·z, ±y + ky·z and z, in the axes of the view. With k = 0 this is the bounding
+// box.
 enum extent_direction { EXTENT_RIGHT, EXTENT_LEFT, EXTENT_TOP, EXTENT_BOTTOM, EXTENT_FRONT, EXTENT_DIRECTIONS };
 
 struct view_extents {

@@ -1,4 +1,4 @@
-// json_print.c: JSON as text for people.
+// json_print.c: prints JSON for human readers.
 #include "scene_write.h"
 
 #include "fail.h"
@@ -16,7 +16,7 @@ static int take_chunk(const char *bytes, size_t size, void *user)
 
 static size_t flags(int digits) { return JSON_ENCODE_ANY | JSON_REAL_PRECISION(digits); }
 
-// On one line. Fifteen digits if they are enough for this value, otherwise sixteen or seventeen: 0.1, not
+// Prints a value on one line. Numbers have fifteen digits if they are enough, otherwise sixteen or seventeen: 0.1, not
 // 0.10000000000000001.
 static void add_line(struct text *text, const json_t *value)
 {
@@ -65,7 +65,7 @@ bool scene_print(const json_t *root, lam_bytes *out, lam_error *error)
     json_object_foreach((json_t *)(uintptr_t)root, key, value)
     {
         text_add(&text, count++ ? ",\n  \"" : "{\n  \"");
-        text_add(&text, key); // of this format's own, nothing to quote
+        text_add(&text, key); // a key of this format, which needs no escapes
         text_add(&text, "\": ");
         bool long_list = json_is_array(value) && json_is_object(json_array_get(value, 0));
         for (size_t i = 0; long_list && i < json_array_size(value); i++) {

@@ -1,4 +1,4 @@
-// scene_environment.c: the environment of a scene file: pictures beside it, or a built-in one.
+// scene_environment.c: reads the environment of a scene file: pictures beside it, or a built-in one.
 #include "companion.h"
 #include "cube_map.h"
 #include "fail.h"
@@ -41,7 +41,7 @@ static bool read_built_in(struct scene_reader *r, const struct place *place, con
                       near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
 }
 
-// The pictures while they are read: their names, and the settings that get the paths that open them.
+// The pictures during reading: their names, and the settings that receive their full paths.
 struct pictures {
     struct scene_reader *r;
     const char *const *names;
@@ -54,7 +54,7 @@ static bool open_picture(void *user, int index, struct call_control *call, struc
     struct pictures *pictures = user;
     const struct import_source *source = pictures->r->source;
     struct companion companion;
-    (void)call; // the source's own
+    (void)call; // the source has its own
     if (!source->open_of_scene(source, pictures->names[index], &pictures->r->scene->arena, &companion, error))
         return false;
     *file = companion.file;
@@ -64,7 +64,7 @@ static bool open_picture(void *user, int index, struct call_control *call, struc
     return pictures->paths[index] || call_memory_error(source->call, strlen(pictures->names[index]), error);
 }
 
-// Errors in finding or reading a picture name the key.
+// Reads the pictures. Errors name the key.
 static struct lam_environment *read_pictures(struct scene_reader *r, const struct place *place,
                                              const char *const *names, int count, const char **paths)
 {

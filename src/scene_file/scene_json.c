@@ -1,4 +1,5 @@
-// scene_json.c: scene files: the JSON around it all, the picture's settings, and the row in the table of formats.
+// scene_json.c: reads scene files: the top-level JSON, the settings of the picture, and the row in the table of
+// formats.
 #include "scene_reader.h"
 
 #include "fail.h"
@@ -8,12 +9,12 @@
 #include <stdio.h>
 #include <string.h>
 
-// Operations that the implicit surfaces of a file may take together: a few seconds.
+// The most operations for all implicit surfaces of a file together, which take a few seconds.
 enum { FORMULA_OPERATIONS = 200000000 };
 
-// --- is it one?
+// --- recognising scene files
 
-// Returns an object whose first kilobytes contain the key "lambent".
+// Recognises an object whose first kilobytes contain the key "lambent".
 static int scene_probe(const uint8_t *bytes, size_t size)
 {
     static const char key[] = "\"lambent\"";
@@ -25,7 +26,7 @@ static int scene_probe(const uint8_t *bytes, size_t size)
     return memmem(bytes + at, end - at, key, sizeof key - 1) ? 2 : 0;
 }
 
-// --- the picture
+// --- the settings of the picture
 
 static bool read_image(struct scene_reader *r, const json_t *root)
 {
@@ -37,7 +38,7 @@ static bool read_image(struct scene_reader *r, const json_t *root)
     int color = LAM_COLOR_SRGB;
     if (!image)
         return true;
-    // The colour mode first: it says how the others are read. Its former key is `color`.
+    // The colour mode is read first, since it determines how colours are read. Its former key is `color`.
     bool mode = json_object_get(image, "color_mode"), former = json_object_get(image, "color");
     if (!check_keys(r, place, image, keys))
         return false;
@@ -127,7 +128,7 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
     return true;
 }
 
-// A list of words, whose bits are set.
+// Reads a list of words and sets their bits.
 static bool read_words(struct scene_reader *r, const json_t *root, const lam_setting *setting, int *bits)
 {
     const json_t *list = json_object_get(root, setting->key);
@@ -151,7 +152,7 @@ static bool read_words(struct scene_reader *r, const json_t *root, const lam_set
     return ok || fail_place(r, KEY_OF(NULL, setting->key), "expected a list of some of %s", known);
 }
 
-// One row of the table of settings.
+// Reads the setting of one row of the table.
 static bool read_setting(struct scene_reader *r, const json_t *root, const lam_setting *setting)
 {
     void *member = (char *)&r->settings->draw + setting->offset;
@@ -204,7 +205,7 @@ static bool read_setting(struct scene_reader *r, const json_t *root, const lam_s
     return true;
 }
 
-// Lighting by vertex means Gouraud shading, unless the file says another.
+// Lighting by vertex implies Gouraud shading, unless the file sets another method.
 static bool check_stage(struct scene_reader *r)
 {
     lam_picture_settings *s = r->settings;
@@ -225,7 +226,7 @@ static bool check_stage(struct scene_reader *r)
     return true;
 }
 
-// The keys at the top of the file, with the settings of the table.
+// Reads the keys at the top of the file, including the settings of the table.
 static bool read_settings(struct scene_reader *r, const json_t *root)
 {
     int up = LAM_UP_Y;
@@ -246,7 +247,7 @@ static bool read_settings(struct scene_reader *r, const json_t *root)
     return check_stage(r);
 }
 
-// --- the whole
+// --- the whole file
 
 static bool read_root(struct scene_reader *r, const json_t *root)
 {
@@ -269,12 +270,13 @@ static bool read_root(struct scene_reader *r, const json_t *root)
         return fail(r->error, LAM_UNSUPPORTED, "%s: lambent: the format's version is %d, this program reads version 1",
                     r->source->name, version);
     r->has_lights = json_object_get(root, "lights");
-    // The order matters: the colour mode before colours, objects before the lights attached to them.
+    // The order matters: the colour mode comes before colours, and objects before the lights attached to them.
     return read_image(r, root) && read_camera(r, root) && read_settings(r, root) && read_environment(r, root) &&
            read_materials(r, root) && read_objects(r, root) && read_lights(r, root);
 }
 
-// Returns the memory that Jansson needs for a file of this size at worst: one small value for each two bytes ("1,1,1").
+// Returns the memory that Jansson needs for a file of this size in the worst case: one small value per two bytes
+// ("1,1,1").
 static size_t tree_bytes(size_t size) { return size > SIZE_MAX / 32 ? SIZE_MAX : size * 32; }
 
 static bool scene_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)

@@ -1,4 +1,4 @@
-// scene_lights.c: the lights of a scene file.
+// scene_lights.c: reads the lights of a scene file.
 #include "scene_reader.h"
 
 #include "fail.h"
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// Keys that are not fields, or represent several.
+// Keys that are not fields, or that set several fields.
 static const struct {
     const char *name;
     unsigned light_types;
@@ -42,7 +42,7 @@ static lam_rgb scaled(lam_rgb c, double s)
     return (lam_rgb){(float)((double)c.r * s), (float)((double)c.g * s), (float)((double)c.b * s)};
 }
 
-// `color` times `intensity` is the ambient light of an ambient light, else diffuse and specular.
+// Sets `color` times `intensity`: the ambient light of an ambient light, or else diffuse and specular.
 static bool read_color(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     bool ambient = light->type == LAM_LIGHT_AMBIENT;
@@ -58,7 +58,7 @@ static bool read_color(struct scene_reader *r, const struct place *place, const 
     return true;
 }
 
-// The fields one by one. A position has a reader of its own.
+// Reads the fields one by one. The position is read separately.
 static bool read_fields(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     for (int i = 0; lam_light_field(i); i++) {
@@ -70,7 +70,7 @@ static bool read_fields(struct scene_reader *r, const struct place *place, const
     return true;
 }
 
-// Three numbers, or four: a homogeneous point, with w = 0 a direction from there.
+// Reads three numbers, or four homogeneous ones; w = 0 means a direction towards the light.
 static bool read_position(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     const json_t *position = json_object_get(value, "position");
@@ -121,7 +121,7 @@ static bool check_attenuation(struct scene_reader *r, const struct place *place,
                       "all three numbers are 0, expected a + b d + c d^2 to be more than 0");
 }
 
-// One of two laws: cutoff and exponent, or inner and outer.
+// Checks that the cone uses one of two laws: cutoff and exponent, or inner and outer.
 static bool check_cone(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     const json_t *inner = json_object_get(value, "inner"), *outer = json_object_get(value, "outer"),
@@ -138,7 +138,7 @@ static bool check_cone(struct scene_reader *r, const struct place *place, const 
     if (degrees == 0 || (degrees > 90 && degrees < 180))
         return fail_place(r, KEY_OF(place, "cutoff"), "found %.10g, expected degrees above 0 and up to 90, or 180",
                           degrees);
-    // With an exponent and no cutoff the cone has no edge.
+    // With an exponent and without a cutoff, the cone has no hard edge.
     if (soft || (exponent && !cutoff))
         light->cutoff_rad = 0;
     return true;
@@ -195,12 +195,12 @@ static bool read_light(struct scene_reader *r, const struct place *place, const 
     if (type == LAM_LIGHT_SPOT && !check_cone(r, place, value, &light))
         return false;
     lam_error reason;
-    if (!lam_light_check(&light, &reason)) // rules between keys
+    if (!lam_light_check(&light, &reason)) // checks rules that involve several keys
         return fail_place(r, place, "%s", reason.text);
     return scene_adopt_light(r->scene, &light, r->error) >= 0;
 }
 
-// Names distinguish lights in reports and tables. Warns of the first two that share one.
+// Names distinguish lights in reports and tables, so this warns of the first two lights with the same name.
 static bool warn_of_names(struct scene_reader *r, const json_t *list)
 {
     json_t *met = json_object();

@@ -1,4 +1,4 @@
-// scene_materials.c: the materials of a scene file.
+// scene_materials.c: reads the materials of a scene file.
 #include "scene_reader.h"
 
 #include "fail.h"
@@ -22,7 +22,8 @@ bool read_material_keys(struct scene_reader *r, const struct place *place, const
     for (int i = 0; i < count; i++)
         if (material_field(i)->reader != FIELD_NEVER && !take_field(r, place, value, lam_material_field(i), material))
             return false;
-    if (whole && !json_object_get(value, "ambient")) // a surface answers light from all around as it answers any light
+    // by default a surface reflects ambient light as it reflects other light
+    if (whole && !json_object_get(value, "ambient"))
         material->ambient = (lam_rgb){material->diffuse.r, material->diffuse.g, material->diffuse.b};
     double opacity = 1;
     if (!take_number(r, place, value, "opacity", 0, 1, &opacity))
@@ -31,7 +32,7 @@ bool read_material_keys(struct scene_reader *r, const struct place *place, const
     return true;
 }
 
-// Returns a material of the file by its name: −1 if there is none.
+// Returns the index of a material of the file by its name, or −1 if there is none.
 static int named(const struct scene_reader *r, const char *name)
 {
     const char *key;

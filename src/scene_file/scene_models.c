@@ -1,8 +1,9 @@
-// scene_models.c: the models that the objects of a scene file show: built-in shapes, formulas, and files that other importers read.
+// scene_models.c: loads the models of a scene file's objects: built-in shapes, formulas, and files that other importers
+// read.
 //
-// A model is read once for each way to make its normals, however many objects show it and however they spell its name.
-// Objects that change nothing of it share its meshes and materials, and so do objects that make the same changes; an
-// object with changes of its own gets its own list of parts and materials, and shares the arrays of vertices.
+// A model is read once for each kind of normals, however many objects use it and however they write its name. Objects
+// that do not change the model share its meshes and materials, and so do objects that make the same changes. An object
+// with changes of its own gets its own list of parts and materials, and shares the arrays of vertices.
 #include "scene_models.h"
 
 #include "companion.h"
@@ -13,7 +14,7 @@
 
 enum { KEY_SIZE = COMPANION_NAME_SIZE + 4096, VARIANTS = 8 };
 
-// A way in which the model is in the scene.
+// A version of the model in the scene.
 struct variant {
     bool field_tangents;
     const json_t *materials, *parts;
@@ -21,11 +22,11 @@ struct variant {
 };
 
 struct model {
-    struct lam_scene inner;            // as it was read; its lists and arrays are in the outer scene's arena
+    struct lam_scene inner;            // the scene as read; its lists and arrays are in the outer scene's arena
     struct scene_origin origin;        // without the counts and copies
-    double crease_angle_rad;           // that its normals are made with; 0: the default
-    struct variant variants[VARIANTS]; // the latest ones
-    int variant_count;                 // ever made
+    double crease_angle_rad;           // the angle for its normals; 0 means the default
+    struct variant variants[VARIANTS]; // the most recent ones
+    int variant_count;                 // number of variants made so far
 };
 
 static bool no_memory(const struct scene_reader *r, size_t bytes)
@@ -45,7 +46,7 @@ static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted
                       ? scene_add_formula(&model->inner, wanted->formula, r->source->call, &reason)
                       : scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
     if (object.mesh < 0) {
-        if (reason.code == LAM_BAD_ARGUMENT) // also for a formula: its text
+        if (reason.code == LAM_BAD_ARGUMENT) // for formulas too: errors of their text
             return fail_place(r, KEY_OF(wanted->place, "shape"), "%s", reason.text);
         *r->error = reason;
         return false;
@@ -111,7 +112,7 @@ static bool open_file(struct scene_reader *r, const struct model_wanted *wanted,
     return false;
 }
 
-// Makes normals, tangents, whose sense depends on the model's format, and extents.
+// Computes normals, tangents (whose direction depends on the model's format) and extents.
 static bool complete(struct scene_reader *r, const struct model_wanted *wanted, struct model *model)
 {
     struct lam_scene *inner = &model->inner;
@@ -152,7 +153,7 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
 
 // --- finding
 
-// The text that identifies a formula's surface. Returns false if it is too long.
+// Makes the key that identifies a formula's surface. Returns false if it is too long.
 static bool key_of_formula(const struct model_wanted *wanted, char key[KEY_SIZE])
 {
     const lam_formula *f = wanted->formula;
@@ -163,7 +164,7 @@ static bool key_of_formula(const struct model_wanted *wanted, char key[KEY_SIZE]
     return length > 0 && length < KEY_SIZE;
 }
 
-// The text that identifies a model: how its normals are made, and the shape, the formula or the file.
+// Makes the key that identifies a model: the kind of normals, and the shape, the formula or the file.
 static bool key_of(const struct model_wanted *wanted, const char *file, char key[KEY_SIZE])
 {
     if (wanted->formula)
@@ -183,7 +184,7 @@ static struct model *known(const struct scene_reader *r, const char *key)
     return index >= 0 ? ((struct model **)r->models.items)[index] : NULL;
 }
 
-// Notes the model under one more key.
+// Registers the model under one more key.
 static bool note(struct scene_reader *r, struct model *model, const char *key)
 {
     const char *kept = arena_string(&r->scene->arena, key);
@@ -225,7 +226,7 @@ static struct model *find_model(struct scene_reader *r, const struct model_wante
     return model && note(r, model, key) ? model : NULL;
 }
 
-// --- into the scene
+// --- adding to the scene
 
 static bool add_mesh(struct scene_reader *r, const struct model *model, int index, int materials, bool field_tangents)
 {
@@ -247,7 +248,7 @@ static bool add_mesh(struct scene_reader *r, const struct model *model, int inde
            scene_adopt_mesh(scene, &mesh, r->error) >= 0;
 }
 
-// Appends the model's items to the scene's, with shifted indices.
+// Appends the model's items to the scene, with shifted indices.
 static bool add_items(struct scene_reader *r, const struct model *model, bool field_tangents, int *index)
 {
     struct lam_scene *scene = r->scene;
@@ -273,7 +274,7 @@ static bool add_items(struct scene_reader *r, const struct model *model, bool fi
     return ok && scene_note_origin(scene, origin, objects, r->error);
 }
 
-// The objects once more, of the same meshes and materials.
+// Adds the objects again, with the same meshes and materials.
 static bool add_objects(struct scene_reader *r, int origin_index)
 {
     const struct scene_origin *origin = (const struct scene_origin *)r->scene->origins.items + origin_index;

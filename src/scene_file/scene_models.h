@@ -1,25 +1,26 @@
-// scene_models.h: the models that the objects of a scene file show.
+// scene_models.h: loads the models of a scene file's objects.
 #ifndef SCENE_MODELS_H
 #define SCENE_MODELS_H
 
 #include "scene_reader.h"
 
-// The mesh that an object names, and how to make it.
+// The model that an object refers to, and its parameters.
 struct model_wanted {
-    const struct place *place; // of the object
-    const char *file, *shape;  // one of them, or the formula; the file as the scene names it
+    const struct place *place; // position of the object
+    const char *file, *shape;  // one of them, or the formula; the file name as written
     const lam_formula *formula;
-    lam_shape_params segments; // of a shape
+    lam_shape_params segments; // the parameters of a shape
     lam_normals normals;
-    double crease_angle_rad; // 0: the default
+    double crease_angle_rad; // 0 means the default
     bool field_tangents;
-    const char *scene, *variant, *animation; // of a glTF file, as in lam_load_params
+    const char *scene, *variant, *animation; // for a glTF file, as in lam_load_params
     double time_s;
-    const json_t *materials, *parts; // the object's changes of the model; NULL: none
+    const json_t *materials, *parts; // the object's changes to the model, or NULL
 };
 
-// Adds the objects of a model to the scene. Objects that want the same share meshes and materials. *origin: the index of
-// its record in scene->origins. *own: the meshes and materials are new, and get the object's changes.
+// Adds the objects of a model to the scene. Equal requests share meshes and materials. Sets *origin to the index of its
+// record in scene->origins, and *own to whether the meshes and materials are new, so that the object's changes can be
+// applied.
 bool add_model(struct scene_reader *r, const struct model_wanted *wanted, int *origin, bool *own);
 
 #endif

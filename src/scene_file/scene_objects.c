@@ -1,4 +1,4 @@
-// scene_objects.c: the objects of a scene file: the keys around the models that they show (scene_models.c).
+// scene_objects.c: reads the objects of a scene file: the keys beside the model (scene_models.c).
 #include "scene_models.h"
 
 #include "fail.h"
@@ -17,7 +17,7 @@ static const char *const any_keys[] = {EVERY_OBJECT, "shape", "radius",  "slices
 
 // --- keys of all objects
 
-// "materials": changes of the model's own materials, by their names.
+// Reads "materials": changes to the model's own materials, by their names.
 static bool change_materials(struct scene_reader *r, const struct place *place, const json_t *value,
                              const struct scene_origin *origin)
 {
@@ -33,7 +33,7 @@ static bool change_materials(struct scene_reader *r, const struct place *place, 
         bool found = false;
         for (int i = origin->first_material; i < origin->first_material + origin->material_count; i++) {
             lam_material *material = (lam_material *)r->scene->materials.items + i;
-            char number[16]; // of a material without a name
+            char number[16]; // the name of an unnamed material
             snprintf(number, sizeof number, "#%d", i - origin->first_material);
             if (strcmp(material->name ? material->name : number, key) != 0)
                 continue;
@@ -47,7 +47,7 @@ static bool change_materials(struct scene_reader *r, const struct place *place, 
     return true;
 }
 
-// "parts": a material for each part of the model, in order; null: the model's own.
+// Reads "parts": a material for each part of the model, in order; null keeps the model's own.
 static bool replace_parts(struct scene_reader *r, const struct place *place, const json_t *value,
                           const struct scene_origin *origin)
 {
@@ -100,12 +100,12 @@ static bool is_identity(const lam_mat4 *m)
     return memcmp(m, &identity, sizeof identity) == 0;
 }
 
-// The numbers of the first object, light and camera of an entry.
+// The indices of the first object, light and camera of an entry.
 struct entry {
     int object, light, camera;
 };
 
-// Lights and cameras of a file are placed with its objects.
+// Applies an object's transform to the lights and cameras of its file.
 static void place_lights_and_cameras(struct lam_scene *scene, const struct entry *entry, const lam_mat4 *transform)
 {
     for (int i = entry->light; i < scene->lights.count; i++) {
@@ -137,7 +137,7 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
         place_lights_and_cameras(r->scene, entry, &transform);
     for (int i = first; i < r->scene->objects.count; i++) {
         lam_object *object = (lam_object *)r->scene->objects.items + i;
-        // not through a product without a factor: it would lose the signs of zeros
+        // The product with the identity is skipped, because it would lose the signs of zeros.
         if (steps)
             object->transform = is_identity(&object->transform) ? transform : mat4_mul(&transform, &object->transform);
         if (front >= 0)
@@ -150,9 +150,9 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
     return true;
 }
 
-// "shape": {"parametric": {"formula": "x=…; y=…; z=…", "u": "0..2pi", "v": "0..pi", "segments": [64, 32], "flip": true}}, or
-// {"implicit": {"formula": "x^2+…", "x": "-1..1", "y": "-1..1", "z": "-1..1", "segments": 96, "flip": true}}. A text in place
-// of the object is the formula alone.
+// Reads "shape": {"parametric": {"formula": "x=…; y=…; z=…", "u": "0..2pi", "v": "0..pi", "segments": [64, 32], "flip":
+// true}}, or {"implicit": {"formula": "x^2+…", "x": "-1..1", "y": "-1..1", "z": "-1..1", "segments": 96, "flip":
+// true}}. A string instead of the inner object is the formula alone.
 static bool read_formula(struct scene_reader *r, const struct place *place, const json_t *value, lam_formula *formula)
 {
     static const char *const outer[] = {"parametric", "implicit", NULL};
@@ -235,7 +235,7 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
         .shape = shape,
         .formula = is_formula ? &formula : NULL,
         .normals = (lam_normals)normals,
-        // The importers take 0 for their own angle: a negligible one splits at every edge.
+        // 0 means the importer's default; a tiny angle makes every edge a crease.
         .crease_angle_rad = crease_deg < 0   ? 0
                             : crease_deg > 0 ? math_radians(crease_deg)
                                              : 1e-6,

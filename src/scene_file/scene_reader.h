@@ -1,5 +1,5 @@
-// scene_reader.h: shared by the readers of a scene file: places in it, and values that are checked as they are taken.
-// docs/scene-file.md is the format for people, `lambent generate scene-schema` for programs.
+// scene_reader.h: shared by the readers of a scene file: positions in it, and values that are checked on access.
+// docs/scene-file.md describes the format for users, `lambent generate scene-schema` for programs.
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
 
@@ -13,24 +13,25 @@ struct scene_reader {
     const struct import_source *source;
     struct lam_scene *scene;
     lam_picture_settings *settings;  // in the scene's arena
-    bool has_lights;                 // the file lists its lights: the models' own are left out
-    lam_color_mode color;            // of colours in this file and its models
-    json_t *materials;               // the file's named materials; NULL: none
-    int *material_at;                // of each, in the file's order: its index in the scene
-    struct name_table models_by_key; // of scene_models.c: the values are indices in `models`
+    bool has_lights;                 // the file lists its lights; lights of its models are ignored
+    lam_color_mode color;            // the colour mode of this file and its models
+    json_t *materials;               // the file's named materials, or NULL
+    int *material_at;                // for each of the file's materials in order, its index in the scene
+    struct name_table models_by_key; // keys of models (scene_models.c); the values are indices in `models`
     struct scene_list models;        // pointers, in the scene's arena
     lam_error *error;
 };
 
-// LAM_CANNOT_READ with "NAME: PLACE: sentence". Returns false.
+// Fails with LAM_CANNOT_READ and "NAME: PLACE: sentence". Returns false.
 bool fail_place(struct scene_reader *r, const struct place *place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// Allowed keys of an object; another one is an error that names the nearest. The list ends with NULL.
+// Checks the keys of an object. Another key is an error whose message suggests the nearest allowed one. The list ends
+// with NULL.
 bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
 
-// The value of a key of `object`, checked; *out stays as it is where the key is missing. Returns false if it is wrong.
-// Numbers lie in [min, max].
+// Check the value of a key of `object` and get it; *out is unchanged if the key is missing. Return false if the value
+// is wrong. Numbers must be in [min, max].
 bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double min,
                  double max, double *out);
 bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int min,
@@ -40,14 +41,14 @@ bool take_vector(struct scene_reader *r, const struct place *place, const json_t
                  lam_vec3 *out);
 bool take_direction(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                     lam_vec3 *out);
-// A text, copied into the scene's arena; not empty.
+// Gets a nonempty string, copied into the scene's arena.
 bool take_text(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                const char **out);
-// "#rrggbb", a name of a colour, or linear numbers; the alpha is taken only where `alpha` is true.
+// Get a colour: "#rrggbb", a colour name, or linear numbers. The alpha is allowed only if `alpha` is true.
 bool take_rgb(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgb *out);
 bool take_rgba(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgba *out);
 
-// One of some words; the list ends with a NULL name.
+// Gets one of several words; the list ends with a NULL name.
 bool take_word(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                const struct json_choice *words, int *out);
 extern const struct json_choice color_words[], normals_words[], cull_words[], up_words[], frame_words[],
@@ -55,33 +56,33 @@ extern const struct json_choice color_words[], normals_words[], cull_words[], up
 
 void light_type_words(struct json_choice words[LAM_LIGHT_TYPE_COUNT + 1]);
 void tone_words(struct json_choice words[LAM_TONE_COUNT + 1]);
-// The words of a setting of type LAM_SETTING_WORD, which has fewer than WORDS_MAX.
+// Gets the words of a setting of type LAM_SETTING_WORD, which has fewer than WORDS_MAX.
 enum { WORDS_MAX = 32 };
 void setting_words(const lam_setting *setting, struct json_choice words[WORDS_MAX]);
 
-// The key of a field, set in a material or light.
+// Reads the key of a field and sets it in a material or light.
 bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,
                 void *out);
 
-// Numbers of a list, which has from `min` to `max` of them. *count may be NULL.
+// Gets the numbers of a list, `min` to `max` of them. *count may be NULL.
 bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t min, size_t max,
                 double *out, size_t *count);
 
-// The parts of the file. Each fills the scene.
+// Read the sections of the file into the scene.
 bool read_materials(struct scene_reader *r, const json_t *root);
 bool read_environment(struct scene_reader *r, const json_t *root);
 bool read_objects(struct scene_reader *r, const json_t *root);
 bool read_lights(struct scene_reader *r, const json_t *root);
 
-// A material by name (of the file, or a classic one) or written out; keys left out are `base`'s (NULL: each key has
-// its own default). *index: in the scene.
+// Reads a material by name (from the file, or a classic one) or with its keys. Missing keys are taken from `base`; if
+// it is NULL, each key has its own default. Sets *index to the material's index in the scene.
 bool read_material_value(struct scene_reader *r, const struct place *place, const json_t *value,
                          const lam_material *base, int *index);
-// The keys of a material, set in `material`.
+// Reads the keys of a material and sets them in `material`.
 bool read_material_keys(struct scene_reader *r, const struct place *place, const json_t *value, bool whole,
                         lam_material *material);
 
-// A list of steps, or 16 numbers.
+// Reads a list of steps, or 16 numbers.
 bool read_transform(struct scene_reader *r, const struct place *place, const json_t *value, lam_mat4 *out);
 
 #endif

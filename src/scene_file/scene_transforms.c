@@ -1,11 +1,11 @@
-// scene_transforms.c: an object's place in a scene file: steps, or a matrix.
+// scene_transforms.c: reads an object's transform in a scene file: steps, or a matrix.
 #include "scene_reader.h"
 
 #include "linear.h"
 
 #include <string.h>
 
-// ["translate", x, y, z], ["rotate", degrees, x, y, z], ["scale", s] or ["scale", x, y, z]
+// Reads ["translate", x, y, z], ["rotate", degrees, x, y, z], ["scale", s] or ["scale", x, y, z].
 static bool read_step(struct scene_reader *r, const struct place *place, const json_t *step, lam_mat4 *out)
 {
     static const char *const expected =
@@ -46,7 +46,7 @@ static bool read_step(struct scene_reader *r, const struct place *place, const j
     return true;
 }
 
-// Sixteen numbers, row by row as on paper: the fourth, eighth and twelfth are the translation.
+// Reads sixteen numbers, row by row: the fourth, eighth and twelfth are the translation.
 static bool read_matrix(struct scene_reader *r, const struct place *place, const json_t *value, lam_mat4 *out)
 {
     double n[16];

@@ -1,4 +1,4 @@
-// scene_values.c: values of a scene file, each checked on access, and the error messages for wrong ones.
+// scene_values.c: gets values of a scene file, each checked on access, with messages for wrong ones.
 #include "scene_reader.h"
 
 #include "fail.h"
@@ -107,7 +107,7 @@ bool take_direction(struct scene_reader *r, const struct place *place, const jso
     return !zero || fail_place(r, KEY_OF(place, key), "found 0, 0, 0, expected a direction");
 }
 
-// --- texts and words
+// --- strings and words
 
 bool take_text(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                const char **out)
@@ -245,7 +245,7 @@ bool take_field(struct scene_reader *r, const struct place *place, const json_t 
     case LAM_FIELD_NUMBER:
     case LAM_FIELD_ANGLE:
         if (field->light_types && field->max == 1 && json_is_boolean(json_object_get(object, field->key)))
-            numbers[0] = json_is_true(json_object_get(object, field->key)); // a share: all or nothing
+            numbers[0] = json_is_true(json_object_get(object, field->key)); // a flag for a share: 0 or 1
         else if (!take_number(r, place, object, field->key, min, max, numbers))
             return false;
         break;

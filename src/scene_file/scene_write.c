@@ -1,7 +1,7 @@
-// scene_write.c: a scene and its settings as a scene file, from which the same picture comes again. Numbers are written
-// so that they read back as the same bits.
+// scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. Every number is written
+// so that it reads back as the same bits.
 //
-// Longer than 600 lines: one function for each part of a file, in the order of the file.
+// Longer than 600 lines: one function for each section of a file, in the order of the file.
 #include "scene_write.h"
 
 #include "fail.h"
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- JSON values; a failed allocation anywhere shows in `ok`
+// --- JSON values; a failed allocation clears `ok`
 
 void put(struct scene_writer *w, json_t *object, const char *key, json_t *value)
 {
@@ -22,14 +22,14 @@ void put(struct scene_writer *w, json_t *object, const char *key, json_t *value)
 
 void append(struct scene_writer *w, json_t *list, json_t *value) { w->ok &= json_array_append_new(list, value) == 0; }
 
-// Whole numbers without a point.
+// Makes a number; whole numbers have no decimal point.
 static json_t *number(double x)
 {
     bool whole = x > -1e15 && x < 1e15 && x == (double)(json_int_t)x && !(x == 0 && 1 / x < 0);
     return whole ? json_integer((json_int_t)x) : json_real(x);
 }
 
-// Returns the number with the fewest decimals that is the same float.
+// Makes the number with the fewest decimals that is the same float.
 static json_t *number_float(float f)
 {
     double x = (double)f, size = x < 0 ? -x : x, power = 1;
@@ -59,7 +59,8 @@ static json_t *color(struct scene_writer *w, const float *parts, int count)
     return list;
 }
 
-// Degrees that come back as the same radians: with few decimals, else the nearest number that does.
+// Makes an angle in degrees that converts back to the same radians: with few decimals if possible, else the nearest
+// double that does.
 static json_t *degrees(double radians)
 {
     double plain = math_degrees(radians), power = 1, best = plain, error = 1e300;
@@ -92,7 +93,7 @@ static json_t *word(const struct json_choice *words, int value)
     return json_string(words->name ? words->name : "");
 }
 
-// Names that are not UTF-8 are omitted: JSON cannot store them.
+// Omits names that are not UTF-8, since JSON cannot store them.
 static void put_name(struct scene_writer *w, json_t *object, const char *key, const char *name)
 {
     json_t *text = name && *name ? json_string(name) : NULL;
@@ -102,7 +103,7 @@ static void put_name(struct scene_writer *w, json_t *object, const char *key, co
 
 // --- paths
 
-// The path from `folder` to `file`, both absolute and free of links.
+// Makes the path from `folder` to `file`, both absolute and without links.
 static bool relative_path(const char *folder, const char *file, char *out, size_t capacity)
 {
     size_t common = 0, i = 0, used = 0;
@@ -175,7 +176,8 @@ static void put_field(struct scene_writer *w, json_t *out, const lam_field *fiel
     }
 }
 
-// `whole`: keys left out would take another material's values, so every field is written; else they take the default.
+// With `whole`, missing keys would take another material's values, so every field is written; otherwise missing keys
+// mean the default.
 static json_t *material_json(struct scene_writer *w, const lam_material *m, bool whole)
 {
     json_t *out = json_object();
@@ -199,7 +201,7 @@ static bool same_material(const lam_material *a, const lam_material *b)
     return true;
 }
 
-// Returns whether at most one material has this name, so that it can be called by it.
+// Returns whether at most one material has this name, so that the name identifies it.
 static bool is_only_name(const struct scene_origin *origin, const char *name)
 {
     int count = 0;
@@ -208,7 +210,7 @@ static bool is_only_name(const struct scene_origin *origin, const char *name)
     return count <= 1;
 }
 
-// Changes of the model's own materials since it was read.
+// Writes changes of the model's own materials since it was read.
 static bool put_changes(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *changes = NULL;
@@ -233,7 +235,7 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
     return true;
 }
 
-// Parts that show another material than the file gave them: one entry for each part, null for the file's own.
+// Writes the parts whose material differs from the file's: one entry for each part, null for the file's own.
 static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *list = json_array();
@@ -276,18 +278,18 @@ static bool is_identity(const lam_mat4 *m)
     return true;
 }
 
-// The changes of an object since it was read.
+// The changes to an object since it was read.
 struct change {
-    lam_mat4 transform;          // on top of the file's own
-    int material, back_material; // −1: unchanged
-    int one_sided, cull;         // −1: unchanged
+    lam_mat4 transform;          // applied after the file's own
+    int material, back_material; // −1 means unchanged
+    int one_sided, cull;         // −1 means unchanged
 };
 
 static struct change change_of(const struct scene_writer *w, const lam_object *object, const lam_object *own)
 {
     struct change change = {.transform = object->transform, .material = -1, .back_material = -1};
     lam_mat4 inverse, placed = mat4_mul(&w->scene->placement, &own->transform);
-    // A file's own transform stays in the file. The scene's placement gives the same bits again.
+    // The file's own transform stays in the file. Applying the scene's placement to it gives the same bits again.
     if (memcmp(&object->transform, &own->transform, sizeof own->transform) == 0)
         change.transform = lam_mat4_identity();
     else if (memcmp(&object->transform, &placed, sizeof placed) == 0)
@@ -303,7 +305,7 @@ static struct change change_of(const struct scene_writer *w, const lam_object *o
     return change;
 }
 
-// The change that all objects of a file share: one entry describes them. Returns false if they differ.
+// Gets the change that all objects of a file share, so that one entry can describe them. Returns false if they differ.
 static bool common_change(const struct scene_writer *w, const struct scene_origin *origin, int first,
                           struct change *common)
 {
@@ -360,7 +362,7 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
     append(w, list, entry);
     if (!entry)
         return true;
-    // The key would name all objects of a file that have no name.
+    // The key would set the name of all unnamed objects of a file.
     const char *own_name = origin->object_count > 1 ? origin->objects[0].name : NULL;
     if (!own_name || !object->name || strcmp(own_name, object->name) != 0)
         put_name(w, entry, "name", object->name);
@@ -406,7 +408,7 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
     return put_changes(w, entry, origin);
 }
 
-// The number of objects among the `count` from `first` on that are hidden.
+// Returns the number of hidden objects among the `count` objects from `first`.
 static int hidden_from(const struct lam_scene *scene, int first, int count)
 {
     int hidden = 0;
@@ -460,7 +462,7 @@ static bool put_objects(struct scene_writer *w, json_t *root)
 static json_t *light_json(struct scene_writer *w, const lam_light *given)
 {
     lam_light placed_light = *given, *l = &placed_light;
-    // a file's model keeps its original position: the light moves to the rotated model
+    // The model in the file keeps its original position, so the light is moved instead.
     if (l->frame == LAM_FRAME_MODEL) {
         const lam_mat4 *m = &w->scene->placement;
         l->frame = LAM_FRAME_WORLD;
@@ -476,7 +478,7 @@ static json_t *light_json(struct scene_writer *w, const lam_light *given)
     if (l->frame == LAM_FRAME_OBJECT)
         put_name(w, out, "object", l->object);
     if (l->attenuation.constant == 0 && l->attenuation.linear == 0 && l->attenuation.quadratic == 0)
-        l->attenuation.constant = 1; // the meaning of three zeros
+        l->attenuation.constant = 1; // three zeros mean 1, 0, 0
     int cone = l->outer_rad > 0 ? SOFT_CONE : HARD_CONE;
     for (int i = 0; light_field(i); i++) {
         const struct light_field *row = light_field(i);
@@ -501,7 +503,7 @@ static void put_lights(struct scene_writer *w, json_t *root, lam_rig rig)
         append(w, list, light_json(w, &lights[i]));
 }
 
-// --- settings
+// --- settings of the picture
 
 static json_t *setting_word(const lam_setting *setting, int value)
 {
@@ -534,7 +536,7 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_picture_se
     json_t *out = json_object();
     if (s->present & LAM_SETTING_SIZE)
         put(w, out, "size", list_of(w, (double[]){s->width, s->height}, 2));
-    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // otherwise the size's
+    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // otherwise the default for the size
         put(w, out, "samples", json_integer(s->draw.samples));
     if (s->present & LAM_SETTING_BACKGROUND)
         put(w, out, "background", color(w, &s->draw.background.r, 4));
@@ -567,7 +569,7 @@ static bool put_environment(struct scene_writer *w, json_t *root, const lam_pict
     return true;
 }
 
-// Degrees with the fewest decimals that come back as the same float of radians.
+// Makes an angle in degrees with the fewest decimals that converts back to the same float of radians.
 static json_t *angle_float(float radians)
 {
     double plain = math_degrees((double)radians), power = 1;
@@ -590,7 +592,7 @@ static json_t *words_of(struct scene_writer *w, const lam_setting *setting, int 
     return list;
 }
 
-// A row of the table of settings. Defaults that are no words are left out: reading them changes nothing.
+// Writes a row of the table of settings. Defaults that are not words are omitted, since reading them changes nothing.
 static void put_setting(struct scene_writer *w, json_t *root, const lam_setting *setting, const lam_draw_params *draw)
 {
     const void *member = (const char *)draw + setting->offset;
@@ -627,11 +629,11 @@ static bool put_settings(struct scene_writer *w, json_t *root, const lam_picture
     return true;
 }
 
-// --- the calls
+// --- public functions
 
 static bool memory_or(struct scene_writer *w, bool ok) { return ok && (w->ok || fail_memory(w->error, 0)); }
 
-// The folder that the file will lie in, absolute.
+// Finds the absolute path of the file's folder.
 static bool find_folder(struct scene_writer *w, const char *path, char folder[PATH_MAX])
 {
     char given[PATH_MAX];

@@ -1,4 +1,4 @@
-// scene_write.h: the inside of writing scene files.
+// scene_write.h: internal functions for writing scene files.
 #ifndef SCENE_WRITE_H
 #define SCENE_WRITE_H
 
@@ -6,18 +6,18 @@
 
 struct scene_writer {
     const struct lam_scene *scene;
-    const char *path;   // of the file, for messages
-    const char *folder; // that it will lie in, absolute
-    bool ok;            // false: Jansson ran out of memory somewhere
+    const char *path;   // the path of the file, for messages
+    const char *folder; // the file's folder, absolute
+    bool ok;            // false: Jansson ran out of memory
     lam_error *error;
 };
 
-// Give `value` (NULL: it could not be made) away to an object or a list.
+// Move `value` (NULL if it could not be made) into an object or a list.
 void put(struct scene_writer *w, json_t *object, const char *key, json_t *value);
 void append(struct scene_writer *w, json_t *list, json_t *value);
 
-// JSON as people read it: a line for each key at the top, and for each element of a list of objects. Every number has
-// as many digits as it needs to be read back as the same bits.
+// Prints JSON for human readers: one line for each key at the top, and for each element of a list of objects. Every
+// number has as many digits as are needed to read back the same bits.
 bool scene_print(const json_t *root, lam_bytes *out, lam_error *error);
 
 #endif

@@ -1,9 +1,9 @@
-// formula.h: surfaces that are written as text, "x=…; y=…; z=…" over u and v or an expression of x, y and z that is
-// zero on the surface, and their derivatives. docs/shapes.md is the language.
+// formula.h: surfaces given by text, "x=…; y=…; z=…" over u and v or an expression of x, y and z that is zero on the
+// surface, and their derivatives. docs/shapes.md describes the language.
 //
-// A text becomes a list of operations (formula_graph.c). Equal ones are shared, constants are evaluated, and it also
-// contains the partial derivatives of the results, made by the rules of calculus. Evaluating the surface is one pass
-// over the list.
+// A text becomes a list of operations (formula_graph.c). Equal operations are shared, constants are evaluated, and the
+// list also contains the partial derivatives of the results, made by the rules of calculus. Evaluating the surface
+// takes one pass over the list.
 #ifndef FORMULA_H
 #define FORMULA_H
 
@@ -12,13 +12,13 @@
 #include <lambent/mesh.h>
 
 enum {
-    FORMULA_BYTES_MAX = 4096,  // of a text
-    FORMULA_DEPTH_MAX = 64,    // of parentheses, signs and powers within each other
+    FORMULA_BYTES_MAX = 4096,  // bytes of a text
+    FORMULA_DEPTH_MAX = 64,    // nesting of parentheses, signs and powers
     FORMULA_NODES_MAX = 16384, // operations, derivatives included
 };
 
-// NUMBER and the parameters have no operand. LESS: 1 if a < b, ½ if they are equal, otherwise 0. CHAIN: a · b, but 0
-// where b is 0: a term of a derivative, whose outer factor may be infinite where the inner function does not change.
+// NUMBER and the parameters have no operand. LESS: 1 if a < b, ½ if they are equal, otherwise 0. CHAIN: a · b, but 0 if
+// b is 0: a term of a derivative, whose outer factor may be infinite where the inner function is constant.
 enum formula_op {
     OP_NUMBER,
     OP_PARAMETER_0, // u or x
@@ -59,19 +59,19 @@ enum formula_op {
 struct formula_node {
     enum formula_op op;
     int a, b;     // operands: earlier nodes
-    double value; // of a NUMBER; while evaluating, of every node
+    double value; // the value of a NUMBER; during evaluation, of every node
 };
 
 struct formula_graph {
     struct formula_node *nodes; // FORMULA_NODES_MAX
     int *slots;                 // hash table of nodes
     int count;
-    bool full; // more nodes were asked for: results are meaningless
+    bool full; // too many nodes: results are meaningless
 };
 
 bool formula_graph_start(struct formula_graph *graph, struct arena *arena);
 
-// Returns the node of an operation, which may be a known one or a simpler one.
+// Return the node of an operation, which may be an existing node or a simpler one.
 int formula_number(struct formula_graph *graph, double value);
 int formula_unary(struct formula_graph *graph, enum formula_op op, int a);
 int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b);
@@ -80,34 +80,34 @@ int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b
 // derivatives[i] belongs to node i.
 void formula_differentiate(struct formula_graph *graph, int count, enum formula_op parameter, int *derivatives);
 
-// A surface. Not for several threads at once: its nodes store the values.
+// A surface. Only one thread at a time may use it, because its nodes store the values.
 struct formula {
     struct formula_node *nodes;
     int count;
-    bool implicit;  // the parameters are x, y and z; false: u and v
+    bool implicit;  // the parameters are x, y and z instead of u and v
     int outputs[9]; // x, y, z and their derivatives by u and by v; implicit: f and its derivatives by x, y and z
     int name_count; // the definitions
     struct formula_name {
-        const char *text; // in the formula's text
+        const char *text; // position in the formula's text
         size_t length;
         int node;
     } *names;
     struct formula_graph graph;
 };
 
-// Parses a text, which must stay. Errors: LAM_BAD_ARGUMENT with the column, LAM_LIMIT.
+// Parses a text, which must outlive the formula. Errors: LAM_BAD_ARGUMENT with the column, LAM_LIMIT.
 bool formula_parse(const char *text, bool implicit, struct arena *arena, struct formula *formula, lam_error *error);
 
-// Parses a range, "0..2pi", whose ends may use the names that the formula defines as constants. `name` is for errors.
+// Parses a range, "0..2pi", whose ends may use the constants that the formula defines. `name` is for errors.
 bool formula_range(struct formula *formula, const char *name, const char *text, double range[2], lam_error *error);
 
-// Makes the list of operations that evaluation goes through; after this, formula_range does not apply any more.
+// Makes the list of operations for evaluation; formula_range must not be called afterwards.
 bool formula_finish(struct formula *formula, struct arena *arena, lam_error *error);
 
-// A point of a parametric surface.
+// Evaluates a point of a parametric surface.
 void formula_evaluate(const struct formula *formula, double u, double v, lam_surface_point *out);
 
-// Of an implicit surface f and ∇f; `formula` is a struct formula.
+// Return f and ∇f of an implicit surface; `formula` is a struct formula.
 double formula_value(void *formula, lam_vec3 p);
 lam_vec3 formula_gradient(void *formula, lam_vec3 p);
 
@@ -115,11 +115,11 @@ lam_vec3 formula_gradient(void *formula, lam_vec3 p);
 struct call_control;
 bool tessellate_formula(const lam_formula *formula, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                         lam_error *error);
-// An implicit one.
+// Tessellates an implicit formula.
 bool tessellate_implicit_formula(const lam_formula *formula, struct arena *arena, struct call_control *call,
                                  lam_mesh *mesh, lam_error *error);
 
-// Exchanges the front and the back of a mesh that the caller has made.
+// Exchanges front and back of a mesh that the caller made.
 void formula_flip(lam_mesh *mesh);
 
 #endif

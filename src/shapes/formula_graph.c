@@ -1,4 +1,4 @@
-// formula_graph.c: the operations of a formula: shared, simplified, differentiated and evaluated.
+// formula_graph.c: the operations of a formula: sharing, simplification, differentiation and evaluation.
 #include "formula.h"
 
 #include "elementary.h"
@@ -18,14 +18,14 @@ bool formula_graph_start(struct formula_graph *graph, struct arena *arena)
     return true;
 }
 
-// √x and arc functions of an argument that rounding moved just past the edge of their domain use the edge's value.
+// For √x and arc functions, an argument that rounding moved just outside the domain is treated as the boundary.
 #define ROUNDING 1e-12
 
 static double square_root(double x) { return x >= 0 ? math_sqrt(x) : x > -ROUNDING ? 0 : __builtin_nan(""); }
 
 static double in_unit(double x) { return x > 1 && x < 1 + ROUNDING ? 1 : x < -1 && x > -1 - ROUNDING ? -1 : x; }
 
-// Sine and cosine lose their angle beyond 1e9, where linear.h has no answer.
+// Sine and cosine have no useful result beyond 1e9 (linear.h).
 static bool has_angle(double x) { return x > -1e9 && x < 1e9; }
 
 static double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : x; }
@@ -162,7 +162,7 @@ int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b
     return node_of(graph, op, a, b, 0);
 }
 
-// The rules, with a and b the operands, f the node itself, and da, db the operands' derivatives.
+// The rules, with the operands a and b, the node f itself, and the operands' derivatives da and db.
 static int rule(struct formula_graph *g, int f, int da, int db)
 {
     const struct formula_node n = g->nodes[f];
@@ -230,7 +230,7 @@ static int rule(struct formula_graph *g, int f, int da, int db)
         return CHAIN(DIV(NUMBER(1.0 / 3), MUL(f, f)), da);
     case OP_ABS:
         return CHAIN(UNARY(OP_SIGN, a), da);
-    default: // numbers; SIGN, FLOOR and LESS, whose steps have no derivative
+    default: // numbers; SIGN, FLOOR and LESS, which have steps but no derivative
         return NUMBER(0);
     }
 }
@@ -246,7 +246,7 @@ void formula_differentiate(struct formula_graph *graph, int count, enum formula_
     }
 }
 
-// Returns the values of the first `count` nodes.
+// Computes the values of the first `count` nodes.
 static const struct formula_node *evaluate(const struct formula *formula, int count, const double parameters[3])
 {
     struct formula_node *nodes = formula->nodes;
@@ -263,7 +263,7 @@ static const struct formula_node *evaluate(const struct formula *formula, int co
 double formula_value(void *user, lam_vec3 p)
 {
     const struct formula *formula = user;
-    int f = formula->outputs[0]; // no operation behind it is one of f's
+    int f = formula->outputs[0]; // f needs no later operation
     return evaluate(formula, f + 1, (double[]){p.x, p.y, p.z})[f].value;
 }
 

@@ -1,4 +1,4 @@
-// formula_implicit.c: makes a mesh of a formula f(x, y, z) = 0: finds the box around it, and marches through it.
+// formula_implicit.c: makes a mesh of a formula f(x, y, z) = 0: finds the box around it, and runs marching cubes.
 #include "formula.h"
 
 #include "fail.h"
@@ -12,23 +12,24 @@ enum {
     CELLS_MAX = 1024,
     SEARCH_CELLS = 64,
     SEARCH_POINTS = SEARCH_CELLS + 1,
-    CHECKED_OPERATIONS = 1 << 20, // between two looks at the limits of the call: a few milliseconds
+    CHECKED_OPERATIONS = 1 << 20, // between two checks of the call's limits: a few milliseconds
 };
 
-// Half the side of the cubes that are searched: books' examples lie in the first, and most closed surfaces in the second.
+// Half the sides of the cubes that are searched: textbook examples are in the first, and most closed surfaces in the
+// second.
 static const double search_sides[] = {4, 16};
 
 struct implicit {
     struct formula formula;
     struct call_control *call;
-    int value_cost, gradient_cost; // of one evaluation, in operations such as a sum
-    int operations;                // since the limits of the call were looked at
-    bool ended;                    // the call is over its limits: f is NaN from here, which is outside
+    int value_cost, gradient_cost; // cost of one evaluation, in operations such as a sum
+    int operations;                // since the last check of the call's limits
+    bool ended;                    // the call must end: f is NaN from now on, which means outside
     double from[3], to[3];
-    bool given[3]; // the range of an axis
+    bool given[3]; // whether the range of an axis was given
 };
 
-// The first `count` operations of a formula; a function takes as long as ten sums.
+// Returns the cost of the first `count` operations of a formula; a function takes as long as ten sums.
 static int cost_of(const struct formula *formula, int count)
 {
     int cost = 1;
@@ -106,8 +107,8 @@ static bool find_crossings(struct implicit *s, bool *inside, int first[3], int l
     return found;
 }
 
-// Sets the ranges that are not given: around the surface, with a cell of the coarse lattice to spare. Returns false if
-// it was not found, and the largest box that was searched is left.
+// Sets the ranges that were not given: around the surface, plus one cell of the coarse lattice. Returns false if the
+// surface was not found; the ranges are then the largest searched box.
 static bool fit_box(struct implicit *s, bool *inside)
 {
     enum { SEARCHES = sizeof search_sides / sizeof *search_sides };

@@ -1,15 +1,18 @@
-// formula_parse.c: the text of a formula, "a = 2; x = …; y = …; z = …" or "a = 2; x^2 + … - a", by recursive descent.
+// formula_parse.c: parses the text of a formula, "a = 2; x = …; y = …; z = …" or "a = 2; x^2 + … - a", by recursive
+// descent.
 //
-//   text      = [ statement ] { (";" | newline) [ statement ] }
-//   statement = name "=" sum | sum [ "=" sum ]               the latter once, last, and of an implicit surface alone
-//   sum       = product { ("+" | "-") product }
-//   product   = sign { ("*" | "/") sign }
-//   sign      = { "-" | "+" } factor
-//   factor    = number factor-without-a-number | power       2pi is 2·pi, and binds as a product does
-//   power     = primary [ "^" { "-" | "+" } power ]          from the right: 2^3^2 is 2^9, -2^2 is -4
-//   primary   = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
 //
-// After "/" and "^", where 1/2pi could be read in two ways, a number with a factor behind it is an error.
+//  text      = [ statement ] { (";" | newline) [ statement ] }
+//  statement = name "=" sum | sum [ "=" sum ]               the latter once, last, and only for an implicit surface
+//  sum       = product { ("+" | "-") product }
+//  product   = sign { ("*" | "/") sign }
+//  sign      = { "-" | "+" } factor
+//  factor    = number factor-without-a-number | power       2pi is 2·pi, with the precedence of a product
+//  power     = primary [ "^" { "-" | "+" } power ]          from the right: 2^3^2 is 2^9, -2^2 is -4
+//  primary   = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
+//
+//
+// After "/" and "^", a number with a factor after it is an error, because 1/2pi is ambiguous.
 #include "formula.h"
 
 #include "fail.h"
@@ -23,7 +26,7 @@
 
 struct parser {
     struct formula *formula;
-    const char *what; // for errors: "formula"
+    const char *what; // the noun in error messages: "formula"
     const char *text, *at, *end;
     int depth;
     lam_error *error;
@@ -31,8 +34,8 @@ struct parser {
 
 static const struct function {
     const char *name;
-    enum formula_op op; // NUMBER: built from others
-    int least, most;    // arguments
+    enum formula_op op; // NUMBER: composed of other operations
+    int least, most;    // number of arguments
 } functions[] = {
     {"sin", OP_SIN, 1, 1},   {"cos", OP_COS, 1, 1},     {"tan", OP_TAN, 1, 1},     {"asin", OP_ASIN, 1, 1},
     {"acos", OP_ACOS, 1, 1}, {"atan", OP_ATAN, 1, 1},   {"atan2", OP_ATAN2, 2, 2}, {"sinh", OP_SINH, 1, 1},
@@ -54,10 +57,10 @@ static bool is(const char *name, const char *at, size_t length)
     return strlen(name) == length && memcmp(name, at, length) == 0;
 }
 
-// Returns the names of the parameters, as they are in messages.
+// Returns the names of the parameters for messages.
 static const char *parameter_names(const struct formula *formula) { return formula->implicit ? "x, y, z" : "u, v"; }
 
-// Returns the number of the parameter with this name, or −1 if there is none.
+// Returns the index of the parameter with this name, or −1 if there is none.
 static int find_parameter(const struct formula *formula, const char *at, size_t length)
 {
     for (int i = 0; i < (formula->implicit ? 3 : 2); i++)
@@ -87,7 +90,7 @@ static size_t name_length(const char *at, const char *end)
     return length;
 }
 
-// Returns the text at a place, for messages: "'sin'", "the end".
+// Returns the text at a position for messages: "'sin'", "the end".
 static const char *found_at(const struct parser *p, const char *at, char out[SHOWN_NAME_SIZE + 2])
 {
     if (at >= p->end)
@@ -123,7 +126,7 @@ static void skip_blanks(struct parser *p)
         p->at++;
 }
 
-// Takes a character, or the typographic one that pasted formulas have in its place.
+// Accepts a character, or the typographic character that pasted formulas contain instead.
 static bool take(struct parser *p, char character)
 {
     static const struct {
@@ -146,7 +149,7 @@ static bool take(struct parser *p, char character)
     return false;
 }
 
-// "**", which some languages write for "^", is no product.
+// Accepts "**", which some languages use for "^"; it is not a product.
 static bool take_power(struct parser *p)
 {
     if (take(p, '^'))
@@ -187,7 +190,7 @@ static const struct formula_name *find_name(const struct formula *formula, const
     return NULL;
 }
 
-// --- expressions; each returns a node, −1 after an error
+// --- expressions; each function returns a node, or −1 after an error
 
 static int sum(struct parser *p);
 
@@ -405,7 +408,7 @@ static bool definition(struct parser *p)
     return !p->formula->graph.full || too_large(p->what, p->error);
 }
 
-// Returns whether a definition follows, and no expression. x = … is an equation: x is no name that can be defined.
+// Returns whether a definition follows instead of an expression. x = … is an equation, because x cannot be defined.
 static bool is_definition(const struct parser *p)
 {
     struct parser ahead = *p;
@@ -414,7 +417,7 @@ static bool is_definition(const struct parser *p)
     return length && find_parameter(p->formula, p->at, length) < 0 && take(&ahead, '=');
 }
 
-// The expression that is zero on an implicit surface, "x^2 + y^2 - 1", or the equation of it, "x^2 + y^2 = 1".
+// Parses the expression that is zero on an implicit surface, "x^2 + y^2 - 1", or an equation, "x^2 + y^2 = 1".
 static bool zero_of(struct parser *p)
 {
     int node = sum(p);

@@ -1,10 +1,10 @@
 // formula_surface.c: makes a mesh of a parametric formula: its resolution, seams and creases.
 //
-// Creases: along a line of the grid where the normals of the two sides differ, and along a line whose points coincide
-// (a pole within the domain), the domain is cut. Each piece has its own normals there, from its own side.
+// Creases: the domain is cut along grid lines where the normals of the two sides differ, and along lines whose points
+// coincide (a pole inside the domain). Each part of the domain then has its own normals there, from its own side.
 //
-// Seams: ends that meet with the same normal are closed (shapes_parametric.c). Pieces, and ends that meet otherwise,
-// such as a Möbius strip's, which meet upside down, share their vertices but not their normals.
+// Seams: ends that meet with equal normals are closed (shapes_parametric.c). Parts, and ends that meet in another way,
+// such as upside down on a Möbius strip, share their vertices but not their normals.
 #include "formula.h"
 
 #include "fail.h"
@@ -15,13 +15,13 @@
 #include <string.h>
 
 enum { SEGMENTS_MAX = 16384, LEAST_SEGMENTS = 16, MOST_CHOSEN = 512, PROBES = 17, PROBED_LINES = 65 };
-// The side from which a derivative at the end of a piece is looked at, as a fraction of the domain.
+// The distance from the end of a part at which a one-sided derivative is evaluated, as a fraction of the domain.
 #define ASIDE 1e-7
-// An edge may pass the surface's middle between its ends by this fraction of the size.
+// The largest distance of an edge's midpoint from the surface, as a fraction of the size.
 #define SAGITTA (1.0 / 4000)
-// Normals of the two sides of a line that differ by more than a degree make a crease.
+// If the normals of the two sides of a line differ by more than a degree, the line is a crease.
 #define CREASE_COSINE 0.99985
-// Points of a border closer than this fraction of the size are one.
+// Border points closer than this fraction of the size are merged.
 #define WELDED 2.5e-7
 
 struct surface {
@@ -29,7 +29,7 @@ struct surface {
     double from[2], to[2]; // the domain: u, v
     int segments[2];
     double size;
-    bool undefined; // some point was not finite: the first one
+    bool undefined; // a point was not finite; the first such point
     double undefined_at[2];
     int undefined_axis;
 };
@@ -59,8 +59,8 @@ static lam_surface_point evaluate(struct surface *s, double u, double v)
     return point;
 }
 
-// Returns a derivative at the end of a piece, where the formula's own may belong to the other side of a crease or not
-// exist.
+// Returns a derivative at the end of a part, where the formula's own derivative may belong to the other side of a
+// crease or not exist.
 static lam_vec3 one_sided(const struct surface *s, lam_vec3 own, lam_vec3 inner, int axis)
 {
     double unit = s->size / (s->to[axis] - s->from[axis]);
@@ -122,14 +122,14 @@ static bool fail_undefined(const struct surface *s, lam_error *error)
                 s -> from[1], s -> to[1]);
 }
 
-// Returns the point at step i of n along `axis`, and at line j of the probes across it.
+// Returns the point at step i of n along `axis`, on line j of the probes across it.
 static lam_surface_point probe(struct surface *s, int axis, double along, int j, int lines)
 {
     double across = step_of(s->from[!axis], s->to[!axis], j, lines - 1);
     return axis ? evaluate(s, across, along) : evaluate(s, along, across);
 }
 
-// Doubles the segments until no edge passes the surface by more than SAGITTA.
+// Doubles the segments until no edge deviates from the surface by more than SAGITTA.
 static int choose_segments(struct surface *s, int axis)
 {
     int n = LEAST_SEGMENTS;
@@ -151,7 +151,7 @@ static int choose_segments(struct surface *s, int axis)
     return n;
 }
 
-// The unit normal; zero where the derivatives do not determine it.
+// Returns the unit normal, or zero if the derivatives do not determine it.
 static lam_vec3 normal_at(const struct surface *s, const lam_surface_point *point)
 {
     double u_unit = s->size / (s->to[0] - s->from[0]), v_unit = s->size / (s->to[1] - s->from[1]);
@@ -202,7 +202,7 @@ static bool is_closed(struct surface *s, int axis)
     return true;
 }
 
-// The steps at which an axis is cut, its ends among them. Returns their number; 0: the call ended.
+// Lists the steps at which an axis is cut, including its ends. Returns their number, or 0 if the call must end.
 static int find_cuts(struct surface *s, int axis, int *cuts, struct call_control *call)
 {
     int count = 0;
@@ -217,10 +217,10 @@ static int find_cuts(struct surface *s, int axis, int *cuts, struct call_control
     return count;
 }
 
-// --- The mesh that the pieces make
+// --- The mesh of all parts
 
 struct border_point {
-    double along; // in a direction in which few points of a shape coincide
+    double along; // position along a direction in which few points of a shape coincide
     const float *p;
     uint32_t vertex;
 };
@@ -233,7 +233,7 @@ static int by_place(const void *one, const void *other)
     return a->vertex < b->vertex ? -1 : 1;
 }
 
-// Gives border vertices that coincide one number: same[vertex].
+// Gives coinciding border vertices a common index: same[vertex].
 static void weld(const lam_mesh *mesh, const uint8_t *border, struct border_point *points, double size, uint32_t *same)
 {
     size_t count = 0;
@@ -255,7 +255,7 @@ static void weld(const lam_mesh *mesh, const uint8_t *border, struct border_poin
             uint32_t a = same[points[i].vertex], b = same[points[k].vertex];
             same[points[i].vertex] = same[points[k].vertex] = a < b ? a : b;
         }
-    for (uint32_t i = 0; i < mesh->vertex_count; i++) // the lowest of all: a chain of equals leads there
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) // the lowest index of all: a chain of equal ones leads to it
         same[i] = same[same[i]];
 }
 
@@ -265,7 +265,7 @@ static lam_vec3 corner(const lam_mesh *mesh, size_t i)
     return v3((double)p[0], (double)p[1], (double)p[2]);
 }
 
-// Normals that no derivative determines become the mean of their triangles' normals.
+// Normals without a derivative become the mean of their triangles' normals.
 static void complete_normals(lam_mesh *mesh)
 {
     float *normals = (float *)(uintptr_t)mesh->normals;
@@ -311,7 +311,7 @@ void formula_flip(lam_mesh *mesh)
         tangents[4 * i + 3] = -1.0f;
 }
 
-// Welds the borders, leaves out triangles without area and vertices that nothing shows any more.
+// Welds the borders, and removes triangles without area and unused vertices.
 static bool join(lam_mesh *mesh, const uint8_t *border, double size, struct arena *scratch, lam_error *error)
 {
     uint32_t *same = arena_array(scratch, (size_t)mesh->vertex_count + 1, sizeof *same);
@@ -336,7 +336,7 @@ static bool join(lam_mesh *mesh, const uint8_t *border, double size, struct aren
     if (!kept)
         return fail(error, LAM_BAD_ARGUMENT,
                     "formula: x, y and z make a line or a point, expected a surface over u and v");
-    uint32_t *moved = same; // no more needed
+    uint32_t *moved = same; // no longer needed
     memset(moved, 0, mesh->vertex_count * sizeof *moved);
     for (size_t i = 0; i < 3 * (size_t)kept; i++)
         moved[indices[i]] = 1;
@@ -365,7 +365,7 @@ static void place_texture(const struct piece *pieces, const lam_parametric *surf
     }
 }
 
-// Divides the domain into pieces, and makes them.
+// Divides the domain into parts, and tessellates them.
 static bool make(struct surface *s, struct arena *arena, struct arena *scratch, struct call_control *call,
                  lam_mesh *mesh, lam_error *error)
 {

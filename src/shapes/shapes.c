@@ -1,7 +1,7 @@
 // shapes.c: the table of built-in shapes, and the public functions that tessellate surfaces.
 //
-// Every shape is built with radius 1, inscribed in the cube from (−1, −1, −1) to (1, 1, 1), and scaled at the end.
-// Round shapes have Y as their axis; their seam is at the back (−Z), so that a texture's middle faces the viewer.
+// Every shape is built with radius 1, inscribed in the cube from (−1, −1, −1) to (1, 1, 1), and scaled at the end. The
+// axis of round shapes is Y; their seam is at the back (−Z), so that the centre of a texture faces the viewer.
 #include "shapes.h"
 
 #include "fail.h"
@@ -54,7 +54,7 @@ static void sphere_point(void *user, double u, double v, lam_surface_point *out)
     struct circle_point latitude = circle(2 * v - n->stacks, 4 * n->stacks);
     double c = latitude.c, s = latitude.s;
     out->p = v3_add(v3_scale(outward, c), up(s));
-    out->dp_du = v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles: the direction of the limit
+    out->dp_du = v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles: the limit's direction
     out->dp_dv = v3_scale(v3_add(v3_scale(outward, -s), up(c)), PI / n->stacks);
 }
 
@@ -92,7 +92,7 @@ static void cone_side(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = v3_scale(v3_sub(up(2), outward), 1 / n->stacks);
 }
 
-// Discs. v runs from rim to centre on the top disc and from centre to rim on the bottom disc, so that ∂p/∂u × ∂p/∂v
+// Discs. v goes from rim to centre on the top disc and from centre to rim on the bottom disc, so that ∂p/∂u × ∂p/∂v
 // points outward.
 static void top_disc(void *user, double u, double v, lam_surface_point *out)
 {
@@ -184,7 +184,7 @@ static double gyroid_value(void *user, lam_vec3 p)
 {
     (void)user;
     double b = v3_length(p) - GYROID_REACH;
-    if (b > GYROID_RIM) // far outside: only the sign matters
+    if (b > GYROID_RIM) // far outside, only the sign matters
         return b;
     double g = gyroid_terms(p, NULL);
     double a = (g * g - GYROID_WALL * GYROID_WALL) * GYROID_SCALE;
@@ -238,7 +238,7 @@ static lam_vec3 balls_gradient(void *user, lam_vec3 p)
 
 // --- Builders
 
-// A surface of `n->slices` segments around and `stacks` along; u and v count segments.
+// Returns a surface of `n->slices` segments around and `stacks` along; u and v count segments.
 static lam_parametric round_surface(lam_surface_fn *surface, struct segments *n, int stacks)
 {
     return (lam_parametric){.surface = surface,
@@ -255,7 +255,7 @@ static bool build_round(const struct shape_request *request, lam_surface_fn *sur
 {
     slices = request->slices ? request->slices : slices;
     stacks = request->stacks ? request->stacks : stacks;
-    int min = v_closed ? 3 : 2; // fewer enclose no volume
+    int min = v_closed ? 3 : 2; // fewer segments enclose no volume
     if (stacks < min)
         return fail(request->error, LAM_BAD_ARGUMENT, "shape: stacks is %d, expected at least %d for this shape",
                     stacks, min);
@@ -411,7 +411,7 @@ static int add_mesh(struct lam_scene *scene, bool made, const lam_mesh *mesh, la
     return index;
 }
 
-// Between begin and end, allocations of the scene's arena are charged to the call.
+// Between begin and end, allocations from the scene's arena are charged to the call.
 static uint64_t begin(struct lam_scene *scene, struct call_control *call, const lam_control *control)
 {
     call_start(call, control);
@@ -428,7 +428,7 @@ static int end(struct lam_scene *scene, uint64_t state, int index)
 
 static void scale_mesh(lam_mesh *mesh, double radius)
 {
-    float *positions = (float *)(uintptr_t)mesh->positions; // the arena's, writable
+    float *positions = (float *)(uintptr_t)mesh->positions; // in the arena, so it is writable
     for (size_t i = 0; i < 3 * (size_t)mesh->vertex_count; i++)
         positions[i] = (float)((double)positions[i] * radius);
 }
@@ -532,7 +532,7 @@ int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const 
     return end(scene, state, add_mesh(scene, made, &mesh, error));
 }
 
-// Returns a copy in the scene's arena. Returns NULL if memory runs out.
+// Copies a formula to the scene's arena. Returns NULL if memory runs out.
 static const lam_formula *copy_formula(struct lam_scene *scene, const lam_formula *formula)
 {
     lam_formula *copy = arena_alloc_zeroed(&scene->arena, sizeof *copy);

@@ -7,15 +7,15 @@
 
 #include <lambent/mesh.h>
 
-// The vertices of a tessellated mesh, at most; more is LAM_LIMIT.
+// The most vertices of a tessellated mesh; more fail with LAM_LIMIT.
 enum { SHAPE_VERTICES_MAX = 1 << 28 };
 
 // Tessellates parametric surfaces into one mesh: positions, welded within each surface, and normals, tangents and
-// texture coordinates (0…1 over each domain) with indices of their own. shapes_parametric.c explains seams and poles.
+// texture coordinates (0…1 over each domain) with their own indices. shapes_parametric.c explains seams and poles.
 bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                            lam_mesh *mesh, lam_error *error);
 
-// The same, with a byte for each vertex, in `scratch`: 1 at a border of its surface.
+// Does the same, and writes a byte for each vertex to `scratch`: 1 at a border of its surface.
 bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                          lam_mesh *mesh, struct arena *scratch, uint8_t **border, lam_error *error);
 
@@ -23,14 +23,14 @@ bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena
 bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                          lam_error *error);
 
-// The point of the unit circle after `steps` of `around` steps per turn, from (1, 0) towards (0, 1). Quarter turns are
-// exact and mirrored steps give mirrored bits: round shapes are closed and symmetric to the last bit.
+// Returns the point of the unit circle after `steps` of `around` steps per turn, from (1, 0) towards (0, 1). Quarter
+// turns are exact and mirrored steps give mirrored bits, so round shapes are closed and symmetric to the last bit.
 struct circle_point {
     double c, s;
 };
 struct circle_point circle(double steps, double around);
 
-// Arguments of a built-in shape's builder, which makes a mesh of radius 1. Segments of 0: the shape's default.
+// Arguments of the function that builds a shape as a mesh of radius 1. Segments of 0: the shape's default.
 struct shape_request {
     int slices, stacks;
     struct arena *arena;

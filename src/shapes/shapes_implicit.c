@@ -1,16 +1,16 @@
 // shapes_implicit.c: tessellates implicit surfaces f(p) = 0 by marching cubes, with a table that is computed here.
 //
-// The box is divided into cells. A lattice point is inside if f < 0; 0 and NaN are outside. An edge of a cell whose
-// ends differ is crossed by the surface: it has one vertex, shared by all cells at the edge. Root finding along the
+// The box is divided into cells. A lattice point is inside if f < 0; 0 and NaN are outside. The surface crosses an edge
+// of a cell if its ends differ: the edge then has one vertex, shared by all cells at the edge. Root finding along the
 // edge puts the vertex on the surface up to rounding; its normal comes from ∇f.
 //
 // The table connects the vertices of a cell. Going around a face of the cell counter-clockwise, seen from outside the
 // cell, each run of inside corners begins after one crossed edge and ends before another. The surface intersects the
 // face in a line from the first of these edges to the second. A face with two opposite inside corners has two such
-// lines, each cutting off its corner: the rule depends on the face alone, so that both cells at it agree and the mesh
-// has no holes. A crossed edge begins a line in one of its two faces and ends one in the other: the lines form closed
-// loops, counter-clockwise seen from outside the surface. Loops are triangulated with diagonals that do not lie in a
-// face, where the neighbouring cell might have the same one; among these, the triangles that agree best with the
+// lines, each cutting off its corner. This rule depends only on the face, so both cells at it agree and the mesh has no
+// holes. A crossed edge starts a line in one of its two faces and ends one in the other, so the lines form closed
+// loops, counter-clockwise seen from outside the surface. Loops are triangulated with diagonals that are not in a face,
+// because the neighbouring cell might have the same diagonal. Among these, the triangles that agree best with the
 // normals at their corners are chosen.
 #include "shapes.h"
 
@@ -20,10 +20,10 @@
 
 #include <string.h>
 
-// Numbers of a cell's corners: x + 2y + 4z. Of its edges: 4·axis + a + 2b, a and b the other coordinates, in order.
+// Corner numbers of a cell: x + 2y + 4z. Edge numbers: 4·axis + a + 2b, with the other coordinates a and b in order.
 enum { CORNERS = 8, EDGES = 12, LOOPS_MAX = EDGES / 3 };
 
-// The loops of one of the 256 cases; their edges are concatenated.
+// The loops of one of the 256 cases, with their edges concatenated.
 struct cell_case {
     uint8_t loops;
     uint8_t counts[LOOPS_MAX];
@@ -41,7 +41,7 @@ static int edge_between(int a, int b)
     return 4 * axis + others;
 }
 
-// Corner k of a face, counter-clockwise seen from outside the cell. Face 2·axis + side.
+// Returns corner k of a face, counter-clockwise seen from outside the cell. The face number is 2·axis + side.
 static int face_corner(int face, int k)
 {
     int axis = face >> 1, side = face & 1;
@@ -51,7 +51,7 @@ static int face_corner(int face, int k)
     return side << axis | steps[turn][0] << u | steps[turn][1] << v;
 }
 
-// next[e]: the edge at which the surface's line from edge e ends. −1: the edge is not crossed.
+// Fills next[e]: the edge at which the surface's line from edge e ends, or −1 if the edge is not crossed.
 static void link_edges(int inside, int next[EDGES])
 {
     for (int e = 0; e < EDGES; e++)
@@ -69,7 +69,7 @@ static void link_edges(int inside, int next[EDGES])
         }
 }
 
-// Returns whether two edges share a face of the cell. An edge lies in the two faces given by its other coordinates.
+// Returns whether two edges share a face of the cell. An edge is in the two faces given by its other coordinates.
 static bool share_face(int a, int b)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -106,7 +106,7 @@ static void make_table(struct cell_case table[256])
     }
 }
 
-// --- The march
+// --- Marching
 
 #define NO_VERTEX UINT32_MAX
 
@@ -114,7 +114,7 @@ struct march {
     const lam_implicit *surface;
     int cells[3];
     double origin[3];
-    struct arena *scratch; // lists and planes
+    struct arena *scratch; // memory for lists and planes
     struct call_control *call;
     lam_error *error;
 
@@ -147,7 +147,7 @@ static lam_vec3 lattice(const struct march *m, int x, int y, int z)
 
 static bool is_inside(double value) { return value < 0; }
 
-// Returns the root of f between a (0) and b (1), by the Illinois method: regula falsi that halves the value at an end
+// Returns the root of f between a (0) and b (1) by the Illinois method: regula falsi that halves the value at an end
 // which is kept twice.
 static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa, double fb)
 {
@@ -155,7 +155,7 @@ static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa
     lam_vec3 edge = v3_sub(b, a);
     double low = 0, high = 1, before = -1;
     bool a_inside = is_inside(fa);
-    int replaced = 0; // the end replaced last: −1 low, 1 high
+    int replaced = 0; // the most recently replaced end: −1 low, 1 high
     for (int step = 0; step < 64; step++) {
         double t = low + (high - low) * (fa / (fa - fb));
         if (!(t > low && t < high) || !math_finite(t))
@@ -184,7 +184,7 @@ static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa
     return before;
 }
 
-// Returns the unit ∇f; if it is zero or not finite, central differences of f over a hundredth of a cell instead.
+// Returns the unit ∇f or, if it is zero or not finite, central differences of f over a hundredth of a cell.
 static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
 {
     const lam_implicit *s = m->surface;
@@ -221,7 +221,7 @@ static void to_float(const struct march *m, lam_vec3 p, float out[3])
     out[2] = (float)(p.z - m->origin[2] + 0.0);
 }
 
-// Adds a vertex at p; if p rounds to the lattice point `at`, that point's vertex, *corner, is shared.
+// Adds a vertex at p. If p rounds to the lattice point `at`, the vertex of that point, *corner, is shared.
 static bool add_vertex(struct march *m, lam_vec3 p, lam_vec3 at, uint32_t *corner, uint32_t *id)
 {
     float position[3], lattice_position[3];
@@ -323,7 +323,7 @@ static uint32_t edge_vertex(const struct march *m, int edge, size_t at, int belo
     }
 }
 
-// 1 − the smallest cosine between a triangle's normal and the normals at its corners: 0 equal, 2 opposite.
+// Returns 1 − the smallest cosine between a triangle's normal and the normals at its corners: 0 equal, 2 opposite.
 static double normal_deviation(const struct march *m, uint32_t a, uint32_t b, uint32_t c)
 {
     const float *p[3] = {m->positions + 3 * (size_t)a, m->positions + 3 * (size_t)b, m->positions + 3 * (size_t)c};

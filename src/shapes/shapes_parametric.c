@@ -7,12 +7,12 @@
 // only the texture coordinate differs.
 //
 // Poles: a row, or the first or last column, whose points coincide is one vertex. Degenerate triangles there are
-// skipped. Each remaining triangle has a corner of its own at the pole, with the texture coordinate, tangent and normal
-// at the middle of its cell. If these normals agree, the pole is smooth and all corners get their mean; else it is a
+// skipped. Each remaining triangle has its own corner at the pole, with the texture coordinate, tangent and normal of
+// the centre of its cell. If these normals agree, the pole is smooth and all corners get their mean; otherwise it is a
 // tip, as of a cone, and each corner keeps its normal.
 //
-// A derivative that vanishes does not determine the tangent plane. It is replaced by the derivative at a point a
-// ten-thousandth of the domain further inside, an approximation of the one-sided limit.
+// A zero derivative does not determine the tangent plane. It is replaced by the derivative at a point a ten-thousandth
+// of the domain further inside, which approximates the one-sided limit.
 #include "shapes.h"
 
 #include "fail.h"
@@ -23,9 +23,9 @@
 
 // Points closer than this fraction of the surface's size coincide; floats cannot represent the difference.
 #define COINCIDENT 1e-9
-// A derivative below this fraction of size per domain length is zero.
+// A derivative below this fraction of size per domain length counts as zero.
 #define VANISHED 1e-9
-// The distance of the one-sided limit from the boundary, as a fraction of the domain.
+// The distance from the boundary at which the one-sided limit is approximated, as a fraction of the domain.
 #define INSET 1e-4
 // A pole is smooth if the cosines of its normals with their mean are above this (0.08°).
 #define SMOOTH_POLE (1 - 1e-6)
@@ -38,13 +38,13 @@ struct tessellation {
     uint32_t *indices, *attributes;
     double origin[3];
     double size;           // longest side of the bounding box of a coarse sample
-    double u_unit, v_unit; // the typical length of a derivative
+    double u_unit, v_unit; // typical length of a derivative
     uint32_t vertex, attribute_base;
     size_t corner;
     bool first_column_pole, last_column_pole;
-    uint8_t *border; // for each vertex; NULL: nobody asks
+    uint8_t *border; // set for each vertex on the border; NULL if not requested
     lam_surface_point *row;
-    uint32_t *ids[3]; // vertices of the previous row, of this row and of the first
+    uint32_t *ids[3]; // vertices of the previous row, the current row and the first row
 };
 
 // Returns the parameter at step i of n from a to b. The ends are exact; mirrored steps of a symmetric domain give
@@ -58,7 +58,7 @@ static double parameter(double a, double b, int i, int n)
     return (a * (n - i) + b * i) / n;
 }
 
-// Returns the middle of cell i.
+// Returns the centre of cell i.
 static double middle(double a, double b, int i, int n) { return parameter(a, b, 2 * i + 1, 2 * n); }
 
 static lam_surface_point evaluate(const struct tessellation *t, double u, double v)
@@ -75,14 +75,14 @@ static bool coincide(const struct tessellation *t, lam_vec3 a, lam_vec3 b)
     return shorter(v3_sub(a, b), COINCIDENT * t->size);
 }
 
-// x, moved by INSET of the domain towards its middle.
+// Returns x, moved by INSET of the domain towards its centre.
 static double inside(double x, double low, double high)
 {
     double step = INSET * (high - low);
     return x > 0.5 * low + 0.5 * high ? x - step : x + step;
 }
 
-// The unit normal and tangent at a point. The normal is zero if no derivative determines it.
+// Computes the unit normal and tangent at a point. The normal is zero if no derivative determines it.
 static void frame_at(const struct tessellation *t, double u, double v, const lam_surface_point *point, lam_vec3 *normal,
                      lam_vec3 *tangent)
 {
@@ -187,7 +187,7 @@ static void smooth_pole(struct tessellation *t, int j)
     }
 }
 
-// Adds the attributes of row j; at a pole (`pole`), those at the middles of the cells.
+// Adds the attributes of row j; at a pole, the attributes of the centres of the cells.
 static void add_attributes(struct tessellation *t, int j, bool pole)
 {
     const lam_parametric *s = t->surface;
@@ -327,7 +327,7 @@ static bool check(const lam_parametric *s, lam_error *error)
     return true;
 }
 
-// The bounding box of a coarse sample of all surfaces, for tolerances and the origin.
+// Computes the bounding box of a coarse sample of all surfaces, for tolerances and the origin.
 static bool sample_box(const lam_parametric *surfaces, int count, double low[3], double high[3], lam_error *error)
 {
     enum { STEPS = 8 };

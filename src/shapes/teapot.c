@@ -1,16 +1,16 @@
 // teapot.c: the Utah teapot from its Bézier patches.
 //
 // Adjacent patches form one parametric surface. u goes around: 4 patches for body and lid, 2 for handle and spout. v
-// goes along: from the centre of the bottom over body and rim, from the lid's edge to its top, from the body outward.
-// All joints are smooth in the data and share positions and normals. As published, the pot is open: the lid lies in the
-// rim without touching it, and handle and spout end inside the body's wall.
+// goes along: from the centre of the bottom over body and rim, from the edge of the lid to its top, from the body
+// outward. All joints are smooth in the data and share positions and normals. As published, the pot is open: the lid
+// rests in the rim without touching it, and handle and spout end inside the body's wall.
 #include "shapes.h"
 
 #include "fail.h"
 #include "linear.h"
 #include "teapot_data.h"
 
-// Converts Newell's coordinates: Y up, centred, and scaled to a width of 2 from handle (−3) to spout (3.434075).
+// Converts Newell's coordinates to Y up, centred, with a width of 2 from handle (−3) to spout (3.434075).
 #define TEAPOT_MIDDLE_X   0.2170375625
 #define TEAPOT_MIDDLE_Z   1.575
 #define TEAPOT_HALF_WIDTH 3.2170375625
@@ -43,7 +43,7 @@ static void bernstein(double t, double b[4], double d[4])
     d[3] = 3 * t * t;
 }
 
-// Returns the patch of a parameter, and the parameter within it. A joint belongs to the next patch.
+// Returns the index of the patch for a parameter, and the parameter within it. A joint belongs to the next patch.
 static int patch_of(double x, int steps, int count, double *within)
 {
     int patch = (int)(x / steps);
@@ -75,7 +75,7 @@ static void patch_point(void *user, double u, double v, lam_surface_point *out)
     }
 }
 
-// Four quarters, from the back (+y) to the left, the front and the right: ∂p/∂u × ∂p/∂v points outward.
+// Makes four quarters, from the back (+y) to the left, the front and the right: ∂p/∂u × ∂p/∂v points outward.
 static void revolve(struct patches *patches, const struct teapot_ring (*bands)[4], int count)
 {
     static const double axes[5][2] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}, {0, 1}};
@@ -94,7 +94,7 @@ static void revolve(struct patches *patches, const struct teapot_ring (*bands)[4
             }
 }
 
-// Two halves: from a to b on the viewer's side (−y), and back on the other.
+// Makes two halves: from a to b on the viewer's side (−y), and back on the other side.
 static void mirror(struct patches *patches, const struct teapot_section (*bands)[4], int count)
 {
     patches->bands = count;
@@ -128,7 +128,7 @@ bool teapot_build(const struct shape_request *request, lam_mesh *mesh)
     for (int i = 0; i < 4; i++) {
         struct patches *part = &parts[i];
         part->u_steps = (slices + 3) / 4;
-        // A half of handle or spout with one segment would be flat, and both halves the same sheet seen from its sides.
+        // With one segment, half of the handle or spout would be flat, and both halves would coincide.
         if (part->around == 2 && part->u_steps < 2)
             part->u_steps = 2;
         part->v_steps = request->stacks ? request->stacks : 32;

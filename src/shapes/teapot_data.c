@@ -2,15 +2,15 @@
 // patches.
 //
 // The published list has 306 points, most of them rotated or mirrored copies: body, rim, lid and bottom are four
-// quarters around the vertical axis, handle and spout two mirrored halves. This file lists each once, with the
-// published numbers: z is up, the spout points along +x, the pot touches z = 0. The bottom's four patches were added to
-// Newell's 28 later.
+// quarters around the vertical axis, handle and spout are two mirrored halves. This file lists each point once, with
+// the published numbers: z is up, the spout points along +x, the pot touches z = 0. The bottom's four patches were
+// added to Newell's 28 later.
 #include "teapot_data.h"
 
 // A quarter around the axis from direction a to direction b has the control points ra, ra + kb, ka + rb, rb. k is 0.56
 // r, close to a circle's 0.5523 r; for the lid's knob, with r = 0.8, Newell chose 0.45.
 const struct teapot_ring teapot_body[4][4] = {
-    // bottom, from its middle
+    // bottom, from its centre
     {{0, 0, 0}, {1.425, 0.798, 0}, {1.5, 0.84, 0.075}, {1.5, 0.84, 0.15}},
     // lower body
     {{1.5, 0.84, 0.15}, {1.5, 0.84, 0.225}, {2, 1.12, 0.45}, {2, 1.12, 0.9}},

@@ -1,12 +1,13 @@
-// mipmaps.c: the levels of a texture: each texel is the average of the area that it covers in the level above.
+// mipmaps.c: makes the levels of a texture: each texel is the average of the area that it covers in the previous level.
 //
-// A side of n texels becomes n/2, rounded down. If n is even, a texel covers two; if it is odd, n/(n/2), more than two,
-// and texels at its ends count by their covered share. Rows and columns are averaged together, in a fixed order.
+// A side of n texels becomes n/2, rounded down. If n is even, a texel covers two texels; if it is odd, it covers
+// n/(n/2), slightly more than two, and the texels at its ends are weighted by their covered share. Rows and columns are
+// averaged together, in a fixed order.
 #include "texture_levels.h"
 
 #include <stddef.h>
 
-// The texels of a side that a texel of the next level covers, and their weights, which sum to 1.
+// The texels along one side that a texel of the next level covers, and their weights, which sum to 1.
 struct cover {
     int first, count;
     float weight[4];
@@ -23,10 +24,10 @@ static struct cover cover_of(int from, int to, int i)
     return cover;
 }
 
-// The fourth number of three belongs to the next texel, which is stored later.
+// With three channels, the fourth number overwrites the next texel, which is stored later.
 static void store_texel(float *out, texel t) { *(texel_memory *)out = t; }
 
-// Level 1 of bytes, number by number. `channels` is a constant where this is inlined.
+// Makes level 1 from bytes. `channels` is a constant after inlining.
 static inline __attribute__((always_inline)) void halve_bytes(const struct lam_texture *texture, int channels)
 {
     const struct texture_level *to = &texture->levels[1];

@@ -1,4 +1,4 @@
-// texture.c: textures from pictures: decoded numbers, levels, references.
+// texture.c: makes textures from pictures: decoding, levels, reference counts.
 #include "codec.h"
 #include "fail.h"
 #include "float_state.h"
@@ -22,10 +22,10 @@ static int levels_of(int width, int height)
 
 static int side_of(int side, int level) { return side >> level ? side >> level : 1; }
 
-// Levels of as many bytes lie in pages of their own: huge ones, which are touched faster.
+// Levels of this size or more get pages of their own, which are huge pages and faster to touch.
 #define PAGES_FROM ((size_t)2 << 20)
 
-// Allocates a texture of this size, with its levels except for level 0 of bytes. Fails with LAM_LIMIT.
+// Allocates a texture of this size with all its levels, except a level 0 of bytes. Fails with LAM_LIMIT.
 static struct lam_texture *allocate(const lam_image *image, int channels, const char *name, struct call_control *call,
                                     lam_error *error)
 {
@@ -88,7 +88,7 @@ void lam_texture_free(lam_texture *texture)
 
 static size_t pixels_of(const lam_image *image) { return (size_t)image->width * (size_t)image->height; }
 
-// Takes the alphas out of a picture of bytes where all are 255, and a quarter of its memory.
+// Removes the alphas from a picture of bytes if all are 255, which saves a quarter of its memory.
 static void drop_opaque_alpha(lam_image *image, struct call_control *call)
 {
     uint8_t *bytes = image->pixels;
@@ -107,7 +107,7 @@ static void drop_opaque_alpha(lam_image *image, struct call_control *call)
         call_refund(call, count);
 }
 
-// Returns the numbers that a texel of a picture needs; 0: one of them is not finite.
+// Returns the number of channels that a picture's texels need, or 0 if a number is not finite.
 static int count_channels(const lam_image *image, const char *name, lam_error *error)
 {
     const float *pixel = image->pixels;
@@ -177,9 +177,9 @@ struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values
     return texture;
 }
 
-// --- pictures of files
+// --- pictures from files
 
-// The sRGB-encoded 16-bit numbers of a picture, to linear ones.
+// Decodes the sRGB-encoded 16-bit numbers of a picture to linear ones.
 static bool decode_wide(lam_image *image, lam_error *error)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
@@ -222,7 +222,7 @@ struct lam_texture *texture_decode(const void *bytes, size_t size, const char *n
     return texture;
 }
 
-// --- the public calls
+// --- public functions
 
 static bool check_values(lam_texture_values values, lam_error *error)
 {

@@ -1,4 +1,4 @@
-// texture_levels.h: the inside of lam_texture: a pyramid of levels.
+// texture_levels.h: the internal structure of lam_texture: a pyramid of levels.
 #ifndef TEXTURE_LEVELS_H
 #define TEXTURE_LEVELS_H
 
@@ -24,23 +24,24 @@ struct lam_texture {
     int references; // accessed atomically
     int level_count;
     lam_texture_values values;
-    // Numbers of a texel: 3 if every alpha is 1. A number at least can be read behind the last texel of floats.
+    // Channels per texel: 3 if every alpha is 1. One number after the last texel of floats can be read.
     int channels;
     // No texel has an alpha below 1.
     bool opaque;
-    // The smallest and the largest byte of level 0 for each channel (texture_range.c); 0: not looked for. Accessed atomically.
+    // The smallest and the largest byte of level 0 for each channel (texture_range.c); 0 if not computed yet. Accessed
+    // atomically.
     uint64_t ranges;
-    const char *name; // NULL: none
-    // Of level 0, where the picture has 8 bits.
+    const char *name; // may be NULL
+    // Level 0 of an 8-bit picture.
     const uint8_t *bytes;
-    const float *decode; // 256 values of a byte of red, green and blue; alpha is byte ÷ 255
+    const float *decode; // the 256 values of a byte of red, green and blue; alpha is byte ÷ 255
     struct texture_level levels[TEXTURE_LEVELS_MAX];
     void *storage;
-    float *pages; // of large levels; NULL: they lie behind this structure
-    size_t held;  // of those pages
+    float *pages; // the large levels; NULL means all levels follow this struct
+    size_t held;  // bytes of those pages
 };
 
-// Texels of `channels` numbers: four channels.
+// Expands texels of `channels` numbers to four channels.
 static inline texel texel_of_floats(const float *at, int channels)
 {
     texel t = *(const texel_memory *)at;
@@ -54,7 +55,7 @@ static inline texel texel_of_bytes(const uint8_t *at, const float *decode, int c
     return (texel){decode[at[0]], decode[at[1]], decode[at[2]], channels == 3 ? 1 : decode[256 + at[3]]};
 }
 
-// A texel; x and y are inside.
+// Returns a texel; x and y must be inside the level.
 static inline texel texel_at(const struct lam_texture *texture, int level, int x, int y)
 {
     const struct texture_level *l = &texture->levels[level];
@@ -63,20 +64,20 @@ static inline texel texel_at(const struct lam_texture *texture, int level, int x
                      : texel_of_bytes(texture->bytes + at, texture->decode, texture->channels);
 }
 
-// Makes a texture of a decoded picture (LAM_RGB8, LAM_RGBA8, or LAM_RGBA32F with linear numbers, not premultiplied),
-// and takes over its pixels if they are bytes. Its memory is charged to `call`, which may be NULL. Fails with
-// LAM_LIMIT, LAM_BAD_ARGUMENT; the picture is freed in any case.
+// Makes a texture from a decoded picture (LAM_RGB8, LAM_RGBA8, or LAM_RGBA32F with linear numbers, not premultiplied),
+// and takes over its pixels if they are bytes. Its memory is charged to `call`, which may be NULL. Fails with LAM_LIMIT
+// or LAM_BAD_ARGUMENT; the picture is freed in any case.
 struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values, const char *name,
                                      struct call_control *call, lam_error *error);
 
-// The same from the bytes of a picture's file. `color` LAM_COLOR_RAW: colours are taken as they are.
+// Makes a texture from the bytes of a picture's file. `color` LAM_COLOR_RAW: colours are used without conversion.
 struct lam_texture *texture_decode(const void *bytes, size_t size, const char *name, lam_texture_values values,
                                    struct call_control *call, lam_error *error);
 
 // Adds a reference.
 struct lam_texture *texture_share(const struct lam_texture *texture);
 
-// Fills levels 1 … level_count − 1 from level 0. Their sizes and memory are set.
+// Fills levels 1 … level_count − 1 from level 0. Their sizes and memory are already set.
 void mipmaps_make(struct lam_texture *texture);
 
 #endif

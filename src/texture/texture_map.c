@@ -1,4 +1,4 @@
-// texture_map.c: checks of maps, and functions that two of them share.
+// texture_map.c: checks maps, and compares them.
 #include "texture_map.h"
 
 #include "fail.h"

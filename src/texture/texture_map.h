@@ -1,4 +1,4 @@
-// texture_map.h: how a material reads a texture: checks, and values at many points.
+// texture_map.h: lookups of a material in its textures: checks, and values at many points.
 #ifndef TEXTURE_MAP_H
 #define TEXTURE_MAP_H
 
@@ -7,7 +7,7 @@
 // Returns whether a map can be used. `name` begins the sentence.
 bool texture_map_check(const lam_texture_map *map, const char *name, lam_error *error);
 
-// Returns whether two maps have the same texels everywhere: they may differ in channel, scale and offset.
+// Returns whether two maps have the same texel everywhere: they may differ in channel, scale and offset.
 bool texture_map_same(const lam_texture_map *a, const lam_texture_map *b);
 
 // Returns whether some texel's alpha is below 1.
@@ -16,40 +16,40 @@ static inline bool texture_map_translucent(const lam_texture_map *map)
     return map && map->texture && !map->texture->opaque;
 }
 
-// Bounds of a map's numbers, as its channel, scale and offset give them, but for rounding; −1e30 and 1e30 where the texture was
-// not made of bytes. Found once for a texture, by any number of threads.
+// Gets bounds of a map's numbers after channel, scale and offset, not exact because of rounding; −1e30 and 1e30 if the
+// texture was not made from bytes. They are computed once per texture, by any thread.
 void texture_map_range(const lam_texture_map *map, float out[2]);
 
-// `count` points: texture coordinates of the mesh, and their derivatives by the pixel's x and y.
+// `count` points: their texture coordinates in the mesh, and the derivatives by the pixel's x and y.
 struct texture_points {
     const float *s, *t, *ds_dx, *dt_dx, *ds_dy, *dt_dy;
 };
 
-// The texels that points read (texture_taps.h): four of a level, and four of the next where its share is not 0.
-enum { TAPS_ROW = 528 }; // points at a time, at most
+// The texels that points use (texture_taps.h): four of a level, and four of the next if its share is not 0.
+enum { TAPS_ROW = 528 }; // most points at a time
 
 struct texture_taps {
     int32_t level[TAPS_ROW];
-    float next[TAPS_ROW]; // the share of the next level
+    float next[TAPS_ROW]; // the weight of the next level
     struct tap_rows {
-        // The first texel of the four counted from the level's, and the steps to the right and down from there.
+        // The index of the first of the four texels in its level, and the steps to its right and lower neighbours.
         int32_t first[TAPS_ROW], across[TAPS_ROW], down[TAPS_ROW];
-        float right[TAPS_ROW], lower[TAPS_ROW]; // shares
+        float right[TAPS_ROW], lower[TAPS_ROW]; // weights of the right and lower texels
     } at[2];
 };
 
-// Returns whether two maps read the same places of pictures of the same size.
+// Returns whether two maps use the same positions in pictures of the same size.
 bool texture_map_same_taps(const lam_texture_map *a, const lam_texture_map *b);
 
-// The texels of points, filtered, to four rows: the map's numbers before scale and offset.
+// Fetches the filtered texels of points into four rows: the map's numbers before scale and offset.
 void texture_fetch(const struct lam_texture *texture, const struct texture_taps *taps, int count, float *const out[4]);
 
-// The same for points whose footprints are filtered with up to `anisotropy` > 1 probes along the longer axis. `level` gets
-// the level of detail of each point.
+// Does the same for points whose footprints are filtered with up to `anisotropy` > 1 probes along the longer axis.
+// `level` receives the level of detail of each point.
 void texture_map_anisotropic(const lam_texture_map *map, const struct texture_points *points, int count, int anisotropy,
                              float *const out[4], float *level);
 
-// Returns the texel of a map at a point, at level 0 alone.
+// Returns the texel of a map at a point, using only level 0.
 texel texture_map_base(const lam_texture_map *map, float s, float t);
 
 #endif

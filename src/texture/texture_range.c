@@ -1,7 +1,7 @@
-// texture_range.c: bounds of the numbers of a texture.
+// texture_range.c: computes bounds of the numbers of a texture.
 #include "texture_map.h"
 
-// Texels at a time: their bytes fill registers, whether a texel has three numbers or four.
+// Texels at a time: their bytes fill whole registers with three or four channels.
 enum { TOGETHER = 16, CHANNELS = 4 };
 
 struct byte_ranges {

@@ -1,7 +1,7 @@
-// texture_sample.c: the texels of points, filtered (docs/textures.md).
+// texture_sample.c: fetches and filters the texels of points (docs/textures.md).
 //
-// Which texels a point reads is found LANES points at a time (texture_taps.h). Here they are fetched and mixed, four channels at
-// a time, by plain C, which every instruction set calls.
+// texture_taps.h finds the texels of LANES points at a time. This file fetches and mixes them, four channels at a time,
+// in plain C that every instruction set calls.
 #define LANES 1
 #include "texture_taps.h"
 
@@ -18,8 +18,8 @@ static texel mix_four(const texel four[4], float right, float lower)
     return mix(mix(four[0], four[1], right), mix(four[2], four[3], right), lower);
 }
 
-// Returns a level's texels at a tap, mixed. `channels` is a constant where this is inlined; with 3 the fourth is any
-// number.
+// Returns the mix of a level's texels at a tap. `channels` is a constant after inlining; with 3 the fourth number is
+// arbitrary.
 static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_texture *texture, int channels, int level,
                                                              int32_t first, int32_t across, int32_t down, float right,
                                                              float lower)
@@ -40,7 +40,7 @@ static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_te
         right, lower);
 }
 
-// Asks for the upper and the lower texels of a point some points ahead: pictures are larger than the processor's caches.
+// Prefetches the texels of a later point, since pictures are larger than the processor's caches.
 static inline __attribute__((always_inline)) void prefetch_tap(const struct lam_texture *texture, int channels,
                                                                int level, int32_t first, int32_t down)
 {
@@ -92,7 +92,7 @@ static texel fetch_one(const struct lam_texture *texture, int level, const struc
     return fetch_tap(texture, texture->channels, level, tap->first, tap->across, tap->down, tap->right, tap->lower);
 }
 
-// Returns a picture's place at a level of detail.
+// Returns the filtered texel at a level of detail.
 static texel at_level(const lam_texture_map *map, float s, float t, float detail)
 {
     struct taps_lanes taps = taps_of(map, s, t, detail);
@@ -104,7 +104,7 @@ static texel at_level(const lam_texture_map *map, float s, float t, float detail
     return value;
 }
 
-// Returns the mean of several probes along the longer axis of a footprint that is minified (convention 22).
+// Returns the mean of several probes along the longer axis of a minified footprint (convention 22).
 static texel along_axis(const lam_texture_map *map, const struct texture_matrix *matrix,
                         const struct texture_points *points, int i, const struct footprints *f, int most, float *level)
 {

@@ -1,18 +1,18 @@
-// texture_taps.h: which texels of a texture a point reads, and their weights, for LANES points at a time (docs/textures.md).
-// Include with LANES defined, as lanes.h.
+// texture_taps.h: finds the texels that a point uses, and their weights, for LANES points at a time (docs/textures.md).
+// Define LANES before including it.
 //
-// Everything is read as four texels of a level and four of the next, mixed by three shares. Fewer texels are the same ones
-// with shares of 0, which change no bit.
+// Every lookup uses four texels of a level and four of the next, mixed with three weights. Lookups of fewer texels use
+// weights of 0, which do not change any bit.
 #ifndef TEXTURE_TAPS_H
 #define TEXTURE_TAPS_H
 
 #include "functions.h"
 #include "texture_map.h"
 
-// Coordinates as large have no fraction left. They count as 0, as NaN does.
+// Larger coordinates have no fraction. They count as 0, like NaN.
 #define COORDINATE_MAX 2.0e9f
 
-// Four texels of a level, as rows of texture_taps have them.
+// Four texels of a level, in the form of the rows of texture_taps.
 struct tap_lanes {
     inum first, across, down;
     num right, lower;
@@ -24,9 +24,9 @@ struct taps_lanes {
     struct tap_lanes at[2];
 };
 
-// --- the place
+// --- position
 
-// Coordinates as places in the picture, 0…1.
+// Wraps coordinates to 0…1.
 LANE_FN num wrapped_of(num s, lam_wrap wrap)
 {
     if (wrap == LAM_WRAP_CLAMP)
@@ -37,7 +37,7 @@ LANE_FN num wrapped_of(num s, lam_wrap wrap)
     return wrap == LAM_WRAP_MIRROR ? pick((whole & 1) == 1, 1.0f - part, part) : part;
 }
 
-// Two neighbours on a side of `size` texels: the first, the step from it to the second, and the second's share.
+// Two neighbours along a side of `size` texels: the first, the step from it to the second, and the second's weight.
 struct neighbours {
     inum first, step;
     num share;
@@ -59,7 +59,7 @@ LANE_FN struct neighbours nearest_neighbours(num s, inum size)
     return (struct neighbours){imin_of(int_of(s * num_of_int(size)), size - 1), inum_of(0), num_of(0.0f)};
 }
 
-// `nearest`: if one texel is enough.
+// `nearest` has the lanes that need only one texel.
 LANE_FN struct tap_lanes tap_of(const lam_texture_map *map, num s, num t, inum width, inum height, mask nearest)
 {
     struct neighbours x = linear_neighbours(s, width, map->wrap_s), y = linear_neighbours(t, height, map->wrap_t);
@@ -76,17 +76,17 @@ LANE_FN struct tap_lanes tap_of(const lam_texture_map *map, num s, num t, inum w
                               y.share};
 }
 
-// --- the level
+// --- level of detail
 
-// Returns a side at levels that it has: of `side` texels at level 0, halved and rounded down, at least 1. Exact: it has
-// at most 15 bits.
+// Returns the side length at given levels: `side` texels at level 0, halved and rounded down, at least 1. It is exact,
+// because side lengths have at most 15 bits.
 LANE_FN inum side_at(int side, inum level)
 {
     return imax_of(floor_of((float)side * num_of_bits(shift_left(127 - level, 23))), inum_of(1));
 }
 
-// Returns the texels and weights to read at texture coordinates (after the map's transform) and levels of detail
-// (OpenGL 4.6, section 8.14).
+// Returns the texels and weights for texture coordinates (after the map's transform) and levels of detail (OpenGL 4.6,
+// section 8.14).
 LANE_FN struct taps_lanes taps_of(const lam_texture_map *map, num s, num t, num detail)
 {
     const struct texture_level *base = &map->texture->levels[0];
@@ -119,7 +119,7 @@ struct texture_matrix {
     float m[2][3];
 };
 
-// From the mesh's texture coordinates to the picture's.
+// Returns the transform from the mesh's texture coordinates to the picture's.
 static inline struct texture_matrix texture_matrix_of(const lam_texture_map *map)
 {
     struct texture_matrix matrix = {{{1, 0, 0}, {0, 1, 0}}};
@@ -133,8 +133,8 @@ static inline struct texture_matrix texture_matrix_of(const lam_texture_map *map
 
 LANE_FN num row_of(const float m[3], num s, num t) { return m[0] * s + m[1] * t; }
 
-// Places of the picture, the footprints of their pixels in texels of level 0 (squares of the two lengths), and the level of
-// detail. Footprints of no size, and of none that is known, are magnified.
+// Positions in the picture, the footprints of their pixels in texels of level 0 (squares of the two lengths), and the
+// level of detail. Footprints of zero or unknown size are magnified.
 struct footprints {
     num s, t, longer, shorter, detail;
 };
@@ -151,7 +151,7 @@ LANE_FN struct footprints footprints_of(const lam_texture_map *map, const struct
     num ys = row_of(m[0], ds_dy, dt_dy) * width, yt = row_of(m[1], ds_dy, dt_dy) * height;
     num x_square = xs * xs + xt * xt, y_square = ys * ys + yt * yt;
     num longer = max_of(x_square, y_square);
-    // The root is in the logarithm: log2 √longer.
+    // The square root is part of the logarithm: log2 √longer.
     num detail = pick(longer > 1.0e-30f, 0.5f * log2_of(min_of(longer, num_of(1.0e30f))), num_of(-50.0f));
     return (struct footprints){row_of(m[0], s, t) + m[0][2], row_of(m[1], s, t) + m[1][2], longer,
                                min_of(x_square, y_square), detail};
@@ -166,7 +166,7 @@ LANE_FN void store_tap(struct tap_rows *rows, int i, struct tap_lanes tap)
     num_store(rows->lower + i, tap.lower);
 }
 
-// Fills the rows for `count` points, a multiple of LANES. `level` gets the level of detail of each.
+// Fills the rows for `count` points, a multiple of LANES. `level` receives the level of detail of each point.
 LANE_FN void find_taps(const lam_texture_map *map, const struct texture_points *points, int count,
                        struct texture_taps *taps, float *level)
 {

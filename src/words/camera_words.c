@@ -1,4 +1,4 @@
-// camera_words.c: cameras as people write them, and the named sides of a scene.
+// camera_words.c: parses cameras, and lists the named sides of a scene.
 #include <lambent/camera.h>
 
 #include <string.h>
@@ -50,12 +50,12 @@ static const char *const keys[] = {"eye", "target", "up", "fovy", "ortho", "near
 
 const char *lam_camera_key(int index) { return index >= 0 && index < KEY_COUNT ? keys[index] : NULL; }
 
-struct reading {
-    lam_camera camera; // with fovy in degrees
+struct parser {
+    lam_camera camera; // fovy is in degrees here
     bool seen[KEY_COUNT];
 };
 
-static bool read_pair(char *pair, struct reading *reading, lam_error *error)
+static bool read_pair(char *pair, struct parser *parser, lam_error *error)
 {
     char *value = strchr(pair, '=');
     if (!value)
@@ -64,10 +64,10 @@ static bool read_pair(char *pair, struct reading *reading, lam_error *error)
     int key = word_key(pair, keys, error);
     if (key < 0)
         return false;
-    if (reading->seen[key])
+    if (parser->seen[key])
         return fail(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
-    reading->seen[key] = true;
-    lam_camera *camera = &reading->camera;
+    parser->seen[key] = true;
+    lam_camera *camera = &parser->camera;
     lam_vec3 *vector[KEY_COUNT] = {[EYE] = &camera->eye, [TARGET] = &camera->target, [UP] = &camera->up};
     double *number[KEY_COUNT] = {[FOVY] = &camera->fovy_rad,
                                  [ORTHO] = &camera->ortho_half_height,
@@ -85,10 +85,10 @@ static bool read_pair(char *pair, struct reading *reading, lam_error *error)
     return true;
 }
 
-static bool check(const struct reading *reading, lam_error *error)
+static bool check(const struct parser *parser, lam_error *error)
 {
-    const lam_camera *camera = &reading->camera;
-    const bool *seen = reading->seen;
+    const lam_camera *camera = &parser->camera;
+    const bool *seen = parser->seen;
     if (!seen[EYE])
         return fail(error, LAM_BAD_ARGUMENT, "'eye' is missing, expected eye=x/y/z");
     if (seen[FOVY] && seen[ORTHO])
@@ -114,24 +114,24 @@ static bool check(const struct reading *reading, lam_error *error)
 
 bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error)
 {
-    struct reading reading = {.camera = lam_camera_default()};
-    reading.camera.fovy_rad = 30;
+    struct parser parser = {.camera = lam_camera_default()};
+    parser.camera.fovy_rad = 30;
     char copy[WORDS_MAX];
     if (!text || !camera)
         return fail(error, LAM_BAD_ARGUMENT, "lam_camera_parse: %s is NULL", text ? "camera" : "text");
     if (!word_copy(text, copy, error))
         return false;
     for (char *rest = copy, *pair; (pair = strsep(&rest, ",")) != NULL;)
-        if (!read_pair(pair, &reading, error))
+        if (!read_pair(pair, &parser, error))
             return false;
-    if (!check(&reading, error))
+    if (!check(&parser, error))
         return false;
-    *camera = reading.camera;
+    *camera = parser.camera;
     camera->fovy_rad = math_radians(camera->fovy_rad);
     lam_vec3 low, high;
-    if (!reading.seen[TARGET] && scene && lam_scene_bounds(scene, &low, &high))
+    if (!parser.seen[TARGET] && scene && lam_scene_bounds(scene, &low, &high))
         camera->target = v3((low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2);
-    if (!reading.seen[UP] && scene)
+    if (!parser.seen[UP] && scene)
         camera->up = from_y_up(lam_scene_up(scene), v3(0, 1, 0));
     return true;
 }

@@ -1,4 +1,4 @@
-// light_words.c: lights as people write them.
+// light_words.c: parses lights.
 #include <lambent/words.h>
 
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "up_axis.h"
 #include "word_values.h"
 
-// Keys: the fields by their index in the table of lam_light_field (the first row of a key), then these.
+// Key numbers: the fields by their index in the table of lam_light_field (the first row of a key), then these.
 enum { TARGET = LAM_FIELDS_MAX, COLOR, INTENSITY, FRAME, NAME, KEYS };
 _Static_assert((int)KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
@@ -27,19 +27,19 @@ static const struct {
     [NAME - LAM_FIELDS_MAX] = {"name", ~0u},
 };
 
-// The keys read so far.
-struct reading {
+// The values of the keys read so far.
+struct parser {
     lam_light light;
     lam_vec3 target;
     bool has_position, has_direction, has_target;
     bool position_in_radii, target_in_radii, linear_in_radii, quadratic_in_radii, range_in_radii, size_in_radii;
     lam_color_mode mode;
-    uint64_t seen; // BIT(key)
+    uint64_t seen; // bits BIT(key)
     double numbers[KEYS][4];
-    double w; // the position's fourth number
+    double w; // the fourth number of the position
 };
 
-// Returns the index of the first row of a key, or −1 if it is no field's.
+// Returns the index of the first row of a key, or −1 if it is not a field.
 static int field_index(const char *key)
 {
     for (int i = 0; lam_light_field(i); i++)
@@ -62,7 +62,7 @@ static bool is_of_type(int key, lam_light_type type)
     if (key >= LAM_FIELDS_MAX)
         return other_keys[key - LAM_FIELDS_MAX].light_types >> type & 1;
     const char *name = lam_light_field(key)->key;
-    if (strcmp(name, "position") == 0 && type == LAM_LIGHT_DIRECTIONAL) // the point that it comes from
+    if (strcmp(name, "position") == 0 && type == LAM_LIGHT_DIRECTIONAL) // the direction towards the light
         return true;
     const lam_field *field;
     for (int i = key; (field = lam_light_field(i)); i++)
@@ -85,13 +85,13 @@ static int find_key(const char *name, lam_error *error)
     return field >= 0 ? field : word_key_of(name, KEYS, key_name, error);
 }
 
-static bool key_seen(const struct reading *reading, int key) { return reading->seen >> key & 1; }
+static bool key_seen(const struct parser *parser, int key) { return parser->seen >> key & 1; }
 
-static bool seen(const struct reading *reading, const char *name) { return key_seen(reading, field_index(name)); }
+static bool seen(const struct parser *parser, const char *name) { return key_seen(parser, field_index(name)); }
 
-// --- single values
+// --- values of keys
 
-// A point: in the model's units, or in radii of its sphere (a 0 may go without its r). `w` NULL: three numbers only.
+// Parses a point in the model's units, or in radii of its sphere (a 0 needs no r). `w` NULL: exactly three numbers.
 static bool point_for(const char *key, const char *value, lam_vec3 *out, bool *in_radii, double *w, lam_error *error)
 {
     double numbers[4];
@@ -116,7 +116,7 @@ static bool point_for(const char *key, const char *value, lam_vec3 *out, bool *i
     return true;
 }
 
-static bool read_attenuation(const char *value, struct reading *reading, lam_error *error)
+static bool read_attenuation(const char *value, struct parser *parser, lam_error *error)
 {
     double numbers[3];
     bool radii[3];
@@ -129,30 +129,30 @@ static bool read_attenuation(const char *value, struct reading *reading, lam_err
         return fail(error, LAM_BAD_ARGUMENT, "attenuation is %.60s, expected numbers of at least 0", value);
     if (numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0)
         return fail(error, LAM_BAD_ARGUMENT, "attenuation is %.60s, expected a + b d + c d2 above 0", value);
-    reading->light.attenuation = (lam_attenuation){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
-    reading->linear_in_radii = radii[1];
-    reading->quadratic_in_radii = radii[2];
+    parser->light.attenuation = (lam_attenuation){(float)numbers[0], (float)numbers[1], (float)numbers[2]};
+    parser->linear_in_radii = radii[1];
+    parser->quadratic_in_radii = radii[2];
     return true;
 }
 
-static bool read_range(const char *value, struct reading *reading, lam_error *error)
+static bool read_range(const char *value, struct parser *parser, lam_error *error)
 {
     double number;
     int count;
-    if (!word_numbers(value, 1, 1, &number, &count, &reading->range_in_radii))
+    if (!word_numbers(value, 1, 1, &number, &count, &parser->range_in_radii))
         return fail(error, LAM_BAD_ARGUMENT, "found 'range=%.60s', expected a distance, with r for radii", value);
     if (!(number > 0))
         return fail(error, LAM_BAD_ARGUMENT, "range is %.60s, expected a distance above 0", value);
-    reading->light.range = (float)number;
+    parser->light.range = (float)number;
     return true;
 }
 
-// The radius of a ball, or of a disc in degrees: which one is known with the last key.
-static bool read_size(const char *value, struct reading *reading, lam_error *error)
+// Parses the radius of a sphere, or of a disc in degrees; the last key determines which one it is.
+static bool read_size(const char *value, struct parser *parser, lam_error *error)
 {
-    double *number = reading->numbers[field_index("radius")];
+    double *number = parser->numbers[field_index("radius")];
     int count;
-    if (!word_numbers(value, 1, 1, number, &count, &reading->size_in_radii))
+    if (!word_numbers(value, 1, 1, number, &count, &parser->size_in_radii))
         return fail(error, LAM_BAD_ARGUMENT,
                     "found 'radius=%.60s', expected a distance, with r for radii; of a directional light, degrees",
                     value);
@@ -161,26 +161,26 @@ static bool read_size(const char *value, struct reading *reading, lam_error *err
     return true;
 }
 
-static bool set_size(struct reading *reading, lam_error *error)
+static bool set_size(struct parser *parser, lam_error *error)
 {
-    double number = reading->numbers[field_index("radius")][0];
-    if (reading->light.type != LAM_LIGHT_DIRECTIONAL) {
-        reading->light.radius = (float)number;
+    double number = parser->numbers[field_index("radius")][0];
+    if (parser->light.type != LAM_LIGHT_DIRECTIONAL) {
+        parser->light.radius = (float)number;
         return true;
     }
-    reading->light.angular_radius_rad = (float)math_radians(number);
-    return (number <= 89 && !reading->size_in_radii) ||
+    parser->light.angular_radius_rad = (float)math_radians(number);
+    return (number <= 89 && !parser->size_in_radii) ||
            fail(error, LAM_BAD_ARGUMENT,
                 "radius is %g%s, expected 0 to 89 degrees: a directional light has an angular radius", number,
-                reading->size_in_radii ? "r" : "");
+                parser->size_in_radii ? "r" : "");
 }
 
-static bool read_frame(char *value, struct reading *reading, lam_error *error)
+static bool read_frame(char *value, struct parser *parser, lam_error *error)
 {
     char *name = strchr(value, ':');
     if (name)
         *name++ = 0;
-    lam_light *light = &reading->light;
+    lam_light *light = &parser->light;
     if (strcmp(value, "object") == 0) {
         light->frame = name ? LAM_FRAME_OBJECT : LAM_FRAME_MODEL;
         light->object = name;
@@ -195,40 +195,40 @@ static bool read_frame(char *value, struct reading *reading, lam_error *error)
     return true;
 }
 
-static bool read_value(struct reading *reading, int key, char *value, lam_error *error)
+static bool read_value(struct parser *parser, int key, char *value, lam_error *error)
 {
     const lam_field color = {.key = "color", .type = LAM_FIELD_RGB};
     switch (key) {
     case TARGET:
-        return point_for("target", value, &reading->target, &reading->target_in_radii, NULL, error);
+        return point_for("target", value, &parser->target, &parser->target_in_radii, NULL, error);
     case COLOR:
-        return word_field(&color, value, reading->mode, reading->numbers[COLOR], error);
+        return word_field(&color, value, parser->mode, parser->numbers[COLOR], error);
     case INTENSITY:
-        return word_number_of("intensity", value, 0, 1e30, reading->numbers[INTENSITY], error);
+        return word_number_of("intensity", value, 0, 1e30, parser->numbers[INTENSITY], error);
     case FRAME:
-        return read_frame(value, reading, error);
+        return read_frame(value, parser, error);
     case NAME:
-        reading->light.name = value;
+        parser->light.name = value;
         return *value || fail(error, LAM_BAD_ARGUMENT, "name is empty");
     default:
         break;
     }
     const lam_field *field = lam_light_field(key);
     if (field->type == LAM_FIELD_POINT)
-        return point_for(field->key, value, &reading->light.position, &reading->position_in_radii, &reading->w, error);
+        return point_for(field->key, value, &parser->light.position, &parser->position_in_radii, &parser->w, error);
     if (field->type == LAM_FIELD_TRIPLE)
-        return read_attenuation(value, reading, error);
+        return read_attenuation(value, parser, error);
     if (strcmp(field->key, "range") == 0)
-        return read_range(value, reading, error);
+        return read_range(value, parser, error);
     if (strcmp(field->key, "radius") == 0)
-        return read_size(value, reading, error);
-    if (!word_field(field, value, reading->mode, reading->numbers[key], error))
+        return read_size(value, parser, error);
+    if (!word_field(field, value, parser->mode, parser->numbers[key], error))
         return false;
-    word_set_field(field, &reading->light, reading->numbers[key]);
+    word_set_field(field, &parser->light, parser->numbers[key]);
     return true;
 }
 
-static bool read_pair(struct reading *reading, char *pair, lam_error *error)
+static bool read_pair(struct parser *parser, char *pair, lam_error *error)
 {
     char *value = strchr(pair, '=');
     if (!value)
@@ -237,47 +237,47 @@ static bool read_pair(struct reading *reading, char *pair, lam_error *error)
     int key = find_key(pair, error);
     if (key < 0)
         return false;
-    if (key_seen(reading, key))
+    if (key_seen(parser, key))
         return fail(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
-    reading->seen |= BIT(key);
-    return read_value(reading, key, value, error);
+    parser->seen |= BIT(key);
+    return read_value(parser, key, value, error);
 }
 
-// --- the light from its values
+// --- making the light from its values
 
-// A colour that was not given by its own key.
-static void set_color(struct reading *reading, const char *name, bool by_color, double factor)
+// Sets a colour that has no key of its own.
+static void set_color(struct parser *parser, const char *name, bool by_color, double factor)
 {
-    lam_light *light = &reading->light;
+    lam_light *light = &parser->light;
     int index = field_index(name);
     double numbers[4];
     while (!(lam_light_field(index)->light_types >> light->type & 1))
         index++;
     lam_field_get(lam_light_field(index), light, numbers);
-    if (by_color && key_seen(reading, COLOR) && !seen(reading, name))
-        memcpy(numbers, reading->numbers[COLOR], sizeof numbers);
+    if (by_color && key_seen(parser, COLOR) && !seen(parser, name))
+        memcpy(numbers, parser->numbers[COLOR], sizeof numbers);
     for (int i = 0; i < 3; i++)
         numbers[i] *= factor;
     lam_field_set(lam_light_field(index), light, numbers);
 }
 
-static void set_colors(struct reading *reading)
+static void set_colors(struct parser *parser)
 {
-    double intensity = key_seen(reading, INTENSITY) ? reading->numbers[INTENSITY][0] : 1;
-    switch (reading->light.type) {
+    double intensity = key_seen(parser, INTENSITY) ? parser->numbers[INTENSITY][0] : 1;
+    switch (parser->light.type) {
     case LAM_LIGHT_AMBIENT:
-        if (!seen(reading, "ambient"))
-            set_color(reading, "ambient", true, intensity);
+        if (!seen(parser, "ambient"))
+            set_color(parser, "ambient", true, intensity);
         return;
-    case LAM_LIGHT_HEMISPHERE: // whose own colours are multiplied too
-        set_color(reading, "sky", true, intensity);
-        set_color(reading, "ground", false, intensity);
+    case LAM_LIGHT_HEMISPHERE: // its own colours are multiplied too
+        set_color(parser, "sky", true, intensity);
+        set_color(parser, "ground", false, intensity);
         return;
     default:
-        if (!seen(reading, "diffuse"))
-            set_color(reading, "diffuse", true, intensity);
-        if (!seen(reading, "specular"))
-            set_color(reading, "specular", true, intensity);
+        if (!seen(parser, "diffuse"))
+            set_color(parser, "diffuse", true, intensity);
+        if (!seen(parser, "specular"))
+            set_color(parser, "specular", true, intensity);
     }
 }
 
@@ -292,57 +292,57 @@ static bool check_cone(const double *cutoff_deg, const double *inner_deg, const 
     return true;
 }
 
-static bool set_cone(struct reading *reading, lam_error *error)
+static bool set_cone(struct parser *parser, lam_error *error)
 {
-    lam_light *light = &reading->light;
-    bool inner = seen(reading, "inner"), outer = seen(reading, "outer"), cutoff = seen(reading, "cutoff");
-    const double *degrees = reading->numbers[field_index("cutoff")];
-    if ((inner || outer) && (cutoff || seen(reading, "exponent")))
+    lam_light *light = &parser->light;
+    bool inner = seen(parser, "inner"), outer = seen(parser, "outer"), cutoff = seen(parser, "cutoff");
+    const double *degrees = parser->numbers[field_index("cutoff")];
+    if ((inner || outer) && (cutoff || seen(parser, "exponent")))
         return fail(error, LAM_BAD_ARGUMENT,
                     "both kinds of cone are given, expected cutoff and exponent, or inner and outer");
     if (inner && !outer)
         return fail(error, LAM_BAD_ARGUMENT, "'inner' is given without 'outer', expected both");
-    if (!check_cone(cutoff ? degrees : NULL, reading->numbers[field_index("inner")],
-                    outer ? reading->numbers[field_index("outer")] : NULL, error))
+    if (!check_cone(cutoff ? degrees : NULL, parser->numbers[field_index("inner")],
+                    outer ? parser->numbers[field_index("outer")] : NULL, error))
         return false;
-    if (!cutoff && !outer && seen(reading, "exponent"))
-        light->cutoff_rad = 0; // no edge: the exponent alone shapes it
+    if (!cutoff && !outer && seen(parser, "exponent"))
+        light->cutoff_rad = 0; // no edge: only the exponent shapes it
     return true;
 }
 
-// Position and direction: w = 0 and directional lights have rules of their own.
-static bool set_place(struct reading *reading, lam_error *error)
+// Sets position and direction; w = 0 and directional lights have special rules.
+static bool set_place(struct parser *parser, lam_error *error)
 {
-    lam_light *light = &reading->light;
+    lam_light *light = &parser->light;
     lam_vec3 *p = &light->position;
-    reading->has_position = seen(reading, "position");
-    reading->has_direction = seen(reading, "direction");
-    reading->has_target = key_seen(reading, TARGET);
-    if (reading->has_direction && reading->has_target)
+    parser->has_position = seen(parser, "position");
+    parser->has_direction = seen(parser, "direction");
+    parser->has_target = key_seen(parser, TARGET);
+    if (parser->has_direction && parser->has_target)
         return fail(error, LAM_BAD_ARGUMENT, "'direction' and 'target' are given, expected one of them");
-    if (reading->has_position && reading->w == 0) {
+    if (parser->has_position && parser->w == 0) {
         if (light->type == LAM_LIGHT_SPOT)
             return fail(error, LAM_BAD_ARGUMENT, "a spot light needs a position, expected w above 0");
-        if (reading->has_direction || reading->has_target)
+        if (parser->has_direction || parser->has_target)
             return fail(error, LAM_BAD_ARGUMENT, "position with w = 0 is a direction already, found another");
         if (p->x == 0 && p->y == 0 && p->z == 0)
             return fail(error, LAM_BAD_ARGUMENT, "position is 0/0/0/0, expected a direction");
         light->type = LAM_LIGHT_DIRECTIONAL;
         light->direction = (lam_vec3){-p->x, -p->y, -p->z};
-        reading->has_position = false;
-        reading->has_direction = true;
-    } else if (light->type == LAM_LIGHT_DIRECTIONAL && reading->has_position != reading->has_target) {
+        parser->has_position = false;
+        parser->has_direction = true;
+    } else if (light->type == LAM_LIGHT_DIRECTIONAL && parser->has_position != parser->has_target) {
         return fail(error, LAM_BAD_ARGUMENT,
                     "a directional light takes direction=x/y/z, position=x/y/z/0, or both position and target");
     }
     return true;
 }
 
-static bool check_keys(const struct reading *reading, lam_error *error)
+static bool check_keys(const struct parser *parser, lam_error *error)
 {
-    lam_light_type type = reading->light.type;
+    lam_light_type type = parser->light.type;
     for (int key = 0; key < KEYS; key++)
-        if (key_seen(reading, key) && !is_of_type(key, type))
+        if (key_seen(parser, key) && !is_of_type(key, type))
             return fail(error, LAM_BAD_ARGUMENT, "%s%s light has no '%s'", type == LAM_LIGHT_AMBIENT ? "an " : "a ",
                         lam_light_type_describe(type)->word, key_name(key));
     return true;
@@ -363,7 +363,7 @@ static bool find_type(const char *name, lam_light_type *type, lam_error *error)
                 nearest ? nearest : "", nearest ? "'?" : "; expected ambient, hemisphere, point, directional or spot");
 }
 
-static bool read_light(char *text, struct reading *reading, lam_error *error)
+static bool read_light(char *text, struct parser *parser, lam_error *error)
 {
     char *rest = strchr(text, ':');
     if (rest)
@@ -371,17 +371,17 @@ static bool read_light(char *text, struct reading *reading, lam_error *error)
     lam_light_type type = LAM_LIGHT_POINT;
     if (!find_type(text, &type, error))
         return false;
-    reading->light = lam_light_default(type);
+    parser->light = lam_light_default(type);
     for (char *pair; (pair = strsep(&rest, ",")) != NULL;)
-        if (!read_pair(reading, pair, error))
+        if (!read_pair(parser, pair, error))
             return false;
-    if (!set_place(reading, error) || !check_keys(reading, error))
+    if (!set_place(parser, error) || !check_keys(parser, error))
         return false;
-    set_colors(reading);
-    return (!seen(reading, "radius") || set_size(reading, error)) && set_cone(reading, error);
+    set_colors(parser);
+    return (!seen(parser, "radius") || set_size(parser, error)) && set_cone(parser, error);
 }
 
-// --- from radii and targets to a light of the scene
+// --- converting radii and targets for the scene
 
 struct sphere {
     lam_vec3 centre;
@@ -417,7 +417,7 @@ static int find_object(const lam_scene *scene, const char *name, lam_error *erro
     return -1;
 }
 
-// The sphere in the light's frame.
+// Gets the sphere in the light's frame.
 static bool sphere_in_frame(const lam_light *light, const lam_light_text_params *params, const lam_scene *scene,
                             struct sphere *out, lam_error *error)
 {
@@ -438,59 +438,60 @@ static bool sphere_in_frame(const lam_light *light, const lam_light_text_params 
     return true;
 }
 
-// A default, defined for Y up, in the axes of the scene: a light of the world is in front of the model for every up
-// axis.
+// Rotates a default, defined for y up, to the axes of the scene, so that a light in the world frame is in front of the
+// model for every up axis.
 static lam_vec3 turned(const lam_light *light, const lam_scene *scene, lam_vec3 v)
 {
     return light->frame == LAM_FRAME_WORLD || light->frame == LAM_FRAME_MODEL ? from_y_up(lam_scene_up(scene), v) : v;
 }
 
-static bool place_light(struct reading *reading, const lam_light_text_params *params, struct sphere model,
+static bool place_light(struct parser *parser, const lam_light_text_params *params, struct sphere model,
                         const lam_scene *scene, lam_error *error)
 {
-    lam_light *light = &reading->light;
+    lam_light *light = &parser->light;
     struct sphere here = model;
     if (!sphere_in_frame(light, params, scene, &here, error))
         return false;
     bool stands = light->type == LAM_LIGHT_POINT || light->type == LAM_LIGHT_SPOT;
-    if (reading->has_position && reading->position_in_radii)
+    if (parser->has_position && parser->position_in_radii)
         light->position = about(&here, light->position);
-    else if (stands && !reading->has_position && light->frame != LAM_FRAME_CAMERA)
-        light->position = about(&here, turned(light, scene, v3(1, 2, 3))); // a light of the camera is at the eye
-    else if (light->type == LAM_LIGHT_DIRECTIONAL && !reading->has_direction && !reading->has_target)
+    else if (stands && !parser->has_position && light->frame != LAM_FRAME_CAMERA)
+        // a light in the camera's frame is at the eye
+        light->position = about(&here, turned(light, scene, v3(1, 2, 3)));
+    else if (light->type == LAM_LIGHT_DIRECTIONAL && !parser->has_direction && !parser->has_target)
         light->direction = turned(light, scene, light->direction);
-    lam_vec3 target = !reading->has_target       ? here.centre
-                      : reading->target_in_radii ? about(&here, reading->target)
-                                                 : reading->target;
-    if (reading->has_target || (light->type == LAM_LIGHT_SPOT && !reading->has_direction)) {
+    lam_vec3 target = !parser->has_target       ? here.centre
+                      : parser->target_in_radii ? about(&here, parser->target)
+                                                : parser->target;
+    if (parser->has_target || (light->type == LAM_LIGHT_SPOT && !parser->has_direction)) {
         lam_vec3 way = v3_sub(target, light->position);
         if (way.x != 0 || way.y != 0 || way.z != 0)
             light->direction = way;
-        else if (reading->has_target)
+        else if (parser->has_target)
             return fail(error, LAM_BAD_ARGUMENT, "position and target are the same point");
     }
     double r = model.radius;
-    if (reading->linear_in_radii)
+    if (parser->linear_in_radii)
         light->attenuation.linear = (float)((double)light->attenuation.linear / r);
-    if (reading->quadratic_in_radii)
+    if (parser->quadratic_in_radii)
         light->attenuation.quadratic = (float)((double)light->attenuation.quadratic / (r * r));
-    if (reading->range_in_radii)
+    if (parser->range_in_radii)
         light->range = (float)((double)light->range * r);
-    if (reading->size_in_radii)
+    if (parser->size_in_radii)
         light->radius = (float)((double)light->radius * r);
     return true;
 }
 
-static bool in_radii(const struct reading *reading)
+static bool in_radii(const struct parser *parser)
 {
-    return reading->position_in_radii || reading->target_in_radii || reading->linear_in_radii ||
-           reading->quadratic_in_radii || reading->range_in_radii || reading->size_in_radii;
+    return parser->position_in_radii || parser->target_in_radii || parser->linear_in_radii ||
+           parser->quadratic_in_radii || parser->range_in_radii || parser->size_in_radii;
 }
 
 static bool add_light(lam_scene *scene, const char *text, const lam_light_text_params *params, int *index,
                       lam_error *error)
 {
-    struct reading reading = {.mode = params->color, .w = 1};
+    struct parser parser = {.mode = params->color, .w = 1};
     char copy[WORDS_MAX];
     if (!text)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_light_text: text is NULL");
@@ -503,14 +504,14 @@ static bool add_light(lam_scene *scene, const char *text, const lam_light_text_p
     struct sphere model = {params->centre, params->radius};
     if (!(model.radius > 0)) {
         bool found = lam_scene_sphere(scene, -1, &model.centre, &model.radius);
-        if (!found && in_radii(&reading))
+        if (!found && in_radii(&parser))
             return fail(error, LAM_BAD_ARGUMENT,
                         "expected numbers without r: there is no model whose radius it could be");
         model.radius = model.radius > 0 ? model.radius : 1;
     }
-    if (!place_light(&reading, params, model, scene, error))
+    if (!place_light(&parser, params, model, scene, error))
         return false;
-    *index = lam_scene_add_light(scene, &reading.light, error);
+    *index = lam_scene_add_light(scene, &parser.light, error);
     return *index >= 0;
 }
 

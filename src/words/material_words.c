@@ -1,4 +1,4 @@
-// material_words.c: materials as people write them.
+// material_words.c: parses materials.
 #include <lambent/words.h>
 
 #include <string.h>
@@ -9,8 +9,8 @@
 #include "spelling.h"
 #include "word_values.h"
 
-// Keys: the fields by their index in the table of lam_material_field, then a factor for each (of colours, named by their
-// symbols: ka, kd, ks, kr), then shorthands.
+// Key numbers: the fields by their index in the table of lam_material_field, then a factor for each (for colours, named
+// by their symbols: ka, kd, ks, kr), then shorthands.
 enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
 _Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
@@ -25,15 +25,15 @@ struct reading {
     lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none
     const char *words;  // of one of `others`; NULL: none
     bool given[MATERIAL_KEYS];
-    bool ambient_is_diffuse; // ambient=diffuse
+    bool ambient_is_diffuse; // whether ambient=diffuse was given
     double numbers[MATERIAL_KEYS][4];
 };
 
-static bool given(const struct reading *reading, int key) { return reading->given[key]; }
+static bool given(const struct parser *parser, int key) { return parser->given[key]; }
 
 static bool is_color(const lam_field *field) { return field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA; }
 
-// Shares of light have a symbol; emission has none.
+// Colours that are shares of light have a symbol; emission has none.
 static bool is_share(const lam_field *field) { return is_color(field) && field->symbol; }
 
 static int factor_of(int field) { return LAM_FIELDS_MAX + field; }
@@ -57,7 +57,7 @@ const char *lam_material_key(int index)
     return NULL;
 }
 
-// A flag may go without its value.
+// Flags may omit their value.
 static bool is_flag(const char *name, size_t length)
 {
     for (int i = 0; lam_material_field(i); i++) {
@@ -68,7 +68,7 @@ static bool is_flag(const char *name, size_t length)
     return false;
 }
 
-static bool read_pair(char *pair, lam_color_mode mode, struct reading *reading, lam_error *error)
+static bool read_pair(char *pair, lam_color_mode mode, struct parser *parser, lam_error *error)
 {
     char *value = strchr(pair, '=');
     if (!value && !is_flag(pair, strlen(pair)))
@@ -78,23 +78,24 @@ static bool read_pair(char *pair, lam_color_mode mode, struct reading *reading, 
     int key = word_key_of(pair, MATERIAL_KEYS, key_name, error);
     if (key < 0)
         return false;
-    if (given(reading, key))
+    if (given(parser, key))
         return fail(error, LAM_BAD_ARGUMENT, "'%s' is given twice", pair);
-    reading->given[key] = true;
+    parser->given[key] = true;
     if (value && strcmp(pair, "ambient") == 0 && strcmp(value, "diffuse") == 0) {
-        reading->given[key] = false;
-        reading->ambient_is_diffuse = true;
+        parser->given[key] = false;
+        parser->ambient_is_diffuse = true;
         return true;
     }
     if (key < LAM_FIELDS_MAX)
-        return word_field(lam_material_field(key), value ? value : "yes", mode, reading->numbers[key], error);
+        return word_field(lam_material_field(key), value ? value : "yes", mode, parser->numbers[key], error);
     if (key < MATERIAL_COLOR)
-        return word_number_of(pair, value, 0, 1e30, reading->numbers[key], error);
+        return word_number_of(pair, value, 0, 1e30, parser->numbers[key], error);
     const lam_field color = {.key = pair, .type = LAM_FIELD_RGB};
-    return word_field(&color, value, mode, reading->numbers[key], error);
+    return word_field(&color, value, mode, parser->numbers[key], error);
 }
 
-// A colour without a key: #rrggbb, r/g/b or a name. A number alone is more likely a key's value without its key.
+// Detects a colour without a key: #rrggbb, r/g/b or a name. A single number is more likely a value whose key was
+// forgotten.
 static bool is_color_alone(const char *word, lam_color_mode mode)
 {
     lam_rgba color;
@@ -102,11 +103,11 @@ static bool is_color_alone(const char *word, lam_color_mode mode)
     return *word == '#' || strchr(word, '/') || (!digit && lam_color_parse(word, mode, &color, NULL));
 }
 
-static bool read_color_alone(const char *word, lam_color_mode mode, struct reading *reading, lam_error *error)
+static bool read_color_alone(const char *word, lam_color_mode mode, struct parser *parser, lam_error *error)
 {
     static const lam_field color = {.key = "color", .type = LAM_FIELD_RGB};
-    reading->given[MATERIAL_COLOR] = true;
-    return word_field(&color, word, mode, reading->numbers[MATERIAL_COLOR], error);
+    parser->given[MATERIAL_COLOR] = true;
+    return word_field(&color, word, mode, parser->numbers[MATERIAL_COLOR], error);
 }
 
 static bool unknown_material(const char *name, lam_error *error)
@@ -124,7 +125,7 @@ static bool unknown_material(const char *name, lam_error *error)
                 nearest ? "'?" : "; expected a name of `lambent materials`, a colour or key=value");
 }
 
-// Sets the first three numbers of a colour: an alpha stays.
+// Sets the first three numbers of a colour and keeps its alpha.
 static void set_color(const lam_field *field, lam_material *m, const double color[4], double factor)
 {
     double numbers[4];
@@ -134,7 +135,7 @@ static void set_color(const lam_field *field, lam_material *m, const double colo
     lam_field_set(field, m, numbers);
 }
 
-static void set_factor(const struct reading *reading, int index, lam_material *m)
+static void set_factor(const struct parser *parser, int index, lam_material *m)
 {
     static const double white[4] = {1, 1, 1, 1};
     const lam_field *field = lam_material_field(index);
@@ -142,12 +143,12 @@ static void set_factor(const struct reading *reading, int index, lam_material *m
     lam_field_get(field, m, color);
     const double *from = color;
     if (field->standard[0] == 0 &&
-        !given(reading, index)) // a factor of a colour that is black by default starts from white
-        from = given(reading, MATERIAL_SPECULAR_COLOR) ? reading->numbers[MATERIAL_SPECULAR_COLOR] : white;
-    set_color(field, m, from, reading->numbers[factor_of(index)][0]);
+        !given(parser, index)) // a factor for a colour that is black by default multiplies white
+        from = given(parser, MATERIAL_SPECULAR_COLOR) ? parser->numbers[MATERIAL_SPECULAR_COLOR] : white;
+    set_color(field, m, from, parser->numbers[factor_of(index)][0]);
 }
 
-static lam_material apply(const struct reading *reading, lam_color_mode mode, lam_material m)
+static lam_material apply(const struct parser *parser, lam_color_mode mode, lam_material m)
 {
     if (reading->id != LAM_MATERIAL_COUNT)
         m = lam_material_named(reading->id, mode);
@@ -160,24 +161,24 @@ static lam_material apply(const struct reading *reading, lam_color_mode mode, la
         m.ambient = (lam_rgb){(float)color[0], (float)color[1], (float)color[2]};
         m.diffuse = (lam_rgba){m.ambient.r, m.ambient.g, m.ambient.b, m.diffuse.a};
     }
-    if (given(reading, MATERIAL_SPECULAR_COLOR))
+    if (given(parser, MATERIAL_SPECULAR_COLOR))
         m.specular = (lam_rgb){(float)specular[0], (float)specular[1], (float)specular[2]};
     for (int i = 0; lam_material_field(i); i++)
-        if (given(reading, i)) {
+        if (given(parser, i)) {
             material_note_written(&m, i);
-            word_set_field(lam_material_field(i), &m, reading->numbers[i]);
+            word_set_field(lam_material_field(i), &m, parser->numbers[i]);
         }
     for (int i = 0; lam_material_field(i); i++)
-        if (given(reading, factor_of(i)))
-            set_factor(reading, i, &m);
-    if (reading->ambient_is_diffuse)
+        if (given(parser, factor_of(i)))
+            set_factor(parser, i, &m);
+    if (parser->ambient_is_diffuse)
         m.ambient = (lam_rgb){m.diffuse.r, m.diffuse.g, m.diffuse.b};
     return m;
 }
 
 bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *material, lam_error *error)
 {
-    struct reading reading = {.id = LAM_MATERIAL_COUNT};
+    struct parser parser = {.id = LAM_MATERIAL_COUNT};
     char copy[WORDS_MAX], *rest = copy;
     if (!text || !material)
         return fail(error, LAM_BAD_ARGUMENT, "lam_material_parse: %s is NULL", text ? "material" : "text");
@@ -198,8 +199,8 @@ bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *mat
             return false;
     }
     for (char *pair; (pair = strsep(&rest, ",")) != NULL;)
-        if (!read_pair(pair, mode, &reading, error))
+        if (!read_pair(pair, mode, &parser, error))
             return false;
-    *material = apply(&reading, mode, *material);
+    *material = apply(&parser, mode, *material);
     return true;
 }

@@ -1,4 +1,4 @@
-// word_values.c: the values of pairs key=value.
+// word_values.c: parses the values of pairs key=value.
 #include "word_values.h"
 
 #include <stdio.h>

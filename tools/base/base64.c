@@ -5,7 +5,7 @@
 
 static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-// 0..63; −1: not a letter of base64.
+// Returns 0..63, or −1 for a letter outside the alphabet.
 static int value_of(char letter)
 {
     return letter >= 'A' && letter <= 'Z'   ? letter - 'A'

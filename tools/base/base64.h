@@ -6,10 +6,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// From malloc, `*size` bytes, or NULL if memory runs out, or (*at is then where) `text` is no base64.
+// Decodes base64 to *size bytes from malloc. Returns NULL if memory runs out, or if `text` is invalid; *at is then the
+// position of the error.
 uint8_t *base64_decode(const char *text, size_t length, size_t *size, size_t *at);
 
-// From malloc, with a closing zero, *length characters. Returns NULL if memory runs out.
+// Encodes bytes to *length characters from malloc, with a final zero. Returns NULL if memory runs out.
 char *base64_encode(const uint8_t *bytes, size_t size, size_t *length);
 
 #endif

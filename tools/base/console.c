@@ -11,12 +11,12 @@
 #include "option_names.h"
 
 static bool terminal, colors;
-static _Thread_local FILE *captured; // NULL: standard error
+static _Thread_local FILE *captured; // NULL means standard error
 
 void console_start(void)
 {
     const char *term = getenv("TERM");
-    const char *no_color = getenv("NO_COLOR"); // https://no-color.org: any value but the empty one
+    const char *no_color = getenv("NO_COLOR"); // https://no-color.org: set and not empty
     terminal = isatty(STDERR_FILENO) && term && strcmp(term, "dumb") != 0;
     colors = terminal && !(no_color && *no_color);
 }
@@ -51,7 +51,7 @@ void say_plain(const char *format, ...)
     va_end(arguments);
     if (length < 0)
         return;
-    for (char *c = text; *c; c++) // a file's name may contain the terminal's escape sequences
+    for (char *c = text; *c; c++) // file names may contain escape sequences
         *c = ((unsigned char)*c < ' ' && *c != '\n' && *c != '\t') || *c == 0x7f ? '?' : *c;
     fputs(text, stream_of());
     free(text);
@@ -64,7 +64,7 @@ bool complain(lam_error *error, lam_code code, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(error->text, sizeof error->text, format, arguments);
     va_end(arguments);
-    for (char *c = error->text; *c; c++) // a file's name may contain control codes of the terminal
+    for (char *c = error->text; *c; c++) // file names may contain control codes
         if ((unsigned char)*c < 0x20 || *c == 0x7F)
             *c = '?';
     return false;

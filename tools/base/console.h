@@ -17,13 +17,13 @@ void say_error(const char *text);
 void say_warning(const char *text);
 // Redirects the messages of this thread to `stream`, until it is NULL again, so that they can be shown later in order.
 void console_capture(FILE *stream);
-// Control characters other than line ends and tabs are printed as "?": names of files may contain them.
+// Prints text. Control characters other than line ends and tabs become "?", because file names may contain them.
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // Fills an error with a printf-like sentence and returns false.
 bool complain(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-// Flushes standard output. False, with LAM_CANNOT_WRITE: some output was lost.
+// Flushes standard output. Returns false with LAM_CANNOT_WRITE if some output was lost.
 bool finish_output(lam_error *error);
 
 #endif

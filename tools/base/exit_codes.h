@@ -1,4 +1,4 @@
-// exit_codes.h: the program's exit codes. One table serves the value that main returns, the reports, the help, the man
+// exit_codes.h: the program's exit codes. One table is used for main's return value, the reports, the help, the man
 // page and the docs. The numbers are independent of lam_code.
 #ifndef EXIT_CODES_H
 #define EXIT_CODES_H
@@ -9,9 +9,9 @@ enum { EXIT_DIFFERS = 6, EXIT_SOME_FAILED = 7, EXIT_CRASHED = 8 };
 
 struct exit_code {
     int code;
-    int of;              // the corresponding lam_code; −1: none
-    const char *name;    // in reports; NULL: none
-    const char *meaning; // NULL: the table's end
+    int of;              // the corresponding lam_code, or −1
+    const char *name;    // in reports, or NULL
+    const char *meaning; // NULL at the end of the table
 };
 extern const struct exit_code exit_codes[];
 

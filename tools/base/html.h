@@ -4,10 +4,10 @@
 
 #include <stdio.h>
 
-// Text, also within quotes. NULL: nothing.
+// Writes a text, which may be inside quotes. Does nothing for NULL.
 void html_text(FILE *file, const char *text);
 
-// Writes a path as an address: escapes every byte except letters, digits, slashes and a few signs.
+// Writes a path as an address: escapes every byte except letters, digits, slashes and a few punctuation marks.
 void html_address(FILE *file, const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-// json.c: writes JSON, one value after the other, on one line.
+// json.c: writes JSON values one after the other, on one line.
 #include "json.h"
 
 #include <inttypes.h>
@@ -64,7 +64,7 @@ void json_text(struct json *json, const char *key, const char *text)
 
 void shortest_number(double value, char text[32])
 {
-    // No locale is ever set in this program, so the decimal point is a point.
+    // This program never sets a locale, so the decimal separator is a point.
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, 32, "%.*g", digits, value);
         if (strtod(text, NULL) == value)

@@ -1,7 +1,7 @@
-// json.h: writes JSON, one value after the other, on one line.
+// json.h: writes JSON values one after the other, on one line.
 //
 // Numbers are written with the fewest digits that read back as the same double, in any locale, so that a camera copied
-// from a report gives the same picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another
+// from a report reproduces the picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another
 // number.)
 #ifndef JSON_H
 #define JSON_H
@@ -14,7 +14,7 @@
 
 struct json {
     FILE *file;
-    bool comma; // the next value follows another one
+    bool comma; // a comma is needed before the next value
 };
 
 // `key` is NULL for the elements of a list and for the outermost value.

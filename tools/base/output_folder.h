@@ -4,10 +4,11 @@
 
 #include <lambent/base.h>
 
-// Returns the folder of a path, from malloc: "." if it names none. Returns NULL if memory runs out.
+// Returns the folder of a path, from malloc: "." if the path contains none. Returns NULL if memory runs out.
 char *output_folder_of(const char *path);
 
-// Creates the missing folder of a path that output_check has accepted, including its parents. Error: LAM_CANNOT_WRITE.
+// Creates the missing folder of a path that output_check has accepted, including its parents. Fails with
+// LAM_CANNOT_WRITE.
 bool output_make_folder(const char *path, lam_error *error);
 
 #endif

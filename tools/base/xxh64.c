@@ -1,6 +1,6 @@
 // xxh64.c: XXH64 with the seed 0, by Yann Collet's specification (xxHash fast digest algorithm, version 0.1.1): four
 // lanes consume 8 bytes each, in turn, and are merged at the end. The hash is not cryptographic: it detects changes,
-// not attacks.
+// but not attacks.
 #include "xxh64.h"
 
 #include <errno.h>

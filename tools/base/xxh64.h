@@ -1,5 +1,5 @@
-// xxh64.h: XXH64, the hash in journals: of pictures, of models and of everything that determines a picture. `xxh64sum`
-// prints the same.
+// xxh64.h: XXH64, the hash in journals for pictures, models and everything that determines a picture. `xxh64sum` prints
+// the same hashes.
 #ifndef XXH64_H
 #define XXH64_H
 
@@ -9,12 +9,12 @@
 
 struct xxh64 {
     uint64_t lanes[4], size;
-    unsigned char rest[32]; // bytes that do not fill a stripe yet: size % 32
+    unsigned char rest[32]; // bytes of an incomplete stripe: size % 32
 };
 
 void xxh64_start(struct xxh64 *hash);
 void xxh64_add(struct xxh64 *hash, const void *bytes, size_t size);
-void xxh64_add_text(struct xxh64 *hash, const char *text); // with its closing zero; NULL: one byte 1
+void xxh64_add_text(struct xxh64 *hash, const char *text); // adds the terminating zero too; NULL adds one byte 1
 uint64_t xxh64_end(const struct xxh64 *hash);
 
 // Hashes a block of bytes.
@@ -23,7 +23,7 @@ uint64_t xxh64_of(const void *bytes, size_t size);
 // Hashes the bytes of a file. Returns false and sets errno if it cannot be read or is not a regular file.
 bool xxh64_file(const char *path, uint64_t *hash);
 
-// "xxh64:0123456789abcdef", and back. False: not of that form.
+// Convert to and from "xxh64:0123456789abcdef". The latter returns false if the text has another form.
 enum { XXH64_TEXT = 24 };
 void xxh64_print(uint64_t hash, char text[XXH64_TEXT]);
 bool xxh64_parse(const char *text, uint64_t *hash);

@@ -14,7 +14,7 @@
 #include "report.h"
 #include "terminal.h"
 
-// With --jobs each job names its model and its picture, so there is no list to resume.
+// With --jobs, each job names its model and its picture, so there is no list to resume.
 static bool check_jobs(int operands, const struct options *o, lam_error *error)
 {
     static const char *const others[] = {"output", "files-from", "resume",     "retry-failed", "report",
@@ -52,7 +52,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
     return job_check_options(o, error);
 }
 
-// --dry-run: which picture each model becomes.
+// --dry-run: prints the picture's path for each model.
 static bool print_mapping(const struct batch_plan *plan, lam_error *error)
 {
     for (size_t i = 0; i < plan->count; i++)
@@ -75,7 +75,7 @@ static bool print_mapping(const struct batch_plan *plan, lam_error *error)
     return true;
 }
 
-// Returns the path of the journal, from malloc; *none: there is none.
+// Returns the path of the journal, allocated with malloc. Sets *none if there is none.
 static char *journal_path(const struct batch_plan *plan, bool *none)
 {
     const char *named = plan->options->batch.journal;

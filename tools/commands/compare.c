@@ -23,12 +23,12 @@
 
 enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };
 
-// The layout of the page in pixels. `unit` is 1 for cells 480 pixels wide; the type grows with it.
+// The layout of the page in pixels. `unit` is 1 for cells 480 pixels wide; the text size is proportional to it.
 struct page {
     double unit;
-    int cell_width, cell_height; // of a picture
-    int gap, head, foot;         // gap between and around cells; heights of the title and of a caption
-    int inset;                   // height of the enlarged part with the gap above it; 0: none
+    int cell_width, cell_height; // the size of a picture
+    int gap, head, foot;         // `gap` between and around cells; the heights of title and caption
+    int inset;                   // the height of the enlarged part with its gap; 0 if there is none
     int rows;
 };
 
@@ -40,17 +40,17 @@ struct compare {
     struct sheet sheet;
     struct page page;
     struct drawing drawing;
-    int done;                              // pictures drawn so far
-    lam_image right;                       // of a sheet of mistakes: its first picture
-    lam_difference differences[CELLS_MAX]; // from that
-    bool exposure_fitted;                  // for the first picture; the others have the same
+    int done;                              // the number of pictures drawn so far
+    lam_image right;                       // on a sheet of mistakes, the first picture
+    lam_difference differences[CELLS_MAX]; // differences from `right`
+    bool exposure_fitted;                  // fitted to the first picture, then used for all
     double exposure;
-    const char *defaults[2 * SHEET_DEFAULTS_MAX]; // words of every picture that the command line does not have
+    const char *defaults[2 * SHEET_DEFAULTS_MAX]; // arguments of every picture that the command line lacks
     int default_count;
-    bool default_material; // one of them is a material
+    bool default_material; // one of the defaults is a material
 };
 
-// Returns the user's caption of a picture, or the sheet's.
+// Returns the user's caption of a picture, or the sheet's caption.
 static const char *caption_of(const struct compare *c, const struct cell *cell)
 {
     int index = (int)(cell - c->sheet.cells);
@@ -59,7 +59,7 @@ static const char *caption_of(const struct compare *c, const struct cell *cell)
 
 // --- one picture
 
-// Sets the turns of all pictures, so that they have one camera and the model has one size.
+// Sets the rotations of all pictures, so that they share one camera and one scale.
 static bool share_rotations(const struct sheet *sheet, struct options *options)
 {
     const char **items = malloc((size_t)CELLS_MAX * CELL_WORDS * sizeof *items);
@@ -74,7 +74,7 @@ static bool share_rotations(const struct sheet *sheet, struct options *options)
     return true;
 }
 
-// Collects the options that apply only to one cell, and returns their number.
+// Collects the options that apply to only one cell and returns their number.
 static int words_of(const struct compare *c, const struct cell *cell, const char *words[CELL_WORDS + 2])
 {
     int count = 0;
@@ -87,13 +87,14 @@ static int words_of(const struct compare *c, const struct cell *cell, const char
     return count;
 }
 
-// Makes the options of a cell's picture, with two additional words of the command line (NULL: none). False: nothing to free.
+// Makes the options of a cell's picture, with two additional arguments (may be NULL). On failure there is nothing to
+// free.
 static bool cell_options(const struct compare *c, const struct cell *cell, const char *more, const char *value,
                          struct options *options, lam_error *error)
 {
     if (!options_copy(options, c->options))
         return complain(error, LAM_LIMIT, "out of memory");
-    char *words[2 * SHEET_DEFAULTS_MAX + CELL_WORDS + 4]; // options are only read
+    char *words[2 * SHEET_DEFAULTS_MAX + CELL_WORDS + 4]; // the options are only read
     int count = 0;
     for (int i = 0; i < c->default_count; i++)
         words[count++] = (char *)(uintptr_t)c->defaults[i];
@@ -104,7 +105,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     }
     if (!options->picture.background)
         options->picture.background = SHEET_BACKGROUND;
-    // Sheets compare methods of local lighting: effects outside its sums appear only on request.
+    // Sheets compare methods of local lighting, so global effects appear only on request.
     if (!option_given(options, "ao"))
         options->draw.occlusion = LAM_OCCLUSION_OFF;
     options->shader.lecture_device = c->sheet.mistakes;
@@ -116,7 +117,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     return ok;
 }
 
-// Returns the device that draws a cell: of a sheet of mistakes, OpenGL with the mistake in its shaders.
+// Returns the device that draws a cell. On a sheet of mistakes this is OpenGL with the mistake in its shaders.
 static lam_device *cell_device(const struct compare *c, const struct options *options, lam_error *error)
 {
     if (!c->sheet.mistakes)
@@ -128,7 +129,7 @@ static lam_device *cell_device(const struct compare *c, const struct options *op
     return device;
 }
 
-// Draws a cell's picture, `enlarge` times as large, with two additional words of the command line (NULL: none).
+// Draws a cell's picture, enlarged `enlarge` times, with two additional arguments (may be NULL).
 static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more, const char *value,
                       lam_image *image, lam_error *error)
 {
@@ -175,15 +176,15 @@ static bool check_caption_count(const struct options *o, const struct sheet *she
                     o->captions.texts.count, sheet->count);
 }
 
-// Returns whether a mistake changes the shader of this scene. Fails with LAM_UNSUPPORTED, if it has nothing that the
-// mistake spoils.
+// Returns whether a mistake changes the shader of this scene. Fails with LAM_UNSUPPORTED if the mistake affects nothing
+// in the scene.
 static bool mistake_applies(struct compare *c, const struct cell *cell, lam_error *error)
 {
     struct options options;
     if (!cell_options(c, cell, NULL, NULL, &options, error))
         return false;
     options.shader.style = LAM_SHADER_STYLE_LECTURE;
-    options.shader.products = true; // as OpenGL draws
+    options.shader.products = true; // as for drawing with OpenGL
     options.picture.width = CELL_WIDTH;
     options.picture.height = CELL_HEIGHT;
     struct job job = {.options = &options, .model = c->model};
@@ -200,7 +201,7 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     return ok;
 }
 
-// Removes mistakes without a visible effect from a sheet of all mistakes, and prints their names.
+// Removes mistakes without a visible effect from a sheet of all mistakes and prints their names.
 static bool choose_mistakes(struct compare *c, lam_error *error)
 {
     struct sheet *sheet = &c->sheet;
@@ -243,7 +244,7 @@ static bool draw_frame(struct compare *c, double left, double top, double width,
     return draw_line(&c->drawing, round, 5, 2 * c->page.unit, FRAME, 0, error);
 }
 
-// Draws the framed part of a cell's picture and, below it, the same part enlarged.
+// Draws the framed part of a cell's picture and, below it, an enlarged view.
 static bool draw_inset(struct compare *c, const struct cell *cell, struct highlight box, int left, int top,
                        lam_error *error)
 {
@@ -269,7 +270,7 @@ static bool draw_inset(struct compare *c, const struct cell *cell, struct highli
 
 // --- the page
 
-// Reduces the type size until the text fits the width: hinted letters do not shrink in proportion.
+// Reduces the text size until the text fits the width, since hinted letters do not scale proportionally.
 static void draw_fitting(struct drawing *d, struct point baseline, double size, double width, uint32_t color,
                          const char *text)
 {
@@ -286,7 +287,7 @@ static void join(const char *const *words, int count, char line[512])
         snprintf(line + strlen(line), 512 - strlen(line), "%s%s", i ? " " : "", words[i]);
 }
 
-// Draws text in one line or, if it would be too small to read, in two lines, broken after a comma or a word.
+// Draws a text in one line, or in two lines if it would be too small to read. Breaks it after a comma or a word.
 static void draw_words(struct compare *c, struct point baseline, double width, const char *line)
 {
     double u = c->page.unit, size = 15 * u, needed = text_width(&c->drawing, size, line);
@@ -360,7 +361,7 @@ static const char *title_of(const struct compare *c, char title[256])
     return title;
 }
 
-// Builds the description in an SVG: its title, and the meaning of each picture.
+// Builds the description of an SVG: its title and the meaning of each picture.
 static bool describe(struct compare *c, const char *title, lam_error *error)
 {
     char *text = NULL;
@@ -382,7 +383,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
 {
     const struct page *p = &c->page;
     struct highlight box = {0};
-    if (c->sheet.inset) { // from the last picture, which is lit per fragment
+    if (c->sheet.inset) { // taken from the last picture, which is shaded per fragment
         const struct cell *cell = &c->sheet.cells[c->sheet.count - 1];
         lam_image whole, matt;
         if (!draw_cell(c, cell, 1, NULL, NULL, &whole, error))
@@ -437,7 +438,7 @@ static bool has_word(const char *const *words, int count, const char *word)
     return false;
 }
 
-// Prints for each picture its caption, and its part of the command line without the sheet's own options.
+// Prints the caption of each picture, and its arguments without the options of the sheet itself.
 static void print_json(const struct compare *c, const char *path)
 {
     struct json json = {.file = strcmp(path, "-") == 0 ? stderr : stdout};
@@ -477,7 +478,7 @@ static void print_json(const struct compare *c, const char *path)
     putc('\n', json.file);
 }
 
-// Returns the sheet's path; "koala-terms.png" by default.
+// Returns the sheet's path, such as "koala-terms.png" by default.
 static char *path_of(const struct options *o, const char *model, const char *sheet)
 {
     char ending[64];
@@ -506,7 +507,7 @@ static bool find_defaults(struct compare *c, lam_error *error)
     return true;
 }
 
-// The user's words in a picture that is not an SVG.
+// Checks the characters of the user's captions, unless the sheet is an SVG.
 static bool check_words(const struct options *o, lam_error *error)
 {
     bool has_font = o->captions.font != NULL;
@@ -539,7 +540,8 @@ static bool check(const struct options *o, const struct sheet *sheet, const char
     return output_check(path, model, output_is_named(o->picture.output), error);
 }
 
-// Lets the pictures of a sheet reach the files that their own options name: --across look=my.look, --across environment=a.png,b.png.
+// Allows the pictures of a sheet to access the files named in their own options, such as --across look=my.look and
+// --across environment=a.png,b.png.
 static bool reach_cells(const struct compare *c, struct sandbox_paths *paths, lam_error *error)
 {
     struct options own;

@@ -24,7 +24,7 @@ struct convert {
     const struct options *options;
     const char *model, *output;
     const char *format;
-    bool replaces; // the output was there before: so may be the files beside it
+    bool replaces; // the output existed before, so its companion files may exist too
     struct job job;
     lam_export *result;
 };
@@ -41,7 +41,8 @@ static const char *ending(const char *path)
     return dot ? dot + 1 : "";
 }
 
-// Returns the path of file `i` of the result, from malloc: 0 is the output, as it was named. Returns NULL if memory runs out.
+// Returns the path of file `i` of the result, allocated with malloc. File 0 is the named output. Returns NULL if memory
+// runs out.
 static char *path_of(const struct convert *c, int i)
 {
     char *path = NULL;
@@ -51,7 +52,7 @@ static char *path_of(const struct convert *c, int i)
     return asprintf(&path, "%.*s%s", folder, c->output, lam_export_file_name(c->result, i)) < 0 ? NULL : path;
 }
 
-// Returns the format that the ending of a path names, in capitals too. Returns NULL if there is none; see `error`.
+// Returns the format for the extension of a path, which may be in capitals. Returns NULL on failure.
 static const char *find_format(const char *path, lam_error *error)
 {
     char list[100] = "";
@@ -85,7 +86,8 @@ static bool check(struct convert *c, lam_error *error)
     return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and its output are one file", c->output);
 }
 
-// Files beside the model: "part.mtl", "part-0.png". One that somebody else wrote stays, unless the model was there too.
+// Returns whether a path is one of the model's companion files, such as "part.mtl" and "part-0.png". Unless the model
+// existed before, existing companion files of others are kept.
 static bool is_beside(const char *output, const char *path)
 {
     size_t stem = strlen(output) - strlen(ending(output)) - 1;
@@ -151,7 +153,7 @@ static bool write_files(struct convert *c, lam_error *error)
     return ok;
 }
 
-// Draws the model as `lambent MODEL` does, read once more: drawing changes the scene.
+// Draws the model as `lambent MODEL` does. Reads the model again, because drawing changes the scene.
 static bool draw_thumbnail(const struct convert *c, struct progress *progress, lam_image *image, lam_error *error)
 {
     struct options own = *c->options;

@@ -1,4 +1,4 @@
-// journal_command.c: the command `journal`: summarises the journals of a batch, and merges the journals of its shards.
+// journal_command.c: the command `journal`: summarises the journals of a batch and merges the journals of its shards.
 #include "command.h"
 
 #include <stdio.h>
@@ -17,13 +17,13 @@
 #include "sandbox_start.h"
 #include "writer.h"
 
-enum { LINES = 20 }; // of failures and of shards, at most
+enum { LINES = 20 }; // the maximum number of lines for failures and for shards
 
 // --- the sum
 
 struct times {
     double total_ms, median_ms, percent_90_ms, percent_99_ms, longest_ms;
-    const struct journal_entry *longest; // NULL: no picture is written
+    const struct journal_entry *longest; // NULL if no picture is written
 };
 
 static int by_ms(const void *a, const void *b)
@@ -64,7 +64,7 @@ static const char *text_of(const json_t *record, const char *key)
     return text ? text : "";
 }
 
-// Counts the failures by their class, as a batch does.
+// Counts the failures by class, as a batch does.
 static bool sum_classes(const struct journal_sum *sum, struct batch_tally *tally, lam_error *error)
 {
     tally->written = sum->written;
@@ -193,7 +193,7 @@ static void print_json(const struct journal_sum *sum, const struct batch_tally *
 
 // --- written files
 
-// The folder of the pictures that follow, of the line that names it.
+// Writes the folder of the following pictures, taken from the line that names it.
 static void write_folder(FILE *out, const char *line)
 {
     json_t *run = json_loadb(line, strcspn(line, "\n"), 0, NULL), *folder = json_object_get(run, "folder");
@@ -205,7 +205,7 @@ static void write_folder(FILE *out, const char *line)
     json_decref(run);
 }
 
-// One journal of all pictures, as a run without shards would have written it: the latest line of each.
+// Writes one journal of all pictures with the latest line of each, as a run without shards would have written it.
 static bool write_merged(const struct journal_sum *sum, size_t pictures, const char *path, lam_error *error)
 {
     char *text = NULL;
@@ -253,7 +253,7 @@ static bool write_page(struct journal_sum *sum, const struct batch_tally *tally,
     return batch_page_write(&page, error);
 }
 
-// Thumbnails are computed from pictures that the journals name, which may come from anywhere.
+// Thumbnails are made from pictures named in the journals, which may be untrusted.
 static enum writer_right right_of(void *user, const char *path)
 {
     const char *page = user;

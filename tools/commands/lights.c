@@ -1,4 +1,4 @@
-// lights.c: the command `lights`: prints a model's lights, or the rig's, in the form of a scene file.
+// lights.c: the command `lights`: prints the lights of a model or a rig in the format of a scene file.
 #include "command.h"
 
 #include <stdio.h>

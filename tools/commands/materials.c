@@ -1,4 +1,4 @@
-// materials.c: the command `materials`: lists the classic named materials, and draws them.
+// materials.c: the command `materials`: lists the classic named materials and draws them.
 #include "command.h"
 
 #include <stdio.h>
@@ -13,12 +13,12 @@
 #include "report.h"
 #include "terminal.h"
 
-// Model units from a teapot's middle down to its caption's baseline.
+// The distance from a teapot's centre down to the baseline of its caption, in model units.
 #define CAPTION_BELOW 0.83
 
 enum { COLUMNS = 6, ROWS = (LAM_MATERIAL_COUNT + COLUMNS - 1) / COLUMNS };
 
-// The decimal number with the fewest digits that reads back as the same float, as in the table.
+// Returns the decimal number with the fewest digits that parses to the same float, as in the table.
 static double decimal(float x)
 {
     char text[32];
@@ -30,8 +30,8 @@ static double decimal(float x)
     return strtod(text, NULL);
 }
 
-// True for the columns of the list: fields that differ from their default in some classic material. Colours are printed
-// without alpha.
+// Returns true for columns of the list: fields that differ from their default in some classic material. Colours are
+// printed without alpha.
 static bool is_column(const lam_field *field, lam_color_mode color)
 {
     bool differs = false;
@@ -119,8 +119,8 @@ static void print_list(const struct options *options)
         print_table((lam_color_mode)options->picture.color_mode);
 }
 
-// One mesh, and an object for each material: rows of COLUMNS in the order of the list, from the top left. The light is
-// the original program's: directional, from (0, 3, 3), global ambient 0.2, an infinite viewer.
+// Builds a scene of one mesh and an object for each material, in rows of COLUMNS from the top left. The light is the
+// original program's: directional, from (0, 3, 3), with a global ambient of 0.2 and an infinite viewer.
 static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error)
 {
     int mesh = lam_scene_add_shape(scene, "teapot", NULL, error);
@@ -148,7 +148,7 @@ static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// Draws the name of each material below its teapot, in grey, which is legible on any background.
+// Draws each material's name below its teapot in grey, which is legible on any background.
 static bool draw_captions(const lam_scene *scene, const struct options *o, const lam_camera *camera, lam_image *image,
                           lam_error *error)
 {
@@ -162,12 +162,13 @@ static bool draw_captions(const lam_scene *scene, const struct options *o, const
     }
     bool bytes = image->format == LAM_RGBA8, ok = true;
     float grey = bytes ? 0.5f : 0.21f;
-    double unit = image->height / (2 * camera->ortho_half_height); // pixels
+    double unit = image->height / (2 * camera->ortho_half_height); // pixels per unit
     lam_vec3 centre;
     double radius;
     for (int i = 0; ok && i < lam_scene_object_count(scene) && lam_scene_sphere(scene, i, &centre, &radius); i++) {
         const lam_object *object = lam_scene_object(scene, i);
-        // The view is from the front and slightly above: x is horizontal in the picture, y and z give the height.
+        // The camera looks from the front and slightly from above: x is horizontal in the picture, and y and z give the
+        // height.
         lam_vec3 from_target = {centre.x + object->transform.m[0][3] - camera->target.x,
                                 centre.y + object->transform.m[1][3] - camera->target.y, centre.z - camera->target.z};
         double size = 0.21 * unit, max_width = 2.1 * unit, width = lam_text_width(font, size, object->name);
@@ -245,7 +246,7 @@ int run_materials(int operand_count, char **operands, const struct options *opti
     }
     interrupt_start();
     const char *output =
-        options->picture.output ? options->picture.output : "-"; // --term alone shows the sheet and writes no file
+        options->picture.output ? options->picture.output : "-"; // with only --term, the sheet is shown and not written
     bool ok = terminal_start(options, true, &error);
     if (ok && !options->picture.output && !isatty(STDOUT_FILENO) && !terminal_shows()) {
         print_list(options);

@@ -1,4 +1,5 @@
-// render.c: the command `render`, the default: draws a picture of each model. tools/many contains the loop over models.
+// render.c: the command `render`, the default: draws a picture of each model. tools/many contains the loop over the
+// models.
 #include "command.h"
 
 #include <string.h>
@@ -57,7 +58,7 @@ static bool check_together(int count, char **models, const struct options *o, la
     return true;
 }
 
-// Returns whether --journal asks for one; --dry-run does nothing that it could record.
+// Returns whether --journal requests a journal. --dry-run does nothing that could be recorded.
 static bool journal_named(const struct options *o)
 {
     return o->batch.journal && strcmp(o->batch.journal, "none") != 0 && !o->report.dry_run;

@@ -29,7 +29,7 @@ static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
         if (u->count)
             fprintf(file, "= ");
         shader_numbers(file, u->value, u->count, false);
-        // The first element of a list carries the meaning.
+        // Only the first element of a list has a meaning.
         const char *place = strchr(u->name, '[');
         bool first = !place || strncmp(place, "[0]", 3) == 0;
         fprintf(file, "%s%s%s\n", u->count && first ? "  " : "", first ? "// " : "", first ? u->meaning : "");
@@ -75,8 +75,8 @@ void shader_contract(FILE *file, const lam_shader *s)
 
 // --- files
 
-// NAME of NAME.vert and NAME.frag, from malloc: `output` without its extension, or the model's name in the folder
-// `output`.
+// Returns NAME of NAME.vert and NAME.frag, allocated with malloc: `output` without its extension, or the model's name
+// in the folder `output`.
 static char *base_of(const char *output, const char *model)
 {
     char *base = output_path(output, model, "");
@@ -87,8 +87,8 @@ static char *base_of(const char *output, const char *model)
     return base;
 }
 
-// Files of these names are replaced, in a folder too: unlike pictures they do not record the program that wrote them.
-// The folder of `output` may be missing.
+// Replaces existing files with these names, also in a folder, since these files do not record the program that wrote
+// them. The folder of `output` may be missing.
 static bool write_file(const char *output, const char *base, const char *ending, const char *text, size_t size,
                        lam_error *error)
 {
@@ -183,7 +183,7 @@ bool shader_mistake_is_known(const char *name, lam_error *error)
         nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
 }
 
-// The known mistakes, with their visible effects.
+// Lists the known mistakes with their visible effects.
 static void list_mistakes(bool as_json)
 {
     struct json json = {.file = stdout};
@@ -228,7 +228,7 @@ int run_shader(int operand_count, char **operands, const struct options *given)
         complain(&error, LAM_BAD_ARGUMENT,
                  "options '--mistake' and '--style full': a mistake is an edit of the lecture style");
     else if (options.shader.mistake && !shader_mistake_is_known(options.shader.mistake, &error))
-        ; // the error says it
+        ; // already reported
     else if (!*job.model)
         complain(&error, LAM_BAD_ARGUMENT, "a model's name is empty");
     else if (options.report.dry_run)

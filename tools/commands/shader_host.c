@@ -10,7 +10,7 @@ void shader_numbers(FILE *file, const float *values, int count, bool code)
 {
     for (int i = 0; i < count; i++) {
         char text[32];
-        // The fewest digits that read back as the same float.
+        // Finds the fewest digits that parse to the same float.
         for (int digits = 1; digits <= 9; digits++) {
             snprintf(text, sizeof text, "%.*g", digits, (double)values[i]);
             if (strtof(text, NULL) == values[i])
@@ -31,7 +31,7 @@ static void identifier(FILE *file, const char *name)
 
 // --- single uniforms
 
-// True for the first element of a list, which carries the comment with the meaning.
+// Returns true for the first element of a list, whose comment describes the list.
 static bool is_first(const lam_shader_uniform *u)
 {
     const char *place = strchr(u->name, '[');
@@ -73,7 +73,7 @@ static bool same_block(const lam_shader_uniform *a, const lam_shader_uniform *b)
     return a->block && b->block && strcmp(a->block, b->block) == 0;
 }
 
-// Prints the values of one block with its padding; returns the index after it.
+// Prints the values of one block with its padding and returns the index after it.
 static int block_numbers(FILE *file, const lam_shader_uniform *list, int count, int first)
 {
     int at = 0, i = first;
@@ -104,10 +104,10 @@ static int binding_of(const char *block)
     int binding = 0;
     while (strcmp(block_names[binding], block) != 0)
         binding++;
-    return binding == 3 ? 1 : binding; // a shader has Materials or Products, never both
+    return binding == 3 ? 1 : binding; // a shader has Materials or Products, but not both
 }
 
-// Returns whether a uniform is the sampler of a material's map: its picture is the caller's to load.
+// Returns whether a uniform is the sampler of a material's map. The caller must load the picture.
 static bool is_map(const lam_shader_uniform *u)
 {
     return !u->count && strcmp(u->type, "sampler2D") == 0 && strcmp(u->name, "light_list") != 0 &&

@@ -11,7 +11,7 @@ static void numbers(struct json *json, const char *key, const float *values, int
     json_close(json, ']');
 }
 
-// A material's map, of the uniform that is its sampler.
+// Writes the map of the material that a sampler reads.
 static void map_of(struct json *json, const lam_texture_map *map)
 {
     static const char *const wraps[] = {"repeat", "clamp", "mirror"}, *const filters[] = {"linear", "nearest"};

@@ -21,7 +21,7 @@ static bool is_model_file(const char *output)
     return false;
 }
 
-// Adds the model extensions to the error about an extension that no picture format has.
+// Adds the model formats to the error about an extension that is no picture format.
 static bool check_ending(const char *output, lam_error *error)
 {
     lam_pixel_format format;
@@ -39,7 +39,7 @@ static bool check_ending(const char *output, lam_error *error)
     return false;
 }
 
-// A model file has no light, no view and no pixels, so options that change only these are mistakes.
+// A model file stores no lights, camera and pixels, so options that change only these are rejected.
 static bool check_options(const struct options *o, lam_error *error)
 {
     static const char *const others[] = {"output", "segments", "up", "normals", "crease-angle", "durable"};

@@ -1,4 +1,4 @@
-// view.c: shows a model, or the gallery of a folder, in the browser.
+// view.c: the command `view`: shows a model, or the gallery of a folder, in the browser.
 #include "command.h"
 
 #include "console.h"

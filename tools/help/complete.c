@@ -1,4 +1,4 @@
-// complete.c: the command `complete`: prints the words that may come next on a command line, for the shells.
+// complete.c: the command `complete`: prints completions for a command line, for shells.
 #include "complete.h"
 
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 static struct typed_word whole(const char *word) { return (struct typed_word){word, word, 0}; }
 
-// Returns the option named by a word if its value is expected in the next word, otherwise NULL.
+// Returns the option of a word that expects its value in the next word, otherwise NULL.
 static const struct option *expects_value(const char *word)
 {
     const struct option *option = NULL;
@@ -91,7 +91,7 @@ static void complete_operand(const struct command *command, int index, const cha
         for (int i = 0; index == 0 && plot_kind(i); i++)
             complete_offer(&typed, plot_kind(i), "", NULL);
         if (index > 0)
-            complete_files(); // with lights
+            complete_files(); // files of lights
         return;
     case COMMAND_explain:
     case COMMAND_render:
@@ -121,7 +121,7 @@ int run_complete(int count, char **words, const struct options *options)
         first = -1;
     command = command ? command : command_table;
     bool only_operands = false;
-    const struct option *waiting = NULL; // for its value
+    const struct option *waiting = NULL; // an option that expects a value
     for (int at = 0; at < count - 1; at++) {
         if (at == first)
             continue;

@@ -1,4 +1,4 @@
-// complete.h: the words that may come next on a command line.
+// complete.h: completions for a command line.
 #ifndef COMPLETE_H
 #define COMPLETE_H
 
@@ -10,7 +10,8 @@ struct typed_word {
     int before_length;
 };
 
-// Prints a candidate if it begins with `piece`: the whole word, then `ending`, a tab and the summary (NULL: none).
+// Prints a candidate if it begins with `piece`: the whole word, then `ending`, a tab and the summary, which may be
+// NULL.
 void complete_offer(const struct typed_word *typed, const char *word, const char *ending, const char *summary);
 
 // Lets the shell add the names of files that begin with `piece`.

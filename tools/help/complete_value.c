@@ -1,4 +1,5 @@
-// complete_value.c: prints candidates; completes the values of options: words, files, colours, materials, lights, cameras.
+// complete_value.c: prints candidates, and completes the values of options: words, files, colours, materials, lights,
+// cameras.
 #include "complete.h"
 
 #include <stdio.h>
@@ -26,7 +27,7 @@ static struct typed_word after(const struct typed_word *typed, size_t complete)
     return (struct typed_word){typed->before, typed->piece + complete, typed->before_length + (int)complete};
 }
 
-// Returns the text of `piece` after its last comma.
+// Returns the part of `piece` after its last comma.
 static struct typed_word after_comma(const struct typed_word *typed)
 {
     const char *comma = strrchr(typed->piece, ',');
@@ -152,7 +153,7 @@ static void complete_environment(const struct typed_word *typed)
     complete_files();
 }
 
-// "OPTION", or "OPTION=value,value".
+// Completes "OPTION", or "OPTION=value,value".
 static void complete_varied(const struct typed_word *typed)
 {
     size_t length = strcspn(typed->piece, "=");
@@ -172,7 +173,7 @@ static void complete_varied(const struct typed_word *typed)
     }
 }
 
-// "KEY=" of --sweep.
+// Completes "KEY=" of --sweep.
 static void complete_swept(const struct typed_word *typed)
 {
     static const char *const others[] = {"rotate.x",      "rotate.y",        "rotate.z",

@@ -1,4 +1,4 @@
-// completions.c: the completions of bash, zsh and fish: each asks `lambent complete` for the words (complete.c).
+// completions.c: the completion scripts of bash, zsh and fish, which call `lambent complete` (complete.c).
 #include "generate.h"
 
 #include <stdio.h>

@@ -16,7 +16,7 @@ const char *field_standard(const lam_field *field, char text[80])
                                  [LAM_FIELD_TRIPLE] = 3};
     const double *x = field->standard;
     bool zero = x[0] == 0 && x[1] == 0 && x[2] == 0;
-    if (!field->light_types && field->offset == offsetof(lam_material, ambient)) // of a scene file's material
+    if (!field->light_types && field->offset == offsetof(lam_material, ambient)) // for a material in a scene file
         return strcpy(text, "diffuse");
     if (field->type == LAM_FIELD_DIRECTION && zero)
         return strcpy(text, "the scene's");

@@ -4,8 +4,8 @@
 
 #include "command.h"
 
-// Print the help of a command, or of the whole program for the first command of the table, on standard output: all of
-// it (--help), or the most common options (-h), in at most 25 lines of 80 columns.
+// Prints the help of a command, or of the whole program for the first command of the table, on standard output: all of
+// it (--help), or the most common options (-h) in at most 25 lines of 80 columns.
 void print_help(const struct command *command);
 void print_brief_help(const struct command *command);
 

@@ -6,25 +6,25 @@
 
 enum { HELP_WIDTH = 100, HELP_COLUMN = 29, HELP_EXAMPLE_COLUMN = 41 };
 
-// Prints paragraphs, separated by empty lines, from column `indent` on, wrapped at `width` columns. Back quotes are left
-// out.
+// Prints paragraphs, separated by empty lines, from column `indent` on, wrapped at `width` columns. Back quotes are
+// omitted.
 void help_text(const char *text, int indent, int width);
 
 // Prints a row: `left`, then the text from `column` on, wrapped at `width` columns, or on the next line if `left` is
 // too long.
 void help_row(const char *left, int column, int width, const char *text);
 
-// An option's row: its summary and default, for a command the command's own. With `details` all that is known of it.
+// Prints an option's row: its summary and default, for `command` if it has its own. With `details`, prints all
+// information about it.
 void help_option(const struct option *option, const struct command *command, bool details);
 
-// The rows of the options that a command accepts, by group: its own first; options shared with pictures of models only
-// by name.
+// Prints the options that a command accepts, by group: its own first; of shared options only the names.
 void help_options(const struct command *command);
 
-void help_commands(void);   // rows of the commands that must be named
-void help_exit_codes(void); // rows of the exit codes
+void help_commands(void);   // commands that must be named explicitly
+void help_exit_codes(void); // table of exit codes
 
-// The command's usage, its summary and its examples.
+// Prints the command's usage, its summary and its examples.
 void help_command_head(const struct command *command);
 
 #endif

@@ -21,7 +21,7 @@ struct search {
     char **words;
     int count;
     const char *heading;
-    bool whole; // search the details and prose too, besides names and summaries
+    bool whole; // whether to search details and prose too, besides names and summaries
     int found;
 };
 

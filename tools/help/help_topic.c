@@ -124,7 +124,7 @@ static const char *nearest_name(const char *word)
     return nearest.best;
 }
 
-// Searches the help for a word that is no subject, command or option. Returns the exit code.
+// Searches the help for a word that is not a subject, command or option. Returns the exit code.
 static int search(int count, char **words)
 {
     const char *nearest = nearest_name(words[0]);
@@ -137,7 +137,7 @@ static int search(int count, char **words)
     else
         snprintf(heading, sizeof heading, "No subject, command or option is named '%.60s'%s", words[0],
                  *meant ? meant : "; found in:");
-    bool letter = count == 1 && strlen(words[0]) < 2; // matches a word in nearly every text
+    bool letter = count == 1 && strlen(words[0]) < 2; // a letter matches nearly every text
     if (!letter && help_search(count, words, heading))
         return 0;
     complain(&error, LAM_BAD_ARGUMENT,
@@ -150,7 +150,7 @@ static int search(int count, char **words)
 int run_help(int operand_count, char **operands, const struct options *options)
 {
     (void)options;
-    const char *word = operand_count == 1 ? operands[0] : NULL; // several are searched for
+    const char *word = operand_count == 1 ? operands[0] : NULL; // several words are searched for
     const struct topic *topic = word ? find_topic(word) : NULL;
     const struct command *command = word ? find_command(word) : NULL;
     const struct option *option = word ? find_option(word) : NULL;

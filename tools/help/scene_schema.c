@@ -47,7 +47,7 @@ static void print_field(const lam_field *field)
     case LAM_FIELD_DIRECTION:
         printf("\"$ref\": \"#/$defs/vector\"");
         break;
-    case LAM_FIELD_POINT: // a fourth number is w
+    case LAM_FIELD_POINT: // a fourth number would be w
         printf("\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": 3, \"maxItems\": 4");
         break;
     case LAM_FIELD_TRIPLE:
@@ -118,7 +118,7 @@ static void print_settings(void)
             printf("\"type\": \"%s\", \"minimum\": %.10g, \"maximum\": %.10g",
                    setting->type == LAM_SETTING_WHOLE ? "integer" : "number", setting->zero ? 0 : setting->min,
                    setting->max);
-            if (setting->standard >= setting->min || setting->zero) // else the default depends on the scene
+            if (setting->standard >= setting->min || setting->zero) // otherwise the default depends on the scene
                 printf(", \"default\": %.3g", setting->standard);
             break;
         }

@@ -1,8 +1,8 @@
 // animate.c: --turntable and --sweep: the frames of one model.
 //
-// Each frame is a picture of the options that its words add to the command line. The scene is loaded and marked once, and
-// reset before each frame; only an option that the loading itself depends on (option.loads) reads the model anew. The
-// first frame's camera and exposure serve all frames.
+// Each frame is a picture with the options that its words add to the command line. The scene is loaded and marked once,
+// and reset before each frame; it is only loaded again for an option that affects loading (option.loads). The camera
+// and exposure of the first frame are used for all frames.
 #include "animate.h"
 
 #include <stdio.h>
@@ -110,7 +110,7 @@ bool animation_is_frame(const struct options *o, const char *pattern, const char
     return strcmp(pattern, path) == 0;
 }
 
-// Returns the name of a frame's file: the number takes the place of each {frame}.
+// Returns the name of a frame's file, with the number instead of each {frame}.
 static char *path_of_frame(const struct animation *a, int frame)
 {
     int digits = digits_of(a->count);
@@ -141,13 +141,13 @@ static bool name_frames(struct job *job, const struct animation *a, lam_error *e
 
 // --- the options of a frame
 
-// Returns an axis letter of a turn about the up axis.
+// Returns the axis letter for a rotation about the up axis.
 static char up_letter(lam_up up)
 {
     return up == LAM_UP_X || up == LAM_UP_NEGATIVE_X ? 'x' : up == LAM_UP_Z || up == LAM_UP_NEGATIVE_Z ? 'z' : 'y';
 }
 
-// The rotations that the camera is fitted for besides the options': the camera circles the model.
+// Adds the rotations for fitting the camera: if it circles the model, all of them.
 static bool add_turns(struct animation *a, struct options *o, lam_error *error)
 {
     static const char *const all[] = {"x:0", "y:0", "z:0"};
@@ -160,7 +160,7 @@ static bool add_turns(struct animation *a, struct options *o, lam_error *error)
         return complain(error, LAM_LIMIT, "out of memory");
     if (about_up || any)
         items[o->shading.sheet_rotations.count++] = all[up_letter(a->up) - 'x'];
-    if (any) // two axes: any turn
+    if (any) // two axes: any rotation
         items[o->shading.sheet_rotations.count++] = all[(up_letter(a->up) - 'x' + 1) % 3];
     return true;
 }
@@ -178,7 +178,7 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     struct options *o = &a->frame;
     for (int i = 0; i < a->sweep_count; i++) {
         const struct sweep *sweep = &a->sweeps[i];
-        // The camera goes to other angles from where the first frame has it.
+        // The camera moves to other angles, starting from the first frame's camera.
         bool angle = sweep_is_option(sweep, "azimuth") || sweep_is_option(sweep, "elevation");
         if (sweep_words(sweep, angle ? 0 : frame, a->count, &a->words[i])) {
             words[count++] = a->words[i].option;
@@ -197,11 +197,11 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     }
     o->animation.place_lights |= o->animation.turntable != 0;
     if (a->environment && !a->loads)
-        o->shading.environment = NULL; // the scene keeps it
+        o->shading.environment = NULL; // the scene already has it
     return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
 }
 
-// After the first frame: its exposure, and the dim studio that it was filled with, serve all.
+// After the first frame: its exposure, and the dim studio added to it, are used for all frames.
 static void keep_exposure(const struct job *job, struct options *o)
 {
     if (!job->exposure_fitted)
@@ -212,13 +212,13 @@ static void keep_exposure(const struct job *job, struct options *o)
     if (job->fill_scale > 0) {
         o->lighting.has_light_scale = true;
         o->lighting.light_scale = job->fill_scale;
-        o->shading.environment = job->animation->loads ? "studio" : NULL; // else the scene keeps it
+        o->shading.environment = job->animation->loads ? "studio" : NULL; // otherwise the scene already has it
     }
 }
 
 // --- loading
 
-// The options of the frame, completed by a scene file's, become the job's.
+// Sets the job's options to the frame's options, completed by the settings of a scene file.
 static bool use_options(struct job *job, int frame, lam_error *error)
 {
     struct animation *a = job->animation;
@@ -241,7 +241,7 @@ static bool load_frame(struct job *job, int frame, lam_error *error)
     return use_options(job, frame, error) && job_load(job, &none, error);
 }
 
-// The scene of the first frame before options change it.
+// Marks the scene of the first frame before options change it.
 static bool mark(struct job *job, lam_error *error)
 {
     lam_control control;
@@ -250,7 +250,7 @@ static bool mark(struct job *job, lam_error *error)
            (!tangents || lam_scene_make_tangents(job->scene, &control, error)) && lam_scene_mark(job->scene, error);
 }
 
-// The scene of a frame, as it was loaded.
+// Restores the scene of a frame to its loaded state.
 static bool prepare(struct job *job, int frame, lam_error *error)
 {
     if (frame > 0 && job->animation->loads)
@@ -263,9 +263,9 @@ static bool prepare(struct job *job, int frame, lam_error *error)
     return true;
 }
 
-// --- an animation of the file
+// --- animations in the file
 
-// The length of the file's animation that the options name.
+// Finds the length of the animation in the file that the options select.
 static bool find_length(const struct job *job, double *length_s, lam_error *error)
 {
     const lam_file_info *file = lam_scene_file_info(job->scene);
@@ -282,7 +282,7 @@ static bool find_length(const struct job *job, double *length_s, lam_error *erro
                                      "expected time=FROM..TO");
 }
 
-// Completes a sweep of the time that has no numbers, and the number of frames.
+// Completes a time sweep without numbers, and the number of frames.
 static bool set_length(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;
@@ -304,7 +304,7 @@ static bool set_length(struct job *job, lam_error *error)
     return !job->frames.first || name_frames(job, a, error);
 }
 
-// Returns a scene that consists of a box.
+// Makes a scene that consists of a box.
 static lam_scene *box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *error)
 {
     static const uint32_t corners[36] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
@@ -342,7 +342,7 @@ static void extend(lam_vec3 *low, lam_vec3 *high, lam_vec3 a, lam_vec3 b)
     high->z = b.z > high->z ? b.z : high->z;
 }
 
-// If frames pose the model in different ways: one point to rotate about, and one camera, for the box of all of them.
+// If frames pose the model differently: finds one point to rotate about, and one camera, for the box of all poses.
 static bool fit_poses(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;
@@ -373,7 +373,7 @@ static bool fit_poses(struct job *job, lam_error *error)
     return true;
 }
 
-// --- the run
+// --- running
 
 static bool begin(struct job *job, const struct options *o, lam_error *error)
 {
@@ -386,7 +386,8 @@ static bool begin(struct job *job, const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT, "option '--sweep': given %d times, expected at most %d",
                         o->animation.sweeps.count, OPTIONS_MAX);
     for (int i = 0; i < o->animation.sweeps.count; i++) {
-        sweep_parse(o->animation.sweeps.items[i], &a->sweeps[i], error); // cannot fail: animation_check has parsed it
+        // always valid, because animation_check has parsed it
+        sweep_parse(o->animation.sweeps.items[i], &a->sweeps[i], error);
         a->loads |= a->sweeps[i].option && a->sweeps[i].option->loads;
     }
     a->sweep_count = o->animation.sweeps.count;
@@ -407,7 +408,7 @@ static lam_animation *start_file(const struct job *job, lam_error *error)
                               error);
 }
 
-// Encodes the frame into the file of all frames, or writes it to a separate file.
+// Adds the frame to the animation's file, or writes it to a separate file.
 static bool put_frame(struct job *job, lam_animation *file, lam_error *error)
 {
     lam_control control;
@@ -498,8 +499,8 @@ bool animation_run(struct job *job, struct progress *progress, lam_error *error)
     job->animation = &animation;
     bool ok = run(job, job->pixels, progress, error);
     job->animation = NULL;
-    // Reports are about the command line, the model as it was loaded, and the first frame's camera.
-    lam_error ignored; // nothing was marked
+    // Reports describe the command line, the model as loaded, and the first frame's camera.
+    lam_error ignored; // an error means that nothing was marked
     if (job->scene)
         lam_scene_reset(job->scene, &ignored);
     if (animation.has_camera)

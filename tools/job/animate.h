@@ -5,16 +5,16 @@
 #include "animate_frame.h"
 #include "job.h"
 
-// Checks the options of animations together. LAM_BAD_ARGUMENT.
+// Checks combinations of animation options. Fails with LAM_BAD_ARGUMENT.
 bool animation_check(const struct options *o, lam_error *error);
 
-// job_run for an animation: loads the model, draws the frames and writes them.
+// Does the work of job_run for an animation: loads the model, draws the frames and writes them.
 bool animation_run(struct job *job, struct progress *progress, lam_error *error);
 
-// Returns the number of frames that the options ask for.
+// Returns the number of frames of the options.
 int animation_count(const struct options *o);
 
-// Returns whether a path is the file of one of these frames: `pattern` has {frame} in place of the number.
+// Returns whether a path is the file of one of these frames: `pattern` contains {frame} instead of the number.
 bool animation_is_frame(const struct options *o, const char *pattern, const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-// animate_frame.c: the arrangement of a frame of an animation: one point to turn about, one camera, the frame's lights.
+// animate_frame.c: sets up a frame of an animation: one centre of rotation, one camera, the frame's lights.
 #include "animate_frame.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ bool animation_sweeps(const struct animation *a, const char *option)
     return false;
 }
 
-// Returns the share of a full turn that a frame has made, in degrees.
+// Returns the angle of the turntable at a frame, in degrees.
 double animation_turn(const struct animation *a, int frame) { return 360.0 * frame / a->count; }
 
 void animation_sphere(const struct job *job, struct model_sphere *sphere)
@@ -54,16 +54,16 @@ static void turn_camera(lam_camera *camera, lam_vec3 centre, lam_vec3 axis, doub
     camera->up = matrix_apply(&turn, camera->up, 0);
 }
 
-// Returns how far an option is swept from its value in the first frame.
+// Returns the change of a swept option from its value in the first frame.
 static double swept(const struct animation *a, const char *option)
 {
-    for (int i = a->sweep_count - 1; i >= 0; i--) // the last one counts
+    for (int i = a->sweep_count - 1; i >= 0; i--) // the last sweep of an option is used
         if (sweep_is_option(&a->sweeps[i], option))
             return sweep_value(&a->sweeps[i], a->index, a->count) - sweep_value(&a->sweeps[i], 0, a->count);
     return 0;
 }
 
-// Takes the camera of the first frame around the model.
+// Moves the camera of the first frame around the model.
 static void move_camera(struct job *job)
 {
     const struct animation *a = job->animation;

@@ -1,4 +1,4 @@
-// animate_frame.h: the state of an animation, and the parts of job_arrange that differ in one.
+// animate_frame.h: the state of an animation, and its variants of steps in job_arrange.
 #ifndef ANIMATE_FRAME_H
 #define ANIMATE_FRAME_H
 
@@ -7,36 +7,36 @@
 #include "sweep_option.h"
 
 struct animation {
-    const struct options *given; // of the command line
+    const struct options *given; // the options of the command line
     const char *pattern;         // the picture's name, which may contain {frame}
-    struct options frame;        // of the frame being drawn
+    struct options frame;        // the options of the current frame
     int sweep_count;
     struct sweep *sweeps;
-    struct sweep_words *words; // of the sweeps, then of the turntable
-    int index, count;          // of frames
-    bool loads;                // each frame reads the model
-    bool environment;          // the scene has it: only the first frame loads it
-    bool drawn;                // the first frame: the exposure is known
+    struct sweep_words *words; // words of the sweeps, then of the turntable
+    int index, count;          // the frame's index, and the number of frames
+    bool loads;                // whether each frame reads the model again
+    bool environment;          // the scene has the environment: only the first frame loads it
+    bool drawn;                // the first frame was drawn, so the exposure is known
     bool has_sphere, has_camera;
-    struct model_sphere sphere; // before any turn
-    lam_camera camera;          // of the first frame
+    struct model_sphere sphere; // before any rotation
+    lam_camera camera;          // the camera of the first frame
     lam_up up;
 };
 
 bool animation_wanted(const struct options *o);
 
-// Returns the option that asks for frames, for messages: "turntable" or "sweep".
+// Returns the option that requests frames, for messages: "turntable" or "sweep".
 const char *animation_option(const struct options *o);
 
 // Returns whether an option is swept.
 bool animation_sweeps(const struct animation *a, const char *option);
 
-// Returns the share of a full turn that a frame has made, in degrees.
+// Returns the angle of the turntable at a frame, in degrees.
 double animation_turn(const struct animation *a, int frame);
 
-// Without an animation these do nothing. animation_sphere: all frames turn about one point. animation_camera: the camera
-// that was placed for all frames; false: none yet. animation_arrange: after the lights were added, gives them the frame's
-// values, and takes the camera to where the frame is seen from.
+// Without an animation these functions do nothing. animation_sphere sets the common centre of rotation.
+// animation_camera gets the camera for all frames; it returns false if there is none yet. animation_arrange sets the
+// frame's values of lights, after they were added, and moves the camera to its position for the frame.
 void animation_sphere(const struct job *job, struct model_sphere *sphere);
 bool animation_camera(const struct job *job, lam_camera *camera);
 bool animation_arrange(struct job *job, lam_error *error);

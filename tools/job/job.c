@@ -64,7 +64,7 @@ static double crease_of(const struct options *o)
                                              : 1e-6;
 }
 
-// Names the option that an error about a formula or a range of it is about.
+// Names the option in an error about a formula or one of its ranges.
 static void name_formula_option(const char *model, lam_error *error)
 {
     const struct {
@@ -81,7 +81,7 @@ static void name_formula_option(const char *model, lam_error *error)
     }
 }
 
-// The formula of the options; its text is NULL if there is none.
+// Returns the formula of the options; its text is NULL if there is none.
 static lam_formula formula_of(const struct options *o)
 {
     if (o->shape.implicit)
@@ -117,7 +117,7 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
         ok = lam_scene_make_normals(scene, (lam_normals)o->shading.normals, crease_of(o), o->work.threads, control,
                                     error);
     if (ok) {
-        // Formulas are written for books' axes, where z is up.
+        // Formulas use the axes of textbooks, with z up.
         lam_scene_set_up(scene, formula.text && o->view.up == LAM_UP_AUTO ? LAM_UP_Z : (lam_up)o->view.up);
         return scene;
     }
@@ -138,7 +138,7 @@ static bool draws_once(const struct job *job)
            !job->animation;
 }
 
-// Under flat and Gouraud shading most maps are left out.
+// Flat and Gouraud shading ignore most maps.
 static void warn_maps(struct job *job)
 {
     static const lam_map fine[] = {LAM_MAP_NORMAL,   LAM_MAP_BUMP,      LAM_MAP_SPECULAR, LAM_MAP_SHININESS,
@@ -159,7 +159,7 @@ static void warn_maps(struct job *job)
         lam_scene_add_warning(job->scene, text);
 }
 
-// The background of the command line, else of the scene file.
+// Finds the background of the command line, or else of the scene file.
 static bool find_background(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -210,7 +210,7 @@ static bool make_scene(struct job *job, struct progress *progress, lam_error *er
     return job->scene != NULL;
 }
 
-// Warns of numbers of a colour that are above 1, or are bytes.
+// Warns of colour values that are above 1, or look like bytes.
 static void warn_color(lam_scene *scene, const char *option, const char *value, bool reflects, lam_color_mode mode)
 {
     lam_rgba color;
@@ -226,7 +226,7 @@ static void warn_color(lam_scene *scene, const char *option, const char *value, 
         lam_scene_add_warning(scene, text);
 }
 
-// Lights may well be above 1: only numbers of a light that does not fade with distance may be bytes.
+// Light colours may be above 1: only values of a light that does not fade with distance are suspected to be bytes.
 static void warn_colors(struct job *job)
 {
     const struct options *o = job->options;
@@ -274,14 +274,14 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
     return true;
 }
 
-// Returns whether an option says how a model with lights of its own is lit.
+// Returns whether an option determines how a model with its own lights is lit.
 static bool lit_by_options(const struct options *o)
 {
     const struct lighting_options *l = &o->lighting;
     return (l->has_rig && l->rig != (int)LAM_RIG_AUTO) || l->has_light_scale || l->lights.count;
 }
 
-// Takes the dim studio of an earlier picture away again: each view is drawn as it would be alone.
+// Removes the dim studio of an earlier picture, so that each view is identical to one drawn alone.
 static bool remove_fill(struct job *job, lam_error *error)
 {
     bool ok = !job->unfilled || lam_scene_set_environment(job->scene, NULL, 0, error);
@@ -292,7 +292,7 @@ static bool remove_fill(struct job *job, lam_error *error)
     return ok;
 }
 
-// Adds a dim studio to a file whose own lights leave much of the picture black.
+// Adds a dim studio if a file's own lights leave much of the picture black.
 static bool fill_darkness(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
 {
     lam_control control;
@@ -314,7 +314,7 @@ static bool fill_darkness(struct job *job, lam_draw_params *draw, int width, int
     return true;
 }
 
-// Computes the exposure if it is automatic. All lights count then, because the effect of a light depends on the
+// Computes the exposure if it is automatic. All lights are then evaluated, because the effect of a light depends on the
 // exposure.
 static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
 {
@@ -360,7 +360,7 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
     return ok;
 }
 
-// The median frame is the faster of the two in the middle.
+// For an even number of frames, the median is the faster one of the middle two.
 void job_time_frames(struct job *job, lam_frame_report *reports, int count)
 {
     qsort(reports, (size_t)count, sizeof *reports, by_total);
@@ -484,7 +484,7 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
     }
     bool ok = job_draw(job, job->pixels, progress, error);
     if (ok && progress)
-        progress_end(progress); // the picture may go to the terminal
+        progress_end(progress); // the picture may be written to the terminal
     return ok && job_write(job, error) && (!job->options->picture.save_scene || scene_settings_save(job, error));
 }
 

@@ -1,4 +1,4 @@
-// job.h: the work on one model: its options, its state and its results.
+// job.h: a job: the options, state and results of drawing one model.
 #ifndef JOB_H
 #define JOB_H
 
@@ -7,10 +7,11 @@
 #include "progress.h"
 
 struct job_times {
-    double start;                                // clock_ms() at the job's start
-    double frame_start;                          // of an animation's frame: the default time limit is each frame's
+    double start; // clock_ms() at the job's start
+    // the start of an animation's frame, to which the default time limit applies
+    double frame_start;
     double read, prepare, camera, encode, total; // milliseconds
-    lam_frame_report frame;                      // of the median frame
+    lam_frame_report frame;                      // the report of the median frame
     double frame_min, frame_max;                 // over the --repeat frames
     int frames;
 };
@@ -21,7 +22,7 @@ struct model_counts {
     int meshes, objects, materials, lights;
 };
 
-// Its contents in words: "1 triangle, 4 lines". Returns `out`.
+// Describes the contents: "1 triangle, 4 lines". Returns `out`.
 enum { MODEL_COUNTS_SIZE = 100 };
 const char *model_counts_text(const struct model_counts *counts, char out[MODEL_COUNTS_SIZE]);
 
@@ -31,100 +32,102 @@ struct model_sphere {
     double radius;
 };
 
-// One of several pictures of a model that is read once.
+// One of several pictures of a model that is loaded once.
 struct job_view {
-    int side;          // lam_side; −1: as the options have it
+    int side;          // lam_side, or −1 if the options select it
     int width, height; // pixels
 };
 
-// The data shared by two jobs whose pictures are compared.
+// Data shared by two jobs whose pictures are compared.
 struct job_shared {
     struct model_sphere sphere; // around both models
-    lam_camera camera;          // if the flag below is set, in place of any other
+    lam_camera camera;          // used instead of any other if the flag below is set
     bool has_camera;
 };
 
 // The frames of --turntable and --sweep.
 struct job_frames {
-    int count;                // 0: one picture
-    double frames_per_second; // of the animation
-    char *first, *last;       // the paths of the frames; NULL: all are in one file
+    int count;                // the number of frames; 0 means one picture
+    double frames_per_second; // the frame rate of the animation
+    char *first, *last;       // the paths of the frames; NULL if one file contains all frames
 };
 
 struct job {
     const struct options *options;
     const char *model;            // as typed
-    const lam_bytes *model_bytes; // the model itself, which `model` is then a name for; NULL: a file
-    const char *output;           // path of the picture; "-": standard output
-    lam_bytes *picture_bytes;     // receives the picture's file, whose format `output` names; NULL: the file is written
-    bool makes_folder;            // of a picture that the options name, too
-    const lam_cancel *cancel;     // stops it; NULL: Ctrl-C does
-    const char *format;           // of the picture: "png"
-    lam_pixel_format pixels;      // that it is drawn with
+    const lam_bytes *model_bytes; // the model itself, named by `model`; NULL if it is a file
+    const char *output;           // path of the picture; "-" means standard output
+    lam_bytes *picture_bytes;     // receives the picture in the format of `output`; NULL if a file is written
+    bool makes_folder;            // also create the folder of an explicitly named picture
+    const lam_cancel *cancel;     // stops the job; if NULL, only Ctrl-C does
+    const char *format;           // the format of the picture: "png"
+    lam_pixel_format pixels;      // the pixel format for drawing
     struct job_frames frames;
-    struct animation *animation; // while one is made (animate.h); NULL: none is
+    struct animation *animation; // during an animation (animate.h); otherwise NULL
     lam_scene *scene;            // NULL until the model is loaded
-    bool keeps_scene;            // it is drawn again, by another job
+    bool keeps_scene;            // another job will draw it again
     struct model_counts model_counts;
-    lam_rig rig;                // the rig that drawing adds to the scene's own lights
-    bool file_lights;           // the lights of a glTF file, in candela and lux, light it
-    bool exposure_fitted;       // draw.exposure was found for this picture
-    lam_light *unfilled;        // the scene's lights before lam_studio_fill scaled them; NULL: it did not. From malloc
-    double fill_scale;          // by which it scaled them; 0: it did not
-    bool studio;                // the built-in environment "studio" lights it, if no other is set
-    struct model_sphere sphere; // before it was turned
+    lam_rig rig;          // the rig that drawing adds to the scene's own lights
+    bool file_lights;     // whether lights of a glTF file, in candela and lux, light it
+    bool exposure_fitted; // whether draw.exposure was computed for this picture
+    // from malloc: the scene's lights before lam_studio_fill scaled them; NULL if not scaled
+    lam_light *unfilled;
+    double fill_scale;          // the factor of that scaling; 0 if not scaled
+    bool studio;                // whether the built-in environment "studio" lights it if no other is set
+    struct model_sphere sphere; // before the rotation
     lam_camera camera;
     lam_image image;
     lam_rgba background; // behind the model
     lam_device *device;
-    struct environment_cache *environments; // that other jobs share; NULL: none are
-    const struct job_shared *shared;        // with another job; NULL: nothing is
-    const struct job_view *views;           // the pictures to draw; NULL: one, as the options have it
+    struct environment_cache *environments; // shared with other jobs; NULL if not shared
+    const struct job_shared *shared;        // shared with another job; NULL if not shared
+    const struct job_view *views;           // the pictures to draw; NULL means one picture from the options
     int view_count;
-    lam_camera *cameras; // of the views; from malloc, by job_arrange
-    lam_light *lights;   // those before the options' lights, which may depend on the camera; from malloc
+    lam_camera *cameras; // one per view; from malloc, by job_arrange
+    // the lights before the options' lights were added, which may depend on the camera; from malloc
+    lam_light *lights;
     int light_count;
     uint64_t bytes; // size of the written file
     bool written;
-    bool planned;                  // --dry-run: everything is ready to be drawn
+    bool planned;                  // --dry-run: everything is ready for drawing
     struct options own;            // the options, completed by the settings of a scene file
-    lam_picture_settings settings; // of the scene file; none set if the model is not a scene file
-    lam_draw_params draw;          // of the drawn picture
+    lam_picture_settings settings; // the scene file's settings; empty if the model is not a scene file
+    lam_draw_params draw;          // parameters of the drawn picture
     struct job_times times;
     lam_error error; // code LAM_OK: none
 };
 
-// Loads the model, draws it and writes the picture. The caller fills in options, model, output, device and
-// times.start; the steps fill in the rest, so that a report of a failure includes the completed steps. The caller
-// frees the scene, the image and the paths of frames.
+// Loads the model, draws it and writes the picture. The caller fills in options, model, output, device and times.start;
+// the steps fill in the rest, so that the report of a failure includes the completed steps. The caller frees the scene,
+// the image and the paths of frames.
 bool job_run(struct job *job, struct progress *progress, lam_error *error);
 
-// The same for one of several pictures, after job_check_output, job_load and job_arrange; `output` is its file.
+// Does the same for one of several pictures, after job_check_output, job_load and job_arrange; `output` is its file.
 bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error);
 
-// Returns whether the picture's name is one that can be written, and by which format. Fills in `format`.
+// Returns whether the picture's name has a writable format, and sets `format`.
 bool job_check_output(struct job *job, lam_error *error);
 
 // Frees the scene, the image, the lights and the paths of frames.
 void job_free(struct job *job);
 
-// Loads and draws; the picture stays in `image`. Ignores output and format.
+// Loads and draws; the picture remains in `image`. Output and format are ignored.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
-// Runs the first step of job_run, for commands that draw nothing: loads the model or builds the shape if the job has no
+// The first step of job_run, for commands that draw nothing: loads the model or builds the shape if the job has no
 // scene, and applies the settings of a scene file.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
-// Runs the second step: applies the options for materials, rotations, camera and lights.
+// The second step: applies the options for materials, rotations, camera and lights.
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error);
 
-// Runs both steps and explains one pixel. NULL on failure.
+// Runs both steps and explains one pixel. Returns NULL on failure.
 lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error);
 
-// Runs both steps and makes the shaders of the picture. NULL on failure.
+// Runs both steps and makes the shaders of the picture. Returns NULL on failure.
 lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error);
 
-// glass.c: notes that a transparent picture of coloured glass is meant for white, or that glass is drawn opaque.
+// glass.c: notes that a transparent picture of tinted glass is only correct over white, or that glass is drawn opaque.
 void job_note_glass(struct job *job, const lam_draw_params *draw);
 
 #endif

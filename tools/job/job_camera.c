@@ -1,4 +1,4 @@
-// job_camera.c: the position of a job's camera, and the lights that depend on it.
+// job_camera.c: places the camera of a job, and the lights that depend on it.
 #include "job_steps.h"
 
 #include <stdio.h>
@@ -23,7 +23,7 @@ static lam_view view_of(const struct options *o)
     return view;
 }
 
-// The camera of the file that `--camera` names.
+// Finds the camera of the file that `--camera` names.
 static bool find_camera(struct job *job, lam_error *error)
 {
     int count = lam_scene_camera_count(job->scene),
@@ -62,7 +62,7 @@ lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct 
                                  turns ? &axis : NULL);
 }
 
-// Keeps the lights as they are before the options add theirs, if these are added again for each view's camera.
+// Copies the lights before the options add theirs, if they must be added again for each view's camera.
 static bool keep_lights(struct job *job, lam_error *error)
 {
     if (job->view_count <= 1 || !job->options->lighting.lights.count)
@@ -94,7 +94,8 @@ static bool shared_camera(const struct job *job, lam_camera *camera)
     return true;
 }
 
-// Fits the camera before the model is turned: one fit serves every angle. A camera in words aims at the turned model.
+// Fits the camera before the model is rotated, so that one fit is valid for every angle. A camera given as text refers
+// to the rotated model.
 static void fit_camera(struct job *job, const struct model_sphere *sphere, bool side_is_given)
 {
     const struct options *o = job->options;
@@ -116,7 +117,7 @@ bool job_place_camera(struct job *job, lam_error *error)
     double start = clock_ms();
     if (job->view_count && !(job->cameras = calloc((size_t)job->view_count, sizeof *job->cameras)))
         return complain(error, LAM_LIMIT, "out of memory");
-    for (int i = job->view_count - 1; i >= 0; i--) { // the first one is in place then
+    for (int i = job->view_count - 1; i >= 0; i--) { // ends with the first view
         job_choose_view(job, &job->views[i]);
         fit_camera(job, sphere, job->views[i].side >= 0);
         job->cameras[i] = job->camera;
@@ -131,7 +132,8 @@ bool job_place_camera(struct job *job, lam_error *error)
     if (o->view.camera && !strchr(o->view.camera, '=') && !find_camera(job, error))
         return false;
     if (o->view.camera && strchr(o->view.camera, '='))
-        lam_camera_parse(o->view.camera, job->scene, &job->camera, NULL); // cannot fail: store_camera has parsed it
+        // always valid, because store_camera has parsed it
+        lam_camera_parse(o->view.camera, job->scene, &job->camera, NULL);
     for (int i = 0; o->view.camera && i < job->view_count; i++)
         job->cameras[i] = job->camera;
     return true;

@@ -1,4 +1,4 @@
-// job_check.c: checks for options of a picture that exclude each other.
+// job_check.c: checks picture options that exclude each other.
 #include "job_check.h"
 
 #include <string.h>
@@ -6,7 +6,8 @@
 #include "animate.h"
 #include "console.h"
 
-// Phong shading runs in the fragment stage, Gouraud shading in the vertex stage or the application, flat in any.
+// Phong shading needs the fragment stage, Gouraud shading the vertex stage or the application; flat shading works in
+// any stage.
 static bool check_stage(const struct options *o, lam_error *error)
 {
     if (!o->shading.has_shading || !o->draw.stage)

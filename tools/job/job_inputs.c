@@ -1,4 +1,4 @@
-// job_inputs.c: keeps the files that a model was read from: no output may replace one.
+// job_inputs.c: prevents outputs from replacing the files of the model.
 #include "job_inputs.h"
 
 #include <string.h>

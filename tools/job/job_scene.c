@@ -1,4 +1,4 @@
-// job_scene.c: applies the options for materials, turns and lights to a loaded model.
+// job_scene.c: applies the options for materials, rotations and lights to a loaded model.
 #include "job_scene.h"
 
 #include <stdio.h>
@@ -12,8 +12,8 @@
 
 // --- materials
 
-// Returns whether metals that are named by --material mirror the studio: it lights the picture, and nothing asks for
-// the numbers of the classic table.
+// Returns whether metals from --material mirror the studio: the studio lights the picture, and no option requires the
+// classic values.
 static bool metals_mirror(const struct options *o, const lam_scene *scene)
 {
     const lam_draw_params *draw = &o->draw;
@@ -38,7 +38,7 @@ static bool set_materials(const struct texts *texts, bool back, const char *name
     return true;
 }
 
-// Colours of vertices and triangles multiply the materials' colours.
+// Warns that colours of vertices and triangles multiply the materials' colours.
 static void warn_of_own_colors(lam_scene *scene)
 {
     for (int i = 0; i < lam_scene_mesh_count(scene); i++)
@@ -61,7 +61,8 @@ static bool set_color(const struct options *o, lam_scene *scene, lam_error *erro
     return ok;
 }
 
-// Colour, shininess and opacity are set before the back materials, so that back faces derived from the front share them.
+// Colour, shininess and opacity are set before the back materials, so that back materials derived from the front
+// include them.
 static bool apply_materials(const struct options *o, lam_scene *scene, lam_error *error)
 {
     if (!set_materials(&o->material.materials, false, "material", o, scene, error) ||
@@ -117,14 +118,14 @@ static bool lit_by_environment(const struct job *job)
            lam_scene_rig_lights(job->scene, LAM_RIG_AUTO, lights) == 0;
 }
 
-// The environment that drawing would take for a scene without lights: options are about to add some.
+// Sets the environment that drawing would use for a scene without lights, because options will add some.
 static bool set_studio(const struct job *job, lam_error *error)
 {
     return lam_scene_environment(job->scene) ||
            environment_cache_set(job->environments, "studio", LAM_COLOR_SRGB, job->scene, 0, NULL, error);
 }
 
-// Chooses between the model's lights and the rig's. Drawing adds the rig if no option changes it; otherwise its lights
+// Chooses between the model's lights and the rig's. If no option changes the rig, drawing adds it; otherwise its lights
 // are added to the scene here, placed around the model in its current position.
 static bool apply_rig(struct job *job, lam_error *error)
 {
@@ -182,7 +183,8 @@ bool job_turn(struct job *job, const struct model_sphere *sphere, lam_error *err
     for (int i = 0; i < o->shading.rotations.count; i++) {
         lam_vec3 axis;
         double angle_deg;
-        rotation_parse(o->shading.rotations.items[i], &axis, &angle_deg); // cannot fail: store_rotation has parsed it
+        // always valid, because store_rotation has parsed it
+        rotation_parse(o->shading.rotations.items[i], &axis, &angle_deg);
         if (!lam_scene_rotate(job->scene, sphere->centre, axis, radians(angle_deg), error))
             return false;
     }
@@ -242,7 +244,7 @@ bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *er
 
 // --- drawing
 
-// Returns a colour that was checked with the command line, else another.
+// Returns a colour that the command line has checked, or else the default.
 static lam_rgba color_or(const char *text, int mode, lam_rgba otherwise)
 {
     lam_rgba color;
@@ -262,7 +264,7 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
     draw.edge_color = color_or(o->shading.edge_color, o->picture.color_mode, draw.edge_color);
     draw.wireframe_color = color_or(o->shading.wireframe_color, o->picture.color_mode, draw.wireframe_color);
     lam_rgba ground;
-    lam_error unused; // the colour was checked with the command line
+    lam_error unused; // the command line has checked the colour
     if (o->shading.ground_color &&
         lam_color_parse(o->shading.ground_color, (lam_color_mode)o->picture.color_mode, &ground, &unused))
         draw.ground_color = (lam_rgb){ground.r, ground.g, ground.b};

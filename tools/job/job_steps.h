@@ -1,36 +1,36 @@
-// job_steps.h: the steps of a job, which one picture and an animation put together in different ways.
+// job_steps.h: the steps of a job, which single pictures and animations combine differently.
 #ifndef JOB_STEPS_H
 #define JOB_STEPS_H
 
 #include "job.h"
 
-// Fills the control of the next library call: remaining time, memory limit, interrupt flag, progress bar (NULL: none).
+// Fills the control of the next library call: remaining time, memory limit, interrupt flag, progress bar (may be NULL).
 bool job_control(const struct job *job, struct progress *progress, lam_control *control, lam_error *error);
 
-// Returns the camera that fills the picture with the scene, for all of its turns about `centre`.
+// Returns the camera that fits the scene, for all of its rotations about `centre`.
 lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig);
 
-// Makes one of several views the options of the next picture.
+// Sets the options for the picture of one of several views.
 void job_choose_view(struct job *job, const struct job_view *view);
 
-// Places the camera of each view, and turns the model.
+// Places the camera of each view, and rotates the model.
 bool job_place_camera(struct job *job, lam_error *error);
 
-// Lights the scene for another camera, if the options added lights to the model's.
+// Updates the lights for another camera, if the options added lights.
 bool job_light_again(struct job *job, lam_error *error);
 
-// Makes job->image. LAM_LIMIT.
+// Allocates job->image. Fails with LAM_LIMIT.
 bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error);
 
-// Draws the arranged scene `count` times and adds the reports to `reports`. `from` and `span`: its part of the whole, for
-// the progress bar.
+// Draws the arranged scene `count` times and adds the reports to `reports`. `from` and `span` are its part of the
+// progress.
 bool job_draw_frames(struct job *job, double from, double span, int count, lam_frame_report *reports,
                      struct progress *progress, lam_error *error);
 
-// Sets the times of `count` frames, the median one's steps among them; sorts the reports.
+// Sets the times of `count` frames, including the steps of the median one; sorts the reports.
 void job_time_frames(struct job *job, lam_frame_report *reports, int count);
 
-// How the picture is encoded; `control` stays in use.
+// Returns the parameters for encoding; `control` must stay valid.
 lam_save_params job_save_params(const struct job *job, const lam_control *control);
 
 // Writes job->image to job->output, and adds to job->bytes and times.encode.

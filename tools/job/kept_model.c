@@ -14,8 +14,8 @@ void kept_model_forget(struct kept_model *model)
     *model = (struct kept_model){0};
 }
 
-// Returns whether a loaded scene serves other values of the option: options of the picture, the view, lights, materials
-// and drawing. An option of another kind is taken for one that changes the scene.
+// Returns whether a loaded scene can be used with another value of the option, as for options of picture, view, lights,
+// materials and drawing. All other options are assumed to change the scene.
 static bool changes_drawing_only(const struct option *option)
 {
     static const char *const except[] = {"up", "color-mode", "look"};
@@ -29,7 +29,7 @@ static bool changes_drawing_only(const struct option *option)
            strcmp(option->name, "reflectivity") == 0;
 }
 
-// Returns the model and the options that it is loaded by, from malloc.
+// Returns a key for the model and its load options, from malloc.
 static char *key_of(const char *name, const struct options *options)
 {
     size_t size = 0;

@@ -5,14 +5,15 @@
 #include "job.h"
 
 struct kept_model {
-    char *key; // the words that it was loaded by; NULL: none is loaded
+    char *key; // the model and its load options; NULL if not loaded
     lam_scene *scene;
-    bool environment; // it has one of its own
+    bool environment; // whether it has its own environment
     double read_ms;
 };
 
-// Gives the job the model, as it was before any option changed it: loads it, if another one is kept or it was loaded by other options. The
-// job has its options, model, device and environments. `progress`: of loading; NULL: nobody watches. Errors of job_load.
+// Gives the model to the job in its original state. Loads it if another model, or the same model with other options, is
+// stored. The job's options, model, device and environments must be set. `progress` shows the loading and may be NULL.
+// Fails like job_load.
 bool kept_model_take(struct kept_model *model, struct job *job, struct progress *progress, lam_error *error);
 
 void kept_model_forget(struct kept_model *model);

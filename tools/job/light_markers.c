@@ -47,7 +47,7 @@ static bool put(lam_scene *scene, int mesh, int material, lam_mat4 transform, la
     return mesh >= 0 && material >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
 }
 
-// Returns whether the picture shows nothing of a ball.
+// Returns whether a sphere is outside the picture.
 static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
 {
     const lam_camera *camera = &job->camera;
@@ -64,10 +64,10 @@ static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
     return depth <= 0 || x > kx * depth + radius * sqrt(1 + kx * kx) || y > ky * depth + radius * sqrt(1 + ky * ky);
 }
 
-// Lights by name, else by number from 1; the first few, and how many more.
+// Lists lights by name, or else by number from 1: the first few, and the number of the others.
 struct names {
     char text[160];
-    int count, more; // all of them, and those without a place in the text
+    int count, more; // total number, and number of omitted ones
 };
 
 static void add_name(struct names *names, const lam_light *light, int number)
@@ -110,7 +110,8 @@ bool light_markers_add(struct job *job, lam_error *error)
     if (!lights)
         return complain(error, LAM_LIMIT, "out of memory");
     lam_draw_lights(scene, job->rig, lights, count);
-    // The rig's lights become lights of the scene first: the scene's sphere places some, and the markers enlarge it.
+    // The rig's lights are added to the scene first, because some of them depend on the scene's sphere, which the
+    // markers enlarge.
     bool ok = true;
     for (int i = own; ok && i < count; i++)
         ok = lam_scene_add_light(scene, &lights[i], error) >= 0;

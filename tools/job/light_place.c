@@ -46,7 +46,7 @@ lam_mat4 light_to_world(const struct job *job, const lam_light *light)
 {
     lam_mat4 m = lam_mat4_identity();
     if (light->frame == LAM_FRAME_CAMERA ||
-        light->frame == LAM_FRAME_VIEW) { // a rigid view: its inverse is the transposed rotation about the eye
+        light->frame == LAM_FRAME_VIEW) { // the inverse of a rigid view is its transposed rotation about the eye
         lam_mat4 view = lam_camera_view_matrix(&job->camera);
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
@@ -58,7 +58,7 @@ lam_mat4 light_to_world(const struct job *job, const lam_light *light)
         m.m[1][3] = origin.y;
         m.m[2][3] = origin.z;
     } else if (light->frame != LAM_FRAME_WORLD) {
-        // --rotate turned the whole model like its first object.
+        // --rotate rotates the whole model, so any object gives the rotation.
         for (int i = 0; i < lam_scene_object_count(job->scene); i++) {
             const lam_object *object = lam_scene_object(job->scene, i);
             bool meant = light->frame == LAM_FRAME_MODEL || !light->object ||
@@ -87,9 +87,9 @@ bool lights_fix_to_world(struct job *job, lam_error *error)
     return true;
 }
 
-// --- where a light comes from
+// --- directions towards a light
 
-// The directions of a light's frame, and the point that its position is seen from.
+// The axes of a light's frame, and the reference point for its position.
 struct surroundings {
     lam_vec3 up, front, centre;
 };
@@ -117,7 +117,7 @@ static struct surroundings surroundings_of(const struct job *job, const lam_ligh
     return s;
 }
 
-// Returns a way to the light with another azimuth or elevation, and the same length.
+// Returns the vector to the light with another azimuth or elevation, and the same length.
 static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth, double degrees)
 {
     double height = dot(way, s->up), length = sqrt(dot(way, way));
@@ -129,7 +129,7 @@ static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth,
     return times(turned(ahead, cross(ahead, s->up), degrees), length);
 }
 
-// Turns `v` by the rotation that takes the way to the light from one place to another, the horizon level.
+// Rotates `v` by the rotation that moves the light from one position to another without roll.
 static lam_vec3 carried(lam_vec3 v, lam_vec3 from, lam_vec3 to, const struct surroundings *s)
 {
     lam_vec3 axes[2][3];
@@ -183,7 +183,7 @@ void light_brighten(lam_light *light, double factor)
     brighten(&light->ground, factor);
 }
 
-// Returns the row of a light's type; NULL: such lights have no such field.
+// Returns the row of the field for a light's type, or NULL if it has no such field.
 static const lam_field *field_of(const lam_light *light, const char *key)
 {
     for (int i = 0; lam_light_field(i); i++)
@@ -208,7 +208,7 @@ static bool set_field(lam_light *light, const struct sweep *sweep, double value)
     return true;
 }
 
-// Returns false if the light has no such number.
+// Sets a number of the light. Returns false if the light does not have it.
 static bool set_number(const struct job *job, const struct sweep *sweep, double value, lam_vec3 centre,
                        lam_light *light)
 {

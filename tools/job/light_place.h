@@ -8,17 +8,17 @@
 // Returns the matrix from a light's frame to the world.
 lam_mat4 light_to_world(const struct job *job, const lam_light *light);
 
-// Turns lights fixed to the camera into lights of the world, at their present positions.
+// Converts lights in the camera's frame to lights in the world, at their current positions.
 bool lights_fix_to_world(struct job *job, lam_error *error);
 
-// Gives a light of the scene a sweep's value. `centre`: the middle of the model. LAM_BAD_ARGUMENT: no such light, or it has
-// no such number.
+// Sets a swept value of a light. `centre` is the model's centre. Fails with LAM_BAD_ARGUMENT if there is no such light,
+// or it does not have the number.
 bool light_sweep(const struct job *job, const struct sweep *sweep, double value, lam_vec3 centre, lam_error *error);
 
 // Multiplies all colours of a light.
 void light_brighten(lam_light *light, double factor);
 
-// The scene's up axis and the direction of its front, unit.
+// Gets the scene's up axis and the direction of its front, unit.
 void scene_axes(const lam_scene *scene, lam_vec3 *up, lam_vec3 *front);
 
 lam_vec3 matrix_apply(const lam_mat4 *m, lam_vec3 v, double w);

@@ -1,5 +1,5 @@
-// model_guess.c: advice about a model that cannot be read: another command, another file, or the object found in its
-// place.
+// model_guess.c: suggestions for a model that cannot be read: another command, another file, or an object found
+// instead.
 #include "model_guess.h"
 
 #include <dirent.h>
@@ -15,7 +15,7 @@
 
 enum { FILE_NAME_SIZE = 256, ADVICE_SIZE = 600 };
 
-// The model in the folder of a missing file with the nearest name. False: none is near.
+// Finds the model with the most similar name in the folder of a missing file. Returns false if there is none.
 static bool nearest_file(const char *model, char nearest[FILE_NAME_SIZE])
 {
     const char *slash = strrchr(model, '/'), *name = slash ? slash + 1 : model;
@@ -28,14 +28,14 @@ static bool nearest_file(const char *model, char nearest[FILE_NAME_SIZE])
         if (is_model_name(entry->d_name))
             suggest_try(&suggestion, entry->d_name);
         if (suggestion.best != best)
-            suggestion.best = strcpy(nearest, entry->d_name); // the entry changes with the next one
+            suggestion.best = strcpy(nearest, entry->d_name); // the entry is overwritten by the next one
     }
     if (entries)
         closedir(entries);
     return suggestion.best != NULL;
 }
 
-// A word without a dot or slash: a command, an option or a shape.
+// Suggests a command, an option or a shape for a word without a dot or slash.
 static void guess_word(const char *model, char *advice)
 {
     const struct option *option = option_find(model);

@@ -1,10 +1,10 @@
-// model_guess.h: advice about a model that cannot be read.
+// model_guess.h: suggestions for a model that cannot be read.
 #ifndef MODEL_GUESS_H
 #define MODEL_GUESS_H
 
 #include "options.h"
 
-// Adds advice to the error of a model that cannot be read, if the program can guess what the user meant.
+// Adds a suggestion to the error of a model that cannot be read, if the program can guess the user's intention.
 void model_guess(const char *model, const struct options *options, lam_error *error);
 
 #endif

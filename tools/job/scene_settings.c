@@ -10,13 +10,13 @@
 #include "environment_option.h"
 #include "output.h"
 
-// Returns true if the scene file has the setting and the command line does not override it.
+// Returns whether the scene file contains the setting and the command line does not override it.
 static bool takes_setting(const struct job *job, unsigned bit, const char *option)
 {
     return (job->settings.present & bit) && !option_given(&job->own, option);
 }
 
-// Returns true if the command line has the option of a setting.
+// Returns whether the command line contains the option for a setting.
 static bool setting_given(const struct options *o, const lam_setting *setting)
 {
     char name[64];
@@ -55,7 +55,7 @@ void scene_settings_apply(struct job *job)
     for (int i = 0; lam_draw_setting(i); i++) {
         const lam_setting *setting = lam_draw_setting(i);
         bool stage = setting->offset == offsetof(lam_draw_params, stage);
-        // A shading on the command line discards the file's stage, which may not fit it.
+        // A shading method on the command line discards the file's stage, which may be incompatible.
         if ((s->draw_present >> i & 1) && !setting_given(own, setting) && !(stage && shading_given))
             lam_setting_copy(setting, &s->draw, &own->draw);
         if (setting->offset == offsetof(lam_draw_params, shading) && (s->draw_present >> i & 1) && !shading_given)
@@ -77,8 +77,8 @@ bool scene_settings_has_camera(const struct job *job)
     return job->settings.present & LAM_SETTING_CAMERA;
 }
 
-// Stores the drawn environment: the command line's, or the scene file's with the command line's rotation. `names`
-// stores the six file names.
+// Stores the environment in use: the command line's, or the scene file's with the command line's rotation. `names`
+// receives the six file names.
 static bool take_environment(const struct options *o, lam_picture_settings *s, char **names, lam_error *error)
 {
     const char *text = o->shading.environment;
@@ -94,7 +94,7 @@ static bool take_environment(const struct options *o, lam_picture_settings *s, c
            (*names = environment_option_faces(text, s->environment_faces, error)) != NULL;
 }
 
-// Returns whether a file lies in the folder (real path) or below it. True for one that cannot be found.
+// Returns whether a file is in the folder (a real path) or below it. Returns true if the file cannot be found.
 static bool is_below(const char *path, const char *folder)
 {
     char *real = realpath(path, NULL);

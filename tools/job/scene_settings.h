@@ -4,17 +4,18 @@
 
 #include "job.h"
 
-// Copies the options to job->own, completes them by the settings of the scene file, and points job->options there.
+// Copies the options to job->own, completes them with the settings of the scene file, and sets job->options to the
+// copy.
 void scene_settings_apply(struct job *job);
 
-// Returns true if the scene file has the camera, and no option of the command line places another one.
+// Returns whether the scene file has the camera, and no option of the command line sets another one.
 bool scene_settings_has_camera(const struct job *job);
 
-// Returns false if the scene file of --save-scene names the model or a picture of the command line that lies outside of
-// its folder.
+// Returns false if the scene file of --save-scene refers to a model or a picture of the command line outside its
+// folder.
 bool scene_settings_are_beside(const struct job *job);
 
-// Writes the scene file of --save-scene, after the frame has been drawn.
+// Writes the scene file of --save-scene, after drawing the frame.
 bool scene_settings_save(const struct job *job, lam_error *error);
 
 #endif

@@ -56,7 +56,7 @@ static bool draw_all(struct layers *layers, struct job *job, const lam_light *li
         ok = add(layers, job, terms[i], 0, control, error);
     }
     for (int i = 0; ok && i < light_count; i++) {
-        // A dot in a layer's name would start a nested layer; numbers distinguish lights of the same name.
+        // A dot in a layer's name would start a nested layer; numbers distinguish lights with the same name.
         char *name = layers->names[layers->count];
         snprintf(name, NAME_ROOM, "light.%d%s%.60s", i + 1, lights[i].name ? "-" : "",
                  lights[i].name ? lights[i].name : "");

@@ -6,7 +6,7 @@
 
 bool show_is_all(const struct options *options);
 
-// Checks that the output can store layers. Error: --show all needs a .exr.
+// Checks that the output can store layers. The error says that --show all needs a .exr.
 bool show_all_check(const struct job *job, lam_error *error);
 
 // Draws every term of the job's picture and writes them, with the picture drawn before, to the job's output.

@@ -1,5 +1,5 @@
-// batch_isolate.c: runs a pass over the models, with a separate process for each. The process sends its results back;
-// if it ends before that, its pictures get the class `crashed`.
+// batch_isolate.c: runs a pass over the models with a separate process for each. The process sends its results back; if
+// it ends before that, its pictures get the class `crashed`.
 #include "batch_isolate.h"
 
 #include <errno.h>
@@ -23,15 +23,16 @@
 #include "limit_options.h"
 #include "writer.h"
 
-// Milliseconds that a process has after an interrupt before it is killed.
+// Milliseconds between the interrupt of a process and killing it.
 static const double interrupt_ms = 600;
 
-// And beyond its time limit: as long again, from half a second to five.
+// Returns the time after its limit before a process is killed: the limit again, between half a second and five.
 static double grace_ms(double limit_s) { return limit_s > 5 ? 5000 : limit_s > 0.5 ? limit_s * 1e3 : 500; }
 
 // --- the process
 
-// The message of a process: this, for each picture a `sent_picture`, its line of the journal and its file, then both texts.
+// The message of a process: this struct, for each picture a `sent_picture`, its journal line and its file, then both
+// texts.
 struct sent {
     int code, warnings;
     bool interrupted;
@@ -42,21 +43,21 @@ struct sent_picture {
     struct batch_picture picture;
     char class[24];
     bool is_new;
-    size_t line_size; // 0: no record
-    size_t data_size; // 0: no file
+    size_t line_size; // 0 if there is no record
+    size_t data_size; // 0 if there is no file
 };
 
 struct work {
     struct batch *batch;
     struct batch_unit *unit;
-    bool draws; // else only thumbnails of earlier pictures are missing
+    bool draws; // otherwise only thumbnails of earlier pictures are missing
 };
 
 static bool enter(const struct batch *b, const struct batch_task *task, lam_error *error)
 {
     if (!task->job)
         return batch_reach_enter(b, task->model, 1, error);
-    int none = open("/dev/null", O_RDWR | O_CLOEXEC); // the jobs and the answers of others are none of its business
+    int none = open("/dev/null", O_RDWR | O_CLOEXEC); // it must not access the jobs and answers of others
     bool ok = none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(none, STDOUT_FILENO) >= 0;
     return ok ? batch_reach_enter_job(task->job, error)
               : complain(error, LAM_CANNOT_READ, "/dev/null: cannot open: %s", strerror(errno));
@@ -106,7 +107,7 @@ static void work(void *user, struct batch_answer *answer)
 
 // --- received results
 
-// The bytes that are still to be read.
+// The bytes that remain to be parsed.
 struct rest {
     const char *at;
     size_t size;
@@ -116,7 +117,7 @@ static bool read_bytes(struct rest *rest, void *to, size_t size)
 {
     if (rest->size < size)
         return false;
-    if (size) // of nothing, the addresses may be NULL
+    if (size) // memcpy of nothing must not get NULL
         memcpy(to, rest->at, size);
     rest->at += size;
     rest->size -= size;
@@ -132,7 +133,7 @@ static bool read_text(struct rest *rest, char **to, size_t size)
     return read_bytes(rest, *to, size);
 }
 
-// Returns the table's own name of a class.
+// Returns the table's own string for the name of a class.
 static const char *class_name(const char *name)
 {
     for (const struct exit_code *code = exit_codes; code->meaning; code++)
@@ -141,7 +142,7 @@ static const char *class_name(const char *name)
     return "failed";
 }
 
-// Returns false if the answer is not whole.
+// Parses an answer. Returns false if it is incomplete.
 static bool read_answer(struct batch_unit *u, const struct batch_answer *answer)
 {
     struct rest rest = {answer->data, answer->size};
@@ -175,7 +176,7 @@ static bool read_answer(struct batch_unit *u, const struct batch_answer *answer)
     return read_text(&rest, &u->out, sent.out_size) && read_text(&rest, &u->err, sent.err_size);
 }
 
-// --- this process
+// --- the parent process
 
 static void fail_process(struct batch *b, struct batch_unit *u, const struct batch_process *process, int status)
 {
@@ -227,7 +228,7 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
         batch_remove_parts(u->task.plan, u->task.model, process->writer ? process->writer : process->pid, NULL);
         bool cancelled = u->task.job && u->task.job->cancelled;
         u->interrupted |= cancelled;
-        if (!interrupted() && !cancelled && has_open(u)) // else it only made thumbnails
+        if (!interrupted() && !cancelled && has_open(u)) // otherwise it only made thumbnails
             fail_process(b, u, process, status);
     }
     free(before);
@@ -236,7 +237,7 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
     batch_process_free(process);
 }
 
-// Gives the next model to a process. Returns false if there is none.
+// Starts a process for the next model. Returns false if there is none.
 static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int slot)
 {
     struct batch_task task;
@@ -277,7 +278,7 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
     return false;
 }
 
-// Passes an interrupt to the processes, and kills processes that do not end soon.
+// Forwards an interrupt to the processes, and kills those that do not end in time.
 static void end_processes(struct batch_process *processes, int count, double *since_ms)
 {
     if (!interrupted())
@@ -290,7 +291,7 @@ static void end_processes(struct batch_process *processes, int count, double *si
             kill(processes[i].pid, late ? SIGKILL : SIGTERM);
 }
 
-// Ends the processes of jobs that were cancelled.
+// Ends the processes of cancelled jobs.
 static void end_cancelled(const struct batch_unit *units, struct batch_process *processes, int count)
 {
     for (int i = 0; i < count; i++)
@@ -317,7 +318,7 @@ void batch_isolate(struct batch *b)
                 more = fill_slot(b, &units[i], &processes[i], i);
                 running += more;
             }
-        if (b->jobs) // more may come
+        if (b->jobs) // more jobs may arrive
             more = units && processes && !batch_jobs_over(b->jobs);
         if (!running && !b->jobs)
             break;

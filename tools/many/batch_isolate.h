@@ -1,10 +1,10 @@
-// batch_isolate.h: a pass over the models with a process for each.
+// batch_isolate.h: a pass over the models with a separate process for each.
 #ifndef BATCH_ISOLATE_H
 #define BATCH_ISOLATE_H
 
 #include "batch_pass.h"
 
-// Draws the models of the pass, batch->workers at once. This process must have no other thread.
+// Draws the models of the pass, batch->workers at a time. This process must have no other thread.
 void batch_isolate(struct batch *batch);
 
 #endif

@@ -1,4 +1,4 @@
-// batch_jobs.c: jobs that come as lines of JSON, wait for a worker, and are answered.
+// batch_jobs.c: the queue of --jobs: reads jobs as lines of JSON, passes them to workers, and answers them.
 #include "batch_jobs.h"
 
 #include <errno.h>
@@ -28,16 +28,16 @@ struct batch_jobs {
     struct job_roots roots;
     struct batch_job_rules rules;
     struct job_stream stream;
-    size_t ahead;           // jobs that may wait
-    struct job_answers out; // has a lock of its own
+    size_t ahead;           // how many jobs may wait
+    struct job_answers out; // has its own lock
 
-    pthread_mutex_t lock; // of the rest
+    pthread_mutex_t lock; // protects the members below
     pthread_cond_t changed;
     struct list waiting, drawing;
-    size_t waiting_count, waiting_bytes; // of models in memory
-    struct batch_job *held;              // read, and there is no room for it yet
-    bool closed;                         // nothing more is read
-    bool given_up;                       // all jobs were
+    size_t waiting_count, waiting_bytes; // number of waiting jobs, and the bytes of their models in memory
+    struct batch_job *held;              // already read, but the queue is full
+    bool closed;                         // no more lines are read
+    bool given_up;                       // all jobs were cancelled
 };
 
 // --- lists
@@ -157,7 +157,7 @@ static void count(struct batch_jobs *jobs, const lam_error *error, size_t pictur
     pthread_mutex_unlock(&b->lock);
 }
 
-// `id` NULL: the line has none, or another job's.
+// Rejects a line. `id` is NULL if the line has none or the id belongs to another job.
 static void refuse(struct batch_jobs *jobs, json_t *id, uint64_t line, const char *outcome, const lam_error *reason)
 {
     lam_error error;
@@ -206,7 +206,7 @@ static void cancel(struct batch_jobs *jobs, json_t *id, uint64_t line)
     }
 }
 
-// A job of an id that is in use could not be told apart in the answers.
+// Queues a job. A second job with the same id would be indistinguishable in the answers.
 static void hold(struct batch_jobs *jobs, struct batch_job *job, uint64_t line)
 {
     pthread_mutex_lock(&jobs->lock);
@@ -255,7 +255,7 @@ static void take_line(struct batch_jobs *jobs, const char *text, size_t size)
     json_decref(id);
 }
 
-// Gives the job that was read its place, if there is one.
+// Adds the held job to the queue if there is space.
 static bool let_in(struct batch_jobs *jobs)
 {
     pthread_mutex_lock(&jobs->lock);
@@ -304,7 +304,7 @@ static void close_jobs(struct batch_jobs *jobs)
     pthread_mutex_unlock(&jobs->lock);
 }
 
-// Waits for workers to take or to finish jobs. The lock is held.
+// Waits for workers to take or finish jobs. The caller has the lock.
 static void wait_changed(struct batch_jobs *jobs, int wait_ms)
 {
     struct timespec until;
@@ -329,7 +329,7 @@ static bool never(const struct batch_jobs *jobs)
     return false;
 }
 
-// Waits for bytes. Whoever reads the answers may have gone meanwhile.
+// Waits for input. The reader of the answers may have closed meanwhile.
 static void read_more(struct batch_jobs *jobs, int wait_ms)
 {
     struct pollfd wait[2] = {{.fd = jobs->stream.file, .events = POLLIN}, {.fd = STDOUT_FILENO}};
@@ -434,7 +434,7 @@ bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool wait
 void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit)
 {
     struct batch_job *job = unit->task.job;
-    // Before its answer: whoever has read that may use the id again.
+    // Done before the answer, because its reader may then reuse the id.
     pthread_mutex_lock(&jobs->lock);
     list_remove(&jobs->drawing, job);
     pthread_cond_broadcast(&jobs->changed);

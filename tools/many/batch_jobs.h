@@ -1,37 +1,38 @@
-// batch_jobs.h: --jobs: jobs come as lines of JSON, wait for a worker, and are answered by a line each (docs/worker.md).
+// batch_jobs.h: --jobs: jobs arrive as lines of JSON, wait for a worker, and are answered by one line each
+// (docs/worker.md).
 //
-// The main thread reads lines; workers take jobs and answer them, in any order. Reading stops while `--ahead` jobs wait. A job is
-// waiting, being drawn, or answered, and under its id at most one job is waiting or being drawn.
+// The main thread reads lines; workers take jobs and answer them, in any order. Reading pauses while `--ahead` jobs
+// wait. A job is waiting, being drawn, or answered; at most one job per id is waiting or being drawn.
 #ifndef BATCH_JOBS_H
 #define BATCH_JOBS_H
 
 #include "batch_unit.h"
 #include "job_roots.h"
 
-// Opens the stream of jobs that the batch's options name. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT, LAM_LIMIT.
+// Opens the job stream of the batch's options. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT, LAM_LIMIT.
 struct batch_jobs *batch_jobs_open(struct batch *batch, lam_error *error);
-void batch_jobs_close(struct batch_jobs *jobs); // NULL is fine
+void batch_jobs_close(struct batch_jobs *jobs); // NULL is allowed
 
-// Returns the folders that files of jobs may lie in.
+// Returns the folders to which files of jobs are restricted.
 const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs);
 
-// Reads the next line, waiting for it up to `wait_ms`, and accepts, refuses or cancels a job. After an interrupt, or
-// when the batch or the answers have failed, cancels all jobs. The main thread alone.
+// Reads the next line, waiting up to `wait_ms`, and accepts, refuses or cancels a job. After an interrupt, or if the
+// batch or the answers have failed, cancels all jobs. Only the main thread may call it.
 void batch_jobs_step(struct batch_jobs *jobs, int wait_ms);
 
-// Returns the file to poll() for the next line, or −1 if none is wanted at the moment.
+// Returns the file to poll() for the next line, or −1 if none is needed now.
 int batch_jobs_wanted(const struct batch_jobs *jobs);
 
-// Returns whether batch_jobs_step has something to do without anything being read.
+// Returns whether batch_jobs_step can make progress without input.
 bool batch_jobs_is_ready(const struct batch_jobs *jobs);
 
-// Returns whether no job waits, and none will.
+// Returns whether no job waits, and none will arrive.
 bool batch_jobs_over(struct batch_jobs *jobs);
 
-// The next job that waits; with `waits` it is waited for. Returns false if there is none. Any thread.
+// Gets the next waiting job. With `waits`, waits for one. Returns false if there is none. Any thread may call it.
 bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
 
-// Answers a job with its result, and frees it. Any thread.
+// Answers a job with its result, and frees it. Any thread may call it.
 void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit);
 
 #endif

@@ -118,7 +118,7 @@ static const char *text_of(const json_t *record, const char *key)
     return text ? text : "";
 }
 
-// The address of a file as the page, in its folder, finds it.
+// Writes the address of a file relative to the page.
 static void put_address(FILE *out, const char *page, const char *path)
 {
     size_t common = 0;
@@ -174,7 +174,7 @@ static void put_picture(FILE *out, const char *page, const json_t *record)
     free(thumbnail);
 }
 
-// Puts the failures, or the pictures.
+// Writes the failures, or the pictures.
 static void put_records(FILE *out, const struct batch_page *page, bool failures)
 {
     for (size_t i = 0; i < page->record_count; i++) {

@@ -4,28 +4,28 @@
 
 #include "batch_unit.h"
 
-// Makes the thumbnails of a unit's pictures, in the folder beside the page. Any thread. Thumbnails that cannot be made
-// are missing.
+// Makes the thumbnails of a unit's pictures, in the folder beside the page. Any thread may call it. Errors are ignored.
 void batch_page_thumbnails(const struct batch *batch, const struct batch_unit *unit);
 
-// Returns whether one of them is missing, or older than its picture.
+// Returns whether a thumbnail is missing, or older than its picture.
 bool batch_page_lacks(const struct batch *batch, const struct batch_unit *unit);
 
-// Makes the thumbnail of one picture, unless there is one that is not older. `is_new`: make it anyway.
+// Makes the thumbnail of one picture, unless an up-to-date one exists. With `is_new`, always makes it.
 void batch_page_thumbnail(const char *page, const char *output, bool is_new);
 
-// Returns whether a path may be a thumbnail's beside the page.
+// Returns whether a path may be a thumbnail of the page.
 bool batch_page_is_thumbnail(const char *page, const char *path);
 
 struct batch_page {
     const char *path;
     const struct batch_tally *tally;
-    json_t *(*record)(void *user, size_t index); // a picture's line of the journal, which is released; NULL: none
+    // returns a picture's journal line, which the caller releases, or NULL
+    json_t *(*record)(void *user, size_t index);
     void *user;
     size_t record_count;
 };
 
-// Writes the page. Error: LAM_CANNOT_WRITE, LAM_LIMIT.
+// Writes the page. Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
 bool batch_page_write(const struct batch_page *page, lam_error *error);
 
 #endif

@@ -14,9 +14,9 @@
 #include "host_name.h"
 #include "interrupt.h"
 
-// --- which model is next
+// --- selecting the next model
 
-// A failed picture that may be tried once more becomes an open one.
+// Makes a failed picture open again if it may be retried.
 static bool reopen(struct batch *b, size_t model)
 {
     bool open = false;
@@ -65,9 +65,9 @@ bool batch_take(struct batch *b, struct batch_task *task, bool waits)
     return found;
 }
 
-// --- traces of a killed run
+// --- leftovers of a killed run
 
-// The name that file_write.c gives to a file until it is whole: ".lambent-PROCESS-HOST-TIME.part".
+// Returns whether a name is a temporary name of file_write.c: ".lambent-PROCESS-HOST-TIME.part".
 static bool is_part(const char *name, const char *begin)
 {
     size_t length = strlen(begin);
@@ -125,7 +125,7 @@ bool batch_begin_suspects(struct batch *b)
     return true;
 }
 
-// The next pass is over the models that were not suspects.
+// The next pass draws the models that were not suspects.
 void batch_end_suspects(struct batch *b)
 {
     for (size_t i = 0; i < b->plan->count; i++) {
@@ -165,7 +165,7 @@ static void count(struct batch *b, const struct batch_unit *u, int view)
     }
 }
 
-// Stores the state of a picture of the plan, and its record for the page.
+// Stores the state of a planned picture, and its record for the page.
 static void keep(struct batch *b, struct batch_unit *u, int view)
 {
     size_t at = u->task.model * (size_t)b->plan->view_count + (size_t)view;
@@ -197,7 +197,7 @@ void batch_deliver(struct batch *b, struct batch_unit *u)
             keep(b, u, i);
     }
     b->tally.warnings += (size_t)u->warnings;
-    if (job) { // errors are in the job's answer
+    if (job) { // the job's answer contains its errors
         if (b->options->report.verbose && u->err)
             fputs(u->err, stderr);
     } else {

@@ -1,27 +1,27 @@
-// batch_pass.h: one pass over the models: selects the next model, and handles finished ones.
+// batch_pass.h: one pass over the models: selects the next model, and processes finished ones.
 #ifndef BATCH_PASS_H
 #define BATCH_PASS_H
 
 #include "batch_unit.h"
 
-// Begins a pass: 0: over all models that no earlier pass has drawn; later: over failed models that may be retried.
-// Returns false if there is nothing to do, or an interrupt came.
+// Begins a pass. Pass 0 covers all models that are not drawn yet, later passes the failed models that may be retried.
+// Returns false if there is nothing to do, or after an interrupt.
 bool batch_begin_pass(struct batch *batch, int pass);
 
-// Begins a pass over the models that a killed run was drawing, and removes the files that its processes left. False:
-// none.
+// Begins a pass over the models that a killed run was drawing, and removes the temporary files of its processes.
+// Returns false if there are none.
 bool batch_begin_suspects(struct batch *batch);
 void batch_end_suspects(struct batch *batch);
 
-// The next model of the pass, or the next job, which is waited for with `waits`. Returns false if there is none, or
-// nothing more may begin. Any thread.
+// Gets the next model of the pass, or the next job. With `waits`, waits for a job. Returns false if there is none, or
+// nothing more may begin. Any thread may call it.
 bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 
-// Takes over the results of a unit: counts, lines of the journal, messages, the answer to a job. Any thread.
+// Processes the results of a unit: counters, journal lines, messages, the answer to a job. Any thread may call it.
 void batch_deliver(struct batch *batch, struct batch_unit *unit);
 
-// Removes the temporary files that a process left beside a model's pictures when it was killed. `host`: the machine
-// that ran it; NULL: this one.
+// Removes the temporary files that a killed process left beside a model's pictures. `host` is the machine of the
+// process; NULL means this one.
 void batch_remove_parts(const struct batch_plan *plan, size_t model, int process, const char *host);
 
 #endif

@@ -27,7 +27,7 @@ bool batch_answer_add(struct batch_answer *answer, const void *data, size_t size
         answer->data = more;
         answer->capacity = capacity;
     }
-    if (size) // of nothing, the address may be NULL
+    if (size) // memcpy of nothing must not get NULL
         memcpy(answer->data + answer->size, data, size);
     answer->size += size;
     return true;
@@ -71,7 +71,7 @@ bool batch_process_start(struct batch_process *process, batch_work *work, void *
     return false;
 }
 
-// Reads the available bytes; false at the end.
+// Reads the available bytes. Returns false at the end.
 static bool receive(struct batch_process *process)
 {
     char piece[16 << 10];

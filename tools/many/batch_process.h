@@ -1,4 +1,4 @@
-// batch_process.h: runs a function in a separate process, whose end cannot affect other processes.
+// batch_process.h: runs a function in a separate process, whose crash cannot affect other processes.
 #ifndef BATCH_PROCESS_H
 #define BATCH_PROCESS_H
 
@@ -6,34 +6,34 @@
 #include <stddef.h>
 #include <sys/types.h>
 
-// Bytes that a process sends back.
+// The bytes that a process sends back.
 struct batch_answer {
     char *data; // from malloc
     size_t size, capacity;
 };
 
 struct batch_process {
-    pid_t pid; // 0: none
+    pid_t pid; // 0 if there is no process
     int from;
     struct batch_answer answer;
-    double stop_ms; // clock_ms() at which it is killed; 0: never
-    bool stopped;   // it was killed for that reason
-    pid_t writer;   // writes its files, and ends after it; 0: none
+    double stop_ms; // the clock_ms() at which it will be killed, or 0
+    bool stopped;   // the process was killed at that time
+    pid_t writer;   // the process that writes its files and ends after it, or 0
 };
 
-// Starts `work` in a copy of this process, which must have no other thread. The result of `work` is sent back. False:
-// errno.
+// Starts `work` in a copy of this process, which must have no other thread. The result of `work` is sent back. Returns
+// false and sets errno on failure.
 typedef void batch_work(void *user, struct batch_answer *answer);
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
 
-// Waits up to `wait_ms` for any of them to say or to end something, or for bytes to be read from the file `also` (−1:
-// none). Returns the index of one that has ended, with its status of waitpid, or −1 if none has.
+// Waits up to `wait_ms` until one of the processes sends something or ends, or until the file `also` (−1 if there is
+// none) is readable. Returns the index of a process that has ended, with its status of waitpid, or −1 if none has.
 int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status);
 
 void batch_process_kill(struct batch_process *process);
 void batch_process_free(struct batch_process *process);
 
-// Appends bytes; false: out of memory.
+// Appends bytes. Returns false if memory runs out.
 bool batch_answer_add(struct batch_answer *answer, const void *data, size_t size);
 
 #endif

@@ -1,4 +1,4 @@
-// batch_reach.c: the sandbox of a batch.
+// batch_reach.c: sets up the sandbox of a batch.
 #include "batch_reach.h"
 
 #include <stdlib.h>
@@ -14,10 +14,10 @@
 #include "page_file.h"
 #include "sandbox_start.h"
 
-// Older pictures that are read one by one; if there are more, their folder.
+// Up to this many older pictures are made readable individually; beyond that, their folder is.
 enum { SINGLE = 64 };
 
-// Returns whether the pictures' folder as a whole may be read: the journal and the page need pictures again.
+// Returns whether the whole folder of pictures must be readable, because the journal and the page read pictures again.
 static bool takes_folder(const struct batch *b)
 {
     return !b->options->batch.jobs && !b->use &&
@@ -56,8 +56,8 @@ static void add_folder(struct sandbox_paths *paths, char *folder)
     free(folder);
 }
 
-// A model in the previous model's folder adds nothing, unless it is a link, which may lead elsewhere. A shape has no
-// folder.
+// A model in the previous model's folder needs no new rule, unless it is a link, which may lead elsewhere. A shape has
+// no folder.
 static bool is_within_reach(const char *model, const char *before)
 {
     before = before && lam_shape_find(before) < 0 ? before : NULL;
@@ -70,7 +70,7 @@ static bool is_within_reach(const char *model, const char *before)
     return same && !scene && lstat(model, &about) == 0 && !S_ISLNK(about.st_mode);
 }
 
-// The page that is filled with a model. If there is none, writing a picture reports it.
+// Adds the page template that is filled with a model. If it is missing, writing a picture reports the error.
 static void add_page(struct sandbox_paths *paths)
 {
     lam_error error;
@@ -80,14 +80,14 @@ static void add_page(struct sandbox_paths *paths)
     free(page);
 }
 
-// --- the files that are written
+// --- writable files
 
 struct writes {
     const struct batch *batch;
-    const struct batch_plan *plan; // of the batch, or of a job
-    size_t first, count;           // its models
-    size_t latest;                 // whose picture was written last
-    bool whole;                    // else one model's process
+    const struct batch_plan *plan; // the plan of the batch, or of a job
+    size_t first, count;           // range of its models
+    size_t latest;                 // index of the most recently written picture
+    bool whole;                    // whether it is the whole batch; otherwise one model's process
 };
 
 static bool is_picture_of(const struct writes *w, size_t model, const char *path)
@@ -102,7 +102,7 @@ static bool is_picture_of(const struct writes *w, size_t model, const char *path
     return is;
 }
 
-// Models are drawn in about their order: the search begins at the latest, and goes outwards from there.
+// Models are drawn approximately in order, so the search begins at the latest one and proceeds in both directions.
 static bool is_picture(struct writes *w, const char *path)
 {
     for (size_t distance = 0; distance < w->count; distance++) {
@@ -116,8 +116,8 @@ static bool is_picture(struct writes *w, const char *path)
     return false;
 }
 
-// A run may write the pictures of its plan, its own page and its scene file; a worker's jobs, whose names are not known before, any new
-// picture or page below --allow-path.
+// A run may write the pictures of its plan, its own page and its scene file. A worker with --jobs, whose names are not
+// known in advance, may write any new picture or page below --allow-path.
 static enum writer_right right_of(void *user, const char *path)
 {
     struct writes *w = user;
@@ -174,7 +174,7 @@ bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_er
     }
     if (takes_folder(b))
         add_folder(&paths, batch_plan_folder(b->plan));
-    if (b->options->batch.jobs || page_is_named(b->options->picture.output)) // a job may ask for one
+    if (b->options->batch.jobs || page_is_named(b->options->picture.output)) // a job may request one
         add_page(&paths);
     return sandbox_start(b->options, &paths, error);
 }

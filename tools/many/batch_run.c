@@ -1,8 +1,8 @@
-// batch_run.c: the loop over models: workers take the next model, draw it, and hand over the result.
+// batch_run.c: the loop over models: workers take the next model, draw it, and deliver the result.
 //
-// A worker is a thread with a device of its own, which draws with one thread if there are enough models; with --isolate
-// it is a process for each model. Another thread reads files ahead of the workers, so that the disk works while they
-// draw. A worker's messages are printed in the order of the models, but its journal lines are written immediately.
+// A worker is a thread with its own device, which draws with one thread if there are enough models; with --isolate it
+// is a process for each model. Another thread reads files ahead of the workers, so that reading and drawing overlap. A
+// worker's messages are printed in the order of the models, but its journal lines are written immediately.
 #include "batch_run.h"
 
 #include <errno.h>
@@ -36,14 +36,14 @@ enum { WORKERS_MAX = 256 };
 struct worker {
     struct batch *batch;
     int slot;
-    struct options options; // with its number of threads
+    struct options options; // includes its number of threads
     lam_device *device;
     pthread_t thread;
 };
 
 // --- one worker
 
-// Releases a device's memory for a large picture of a job: the next job belongs to another user.
+// Releases a device's memory after a large picture of a job, because the next job belongs to another user.
 static void trim(struct worker *w)
 {
     enum { KEPT = 128 << 20 };
@@ -98,7 +98,8 @@ static void *work(void *user)
 
 // --- reading ahead
 
-// Asks the system for the pages of a file. The request is split; of a longer one it reads only the beginning.
+// Asks the system to read a file into its page cache. The request is split, because the system reads only the beginning
+// of a long one.
 static void warm(const char *path)
 {
     enum { PIECE = 128 << 10, MAX = 256 << 20 };
@@ -111,7 +112,8 @@ static void warm(const char *path)
         close(file);
 }
 
-// It is woken once for as many models as there are workers, not for each: every wake takes a processor and the lock from them.
+// The thread is woken once for as many models as there are workers and not for each, because every wake-up costs them a
+// processor and the lock.
 static void *read_ahead(void *user)
 {
     struct batch *b = user;
@@ -136,7 +138,7 @@ static void *read_ahead(void *user)
 
 // --- a pass
 
-// While workers draw, this thread shows the progress.
+// Shows the progress while workers draw.
 static void show_progress(struct batch *b)
 {
     struct timespec until;
@@ -148,7 +150,7 @@ static void show_progress(struct batch *b)
     batch_show_progress(&b->tally);
 }
 
-// Or it reads jobs.
+// Reads jobs while workers draw.
 static void read_jobs(struct batch *b)
 {
     pthread_mutex_unlock(&b->lock);
@@ -156,7 +158,7 @@ static void read_jobs(struct batch *b)
     pthread_mutex_lock(&b->lock);
 }
 
-// The workers draw while this thread waits. One alone works in this thread, unless there are jobs to be read.
+// Waits while the workers draw. A single worker runs in this thread, unless there are jobs to read.
 static void run_threads(struct batch *b, struct worker *workers)
 {
     b->drawing = b->workers;
@@ -183,7 +185,7 @@ static void run_threads(struct batch *b, struct worker *workers)
     if (!started && b->jobs) {
         complain(&error, LAM_LIMIT, "no thread can be started");
         batch_stop(b, &error);
-    } else if (!started) { // no thread can be had: this one works
+    } else if (!started) { // no thread can be started, so this one works
         b->drawing = 1;
         work(&workers[0]);
     }
@@ -208,8 +210,7 @@ static void free_workers(const struct batch *b, struct worker *workers)
         lam_device_free(workers[i].device);
 }
 
-// Draws the models that were in progress in a killed run, each in a separate process, because one of them may be the
-// cause.
+// Draws the models that a killed run was drawing, each in a separate process, because one of them may be the cause.
 static void draw_suspects(struct batch *b)
 {
     if (b->way == JOURNAL_START || !batch_begin_suspects(b))
@@ -247,7 +248,7 @@ static bool draws_with_gl(const struct options *o)
            (o->work.device == DEVICE_AUTO && o->work.gl_device);
 }
 
-// One worker per processor, with more threads each if there are fewer models than processors.
+// Chooses one worker per processor, with more threads each if there are fewer models than processors.
 static void share_threads(struct batch *b)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
@@ -258,8 +259,8 @@ static void share_threads(struct batch *b)
     b->threads = b->workers == 1 ? b->options->work.threads : threads / b->workers;
 }
 
-// Returns the options that the journal's pictures have in common, and which pictures a model has. From malloc, or NULL
-// if memory runs out.
+// Returns the options common to all pictures in the journal, and the pictures of a model. From malloc; NULL if memory
+// runs out.
 static char *pictures_text(const struct batch *b)
 {
     const struct batch_plan *plan = b->plan;
@@ -272,7 +273,7 @@ static char *pictures_text(const struct batch *b)
             plan->pattern                ? plan->pattern
             : b->options->picture.output ? b->options->picture.output
                                          : "");
-    if (plan->by_list) // in a list of another size, models are in other shards
+    if (plan->by_list) // with a list of another size, models are in other shards
         fprintf(out, "shard-by=list of %" PRIu64 " bytes\n", plan->list_bytes);
     for (int i = 0; i < plan->view_count; i++) {
         const struct job_view *v = &plan->views[i];
@@ -321,7 +322,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     return ok && (!o->batch.jobs || (b->jobs = batch_jobs_open(b, error)));
 }
 
-// Returns false if a picture was neither drawn nor recorded, for want of memory.
+// Returns false if a picture was neither drawn nor recorded because memory ran out.
 static bool has_every_outcome(const struct batch *b)
 {
     size_t pictures = b->plan->count * (size_t)b->plan->view_count, i = 0;
@@ -330,7 +331,7 @@ static bool has_every_outcome(const struct batch *b)
     return i == pictures;
 }
 
-// Names the pictures that failed again and again.
+// Names the pictures that failed repeatedly.
 static void name_poison(const struct batch *b)
 {
     enum { NAMES = 10 };
@@ -390,9 +391,9 @@ static void free_batch(struct batch *b)
     pthread_mutex_destroy(&b->lock);
 }
 
-// Models need about the same memory one after the other. The next one reuses released memory instead of returning it to
-// the system, which would have to clear it again, under a lock that all workers share. 256 pixels take 7 % less
-// processor time by it.
+// Successive models need about the same memory. Keeping released memory avoids returning it to the system, which would
+// have to clear it again, under a lock that all workers share. This saves 7 % of the processor time for pictures of 256
+// pixels.
 static void keep_memory(void)
 {
 #ifdef __GLIBC__
@@ -417,7 +418,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     interrupt_start();
     keep_memory();
     if (b.options->batch.jobs)
-        signal(SIGPIPE, SIG_IGN); // that nobody reads the answers is an error of writing them
+        signal(SIGPIPE, SIG_IGN); // a closed reader of the answers becomes a write error
     bool started = start(&b, journal, &error), ok = started && run_passes(&b, &error);
     if (started && ok)
         finish(&b);
@@ -429,7 +430,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
     batch_jobs_close(b.jobs);
-    // A model alone says so itself, unless it had not been begun.
+    // A single model reports an interrupt itself, unless it had not begun.
     if (interrupted() && ok && !is_batch && plan->count == 1 && !b.interrupted &&
         b.pictures[0].outcome == PICTURE_OPEN) {
         complain(&error, LAM_CANCELLED, "%.400s: interrupted", plan->models[0].path);
@@ -448,7 +449,7 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
     const struct batch_shard *shard = &plan->shard;
     if (!shard->count)
         return run(plan, journal, is_batch, NULL);
-    // Each shard has separate files besides the pictures.
+    // Each shard has its own files besides the pictures.
     struct options options = *plan->options;
     struct batch_plan part = *plan;
     const char *page = options.batch.report_page;

@@ -5,13 +5,13 @@
 #include "batch_plan.h"
 #include "batch_use.h"
 
-// Draws the planned models and writes the journal and the page. `journal`: its path, or NULL if there is none.
-// `is_batch`: prints the messages of `batch` (errors and a summary) instead of `render`'s. Returns the program's exit
+// Draws the planned models and writes the journal and the page. `journal` is the path of the journal, or NULL. With
+// `is_batch`, prints the messages of `batch` (errors and a summary) instead of `render`'s. Returns the program's exit
 // code.
 int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch);
 
-// Draws the planned models for another use than files. Errors are printed in the order of the models. Returns what `use->finish` returns,
-// or the exit code of an error that ended the run.
+// Draws the planned models for another use than writing files. Errors are printed in the order of the models. Returns
+// the result of `use->finish`, or the exit code of an error that ended the run.
 int batch_use_run(const struct batch_plan *plan, const struct batch_use *use);
 
 #endif

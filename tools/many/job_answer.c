@@ -15,10 +15,10 @@
 #include "journal.h"
 #include "option_names.h"
 
-// Bytes that a pipe takes without waiting where poll() finds room in it (PIPE_BUF).
+// Bytes that a pipe accepts without blocking if poll() reports space (PIPE_BUF).
 enum { PIECE = 4096 };
 
-// After an interrupt, how long a reader is waited for.
+// The longest wait for a reader after an interrupt.
 static const double patience_ms = 500;
 
 void job_answers_start(struct job_answers *answers)
@@ -42,7 +42,7 @@ void job_answers_fail(struct job_answers *answers, int reason)
 
 // --- writing
 
-// Waits until more bytes can be written. False: nobody takes it, after an interrupt.
+// Waits until more bytes can be written. Returns false if nobody reads them after an interrupt.
 static bool wait_writable(double *since_ms)
 {
     struct pollfd wait = {.fd = STDOUT_FILENO, .events = POLLOUT};
@@ -123,7 +123,7 @@ void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, co
     put(answers, answer);
 }
 
-// The picture's file as base64. Returns false if memory runs out.
+// Adds the picture's file as base64. Returns false if memory runs out.
 static bool add_data(json_t *picture, const lam_bytes *bytes)
 {
     size_t length = 0;
@@ -134,7 +134,7 @@ static bool add_data(json_t *picture, const lam_bytes *bytes)
     return text || !bytes->data;
 }
 
-// The outcome of the job as a whole.
+// Returns the result of the whole job.
 static const char *outcome_of(const struct batch_unit *u)
 {
     bool same = true;
@@ -148,7 +148,7 @@ static const char *outcome_of(const struct batch_unit *u)
     return same ? "same" : "written";
 }
 
-// The first picture that failed has the class and the sentence of the job.
+// Returns the first failed picture, whose class and sentence apply to the job.
 static const json_t *failed_record(const struct batch_unit *u)
 {
     for (int i = 0; i < u->picture_count; i++)
@@ -185,7 +185,7 @@ void job_answer_unit(struct job_answers *answers, const struct batch_unit *u)
         json_t *picture = list ? json_object() : json_incref(answer);
         if (u->records[i])
             json_object_update(picture, u->records[i]);
-        json_object_del(list ? picture : NULL, "id"); // a line of the journal may have another job's
+        json_object_del(list ? picture : NULL, "id"); // a journal line may have another job's id
         if (u->contents)
             ok = add_data(picture, &u->contents[i]) && ok;
         if (list)

@@ -7,23 +7,23 @@
 
 #include "batch_unit.h"
 
-// Lines are written whole, one after the other, by any thread.
+// Any thread may write; lines are written completely, one after the other.
 struct job_answers {
     pthread_mutex_t lock;
-    int failure; // errno of the first failed write; nothing is written after it. Accessed atomically.
+    int failure; // errno of the first failed write, after which nothing is written. Accessed atomically.
 };
 
 void job_answers_start(struct job_answers *answers);
 void job_answers_end(struct job_answers *answers);
 
-// The answer to a drawn job: the results of its pictures.
+// Answers a drawn job with the results of its pictures.
 void job_answer_unit(struct job_answers *answers, const struct batch_unit *unit);
 
-// The answer to a line that draws nothing. `id` NULL: null. `line`: of the input; 0: it is not named.
+// Answers a line that draws nothing. A NULL `id` is written as null. `line` is the line number; 0 is not reported.
 void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, const char *outcome,
                       const lam_error *error);
 
-// Nobody reads answers any more; and whether that is so: errno, 0: no.
+// Record that nobody reads answers any more, and return whether that is so: errno, or 0.
 void job_answers_fail(struct job_answers *answers, int reason);
 int job_answers_failure(const struct job_answers *answers);
 

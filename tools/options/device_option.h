@@ -4,7 +4,7 @@
 
 #include "options.h"
 
-// NULL on failure. The caller frees the device.
+// Returns NULL on failure. The caller frees the device.
 lam_device *device_option_make(const struct options *options, lam_error *error);
 
 #endif

@@ -1,13 +1,13 @@
-// environment_apply.h: a scene's environment and reflectivity by the options.
+// environment_apply.h: applies the options for the environment and the reflectivity to a scene.
 #ifndef ENVIRONMENT_APPLY_H
 #define ENVIRONMENT_APPLY_H
 
 #include "environment_cache.h"
 #include "options.h"
 
-// Loads or makes the environment of --environment and adds it to the scene, turned by --environment-rotation (which
-// also turns a scene file's environment); sets the reflectivity of the materials by --reflectivity. Adds a warning to
-// a scene whose environment no surface reflects. `cache` may be NULL.
+// Loads or makes the environment given by --environment and adds it to the scene, rotated by --environment-rotation
+// (which also rotates a scene file's environment). Sets the materials' reflectivity from --reflectivity. Adds a warning
+// to the scene if no surface reflects the environment. `cache` may be NULL.
 bool environment_apply(const struct options *options, struct environment_cache *cache, lam_scene *scene,
                        const lam_control *control, lam_error *error);
 

@@ -22,11 +22,11 @@ struct identity {
 };
 
 struct entry {
-    char *text; // NULL: free
+    char *text; // NULL if the entry is free
     lam_color_mode color;
     struct identity identity;
-    lam_environment *environment; // NULL: a thread is reading it
-    uint64_t used;                // when it was last
+    lam_environment *environment; // NULL while a thread reads it
+    uint64_t used;                // the time of its last use
 };
 
 struct environment_cache {
@@ -126,7 +126,7 @@ static struct entry *find(struct environment_cache *cache, const char *text, lam
 
 static bool set(lam_scene *scene, const lam_environment *environment, double rotation_rad, lam_error *error)
 {
-    return lam_scene_set_environment(scene, environment, rotation_rad, error); // the scene owns a reference
+    return lam_scene_set_environment(scene, environment, rotation_rad, error); // the scene keeps a reference
 }
 
 // The caller holds the lock; the function releases it while it reads the environment.

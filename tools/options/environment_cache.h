@@ -1,4 +1,5 @@
-// environment_cache.h: caches environments for many scenes and threads: each is read, and its light prepared, once.
+// environment_cache.h: shares environments among scenes and threads. Each environment is read, and its light prepared,
+// only once.
 #ifndef ENVIRONMENT_CACHE_H
 #define ENVIRONMENT_CACHE_H
 
@@ -6,13 +7,14 @@
 
 struct environment_cache;
 
-// NULL: out of memory; then nothing is kept.
+// Returns NULL if memory runs out.
 struct environment_cache *environment_cache_make(void);
-void environment_cache_free(struct environment_cache *cache); // NULL is fine
+void environment_cache_free(struct environment_cache *cache); // accepts NULL
 
-// Sets the environment of a scene: a built-in one, one file or six, as `--environment` has it, in `color`. An
-// environment is reused while its files are unchanged; the latest few are kept. `cache` NULL: it is read. The memory of
-// reading is counted by the call that reads. Errors: as lam_environment_load, LAM_BAD_ARGUMENT.
+// Sets a scene's environment in `color`. `text` is a value of --environment: a built-in name, one file or six files. A
+// cached environment is reused while its files are unchanged. The cache keeps only the most recent environments. If
+// `cache` is NULL, the environment is always read. The memory is charged to the call that reads the environment. Fails
+// like lam_environment_load, and with LAM_BAD_ARGUMENT.
 bool environment_cache_set(struct environment_cache *cache, const char *text, lam_color_mode color, lam_scene *scene,
                            double rotation_rad, const lam_control *control, lam_error *error);
 

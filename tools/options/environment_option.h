@@ -1,4 +1,4 @@
-// environment_option.h: the values of --environment.
+// environment_option.h: parses the values of --environment.
 #ifndef ENVIRONMENT_OPTION_H
 #define ENVIRONMENT_OPTION_H
 
@@ -8,10 +8,11 @@
 // if there are not six.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
-// Returns the built-in environment of that name, or NULL if there is none.
+// Returns the built-in environment with this name, or NULL if there is none.
 const char *environment_option_built_in(const char *name);
 
-// Loads or makes one, as `--environment` has it. The caller frees it; NULL: see lam_environment_load.
+// Loads or makes the environment that a value of --environment describes. The caller frees it. Returns NULL on failure;
+// for the errors see lam_environment_load.
 lam_environment *environment_option_load(const char *text, lam_color_mode color, const lam_control *control,
                                          lam_error *error);
 

@@ -4,14 +4,15 @@
 
 #include "options.h"
 
-// The bytes that reading a model, and drawing it, may each use: --memory-limit, or else a quarter of the memory
-// available to this process, divided among the options' `in_flight` models. 0: no limit. Any thread.
+// Returns the number of bytes that reading and drawing a model may each use: --memory-limit, or a quarter of the memory
+// available to this process divided by the number of models in progress (`in_flight`). 0 means no limit. Any thread may
+// call it.
 uint64_t limits_memory(const struct options *options);
 
-// Seconds for a model. 0: no limit.
+// Returns the time limit for a model in seconds. 0 means no limit.
 double limits_time(const struct options *options);
 
-// Returns a control with all limits, and a whole model's time.
+// Returns a control with all limits. Its time limit applies to a whole model.
 lam_control limits_control(const struct options *options);
 
 #endif

@@ -39,7 +39,7 @@ void look_summary(const char *text, char *out, size_t size)
     snprintf(out, size, "%.*s", *text == '#' ? (int)strcspn(from, "\n") : 0, from);
 }
 
-// Opens a regular file. Does not open folders, pipes and devices: opening one can block forever or have side effects.
+// Opens a regular file. Rejects folders, pipes and devices, since opening them can block forever or have side effects.
 // Returns −1 and sets errno on failure.
 static int open_file(const char *path)
 {
@@ -67,7 +67,7 @@ static bool read_bytes(int file, char *to, size_t size, size_t *length)
     return true;
 }
 
-// Returns the text of a look, allocated with malloc, which the caller may change.
+// Returns a writable copy of a look's text, allocated with malloc.
 static char *copy_of_look(const char *name, lam_error *error)
 {
     const char *built_in = look_find(name);

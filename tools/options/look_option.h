@@ -1,22 +1,22 @@
-// look_option.h: --look: built-in and users' files of options.
+// look_option.h: reads built-in and user-defined looks for --look.
 #ifndef LOOK_OPTION_H
 #define LOOK_OPTION_H
 
 #include "options.h"
 
-// Returns the looks that are built in, from 0: the name, and the file. Returns NULL if the index is out of range.
+// Returns the name and the text of a built-in look by its index from 0, or NULL if the index is out of range.
 const char *look_name(int look);
 const char *look_text(int look);
 
-// Returns a look that is built in by its name, or NULL if there is none.
+// Returns the built-in look with this name, or NULL if there is none.
 const char *look_find(const char *name);
 
-// Writes the purpose of a look, the first line of its file, to `out`.
+// Writes the summary of a look, the first line of its file, to `out`.
 void look_summary(const char *text, char *out, size_t size);
 
-// Calls `take` for each option of a look, a built-in one or a file, until it returns false. It passes the line's
-// number, the name without dashes and the value ("" without one), which live as long as *kept. The caller frees *kept,
-// also after a failure. Fails with LAM_BAD_ARGUMENT.
+// Calls `take` for each option of a built-in look or a look file until `take` returns false. Passes the line number,
+// the option's name without dashes and its value ("" if it has none). These strings live as long as *kept, which the
+// caller frees even after a failure. Fails with LAM_BAD_ARGUMENT.
 bool look_read(const char *name, char **kept,
                bool (*take)(void *user, int line, char *option, char *value, lam_error *error), void *user,
                lam_error *error);

@@ -12,14 +12,14 @@ static lam_material material_at(const lam_scene *scene, int index)
     return material ? *material : lam_material_default();
 }
 
-// Returns the index of a changed copy of the material, or −1 with the error.
+// Adds a changed copy of the material and returns its index, or −1 on failure.
 static int add_changed(const struct material_option *option, int from, lam_scene *scene, lam_error *error)
 {
     lam_material changed = material_option_apply(option, material_at(scene, from));
     return lam_scene_add_material(scene, &changed, error);
 }
 
-// Returns the only material on an object's front, or −2 if there are several.
+// Returns the material on an object's front, or −2 if there are several.
 static int front_of(const lam_scene *scene, const lam_object *object)
 {
     const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
@@ -31,7 +31,7 @@ static int front_of(const lam_scene *scene, const lam_object *object)
     return mesh->parts[0].material;
 }
 
-// Counts the objects that use a mesh, and reports whether the object at `index` is the first of them.
+// Counts the objects that use a mesh and reports whether the object at `index` is the first of them.
 static int users_of(const lam_scene *scene, int mesh, int index, bool *first)
 {
     int users = 0;
@@ -47,7 +47,7 @@ static int users_of(const lam_scene *scene, int mesh, int index, bool *first)
 // Changes the material of each part. Adjacent parts that shared a material share its changed copy.
 static bool change_parts(const struct material_option *option, int mesh, lam_scene *scene, lam_error *error)
 {
-    bool whole = option->named; // replaces every field
+    bool whole = option->named; // the option replaces every field
     int from = -2, changed = -1;
     for (uint32_t i = 0; i < lam_scene_mesh(scene, mesh)->part_count; i++) {
         int material = lam_scene_mesh(scene, mesh)->parts[i].material;
@@ -67,7 +67,7 @@ static bool set_front(const struct material_option *option, const char *name, in
     bool whole = option->named, first;
     int front = front_of(scene, &object), users = users_of(scene, object.mesh, index, &first);
     bool by_part = object.material < 0 && lam_scene_mesh(scene, object.mesh)->part_count;
-    if (by_part && users == 1) // so that another option can still change one of them
+    if (by_part && users == 1) // so that a later option can still change only one of them
         return change_parts(option, object.mesh, scene, error);
     if (front == -2 && !whole) {
         if (!option->target)
@@ -98,7 +98,7 @@ static bool set_back(const struct material_option *option, const char *name, int
 
 static bool same(const char *a, const char *b) { return a && strcmp(a, b) == 0; }
 
-// Applies the option to objects of that name. Returns their number, or −1 with the error.
+// Applies the option to the objects with this name. Returns their number, or −1 on failure.
 static int set_objects(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                        lam_error *error)
 {
@@ -113,7 +113,7 @@ static int set_objects(const struct material_option *option, bool back, const ch
     return found;
 }
 
-// Applies the option to parts of that name, in meshes whose objects use the materials of the parts.
+// Applies the option to the parts with this name, in meshes whose objects use the parts' materials.
 static int set_parts(const struct material_option *option, lam_scene *scene, lam_error *error)
 {
     int found = 0;

@@ -33,7 +33,7 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
 
 void material_option_mirror(struct material_option *option)
 {
-    // The reflectance of metals at normal incidence, linear: Akenine-Möller and others, Real-Time Rendering, 4th
+    // The linear reflectance of metals at normal incidence, from Akenine-Möller et al., Real-Time Rendering, 4th
     // edition, table 9.2. Bronze is the mean of copper and brass.
     static const struct {
         const char *name, *words;
@@ -48,7 +48,7 @@ void material_option_mirror(struct material_option *option)
             size_t size = strlen(metals[i].words) + 1, rest = option->target ? strlen(option->target) + 1 : 0;
             if (size + rest > sizeof option->text)
                 return;
-            if (option->target) // lies behind the name, in the same text
+            if (option->target) // points behind the name in the same text
                 option->target = memmove(option->text + size, option->target, rest);
             memcpy(option->text, metals[i].words, size);
             return;
@@ -57,11 +57,12 @@ void material_option_mirror(struct material_option *option)
 
 lam_material material_option_apply(const struct material_option *option, lam_material material)
 {
-    lam_material_parse(option->text, option->mode, &material, NULL); // parsing the option has checked this
+    // cannot fail, since the parser has checked the text
+    lam_material_parse(option->text, option->mode, &material, NULL);
     return material;
 }
 
-// Fractions of light are named by a symbol; emission is not.
+// Reflected fractions of light have a symbol; emission has none.
 static bool is_fraction(const lam_field *field)
 {
     return (field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA) && field->symbol;
@@ -70,7 +71,7 @@ static bool is_fraction(const lam_field *field)
 const char *color_advice(const double rgb[3], char text[COLOR_ADVICE_SIZE])
 {
     unsigned bytes[3];
-    bool fits = rgb[0] >= 16 || rgb[1] >= 16 || rgb[2] >= 16; // smaller ones may be meant
+    bool fits = rgb[0] >= 16 || rgb[1] >= 16 || rgb[2] >= 16; // the user may intend smaller values
     for (int i = 0; i < 3 && fits; i++) {
         fits = rgb[i] >= 0 && rgb[i] <= 255;
         bytes[i] = fits ? (unsigned)rgb[i] : 0;
@@ -82,7 +83,7 @@ const char *color_advice(const double rgb[3], char text[COLOR_ADVICE_SIZE])
     return text;
 }
 
-// Adds at most `limit` warnings about coefficients above 1, and returns the number of such coefficients.
+// Adds at most `limit` warnings about coefficients above 1 and returns the number of such coefficients.
 static int warn(const lam_material *material, const char *subject, int limit, lam_scene *scene)
 {
     int over = 0;
@@ -103,7 +104,7 @@ static int warn(const lam_material *material, const char *subject, int limit, la
     return over;
 }
 
-// Applies the option to a white material, so that factors are compared with 1 as given.
+// Applies the option to a white material, so that factors are compared with 1 unchanged.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene)
 {
     static const double white[4] = {1, 1, 1, 1};
@@ -121,8 +122,7 @@ void materials_warn(lam_scene *scene)
 {
     enum { REPORTED = 3 };
     int over = 0;
-    // For glTF these values do not come from the file: highlights that represent rough surfaces keep their energy at
-    // any width.
+    // In glTF files, Lambent derives these values itself: highlights on rough surfaces keep their energy at any width.
     if (strcmp(lam_scene_format(scene), "gltf") == 0)
         return;
     for (int i = 0; i < lam_scene_material_count(scene); i++) {

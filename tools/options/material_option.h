@@ -1,36 +1,38 @@
-// material_option.h: the values of --material and --back-material, and their effect on a scene.
+// material_option.h: parses the values of --material and --back-material and applies them to a scene.
 #ifndef MATERIAL_OPTION_H
 #define MATERIAL_OPTION_H
 
 #include <lambent/lambent.h>
 
 struct material_option {
-    const char *target; // name of an object, part or material of the model; NULL: the whole model
+    const char *target; // the name of an object, part or material; NULL means the whole model
     lam_color_mode mode;
-    bool named;      // begins with a material's name, which replaces the whole material
-    char text[1024]; // for lam_material_parse, and the target's name
+    bool named;      // starts with a material's name and replaces the whole material
+    char text[1024]; // the text for lam_material_parse, followed by the target's name
 };
 
-// A text of lam_material_parse, with or without "@TARGET" after it.
+// Parses a text for lam_material_parse, optionally followed by "@TARGET".
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error);
 
-// A metal's name alone then selects the physical metal, which reflects the studio, instead of the classic table's row.
+// Makes a metal's name alone select the physical metal, which reflects the studio, instead of the row of the classic
+// table.
 void material_option_mirror(struct material_option *option);
 
-// Returns the material that the option makes of one.
+// Returns `material` as changed by the option.
 lam_material material_option_apply(const struct material_option *option, lam_material material);
 
-// Gives a scene's objects their new material, or (`back`) their back sides. `name` is the option's, for errors.
+// Sets the front or back (`back`) material of a scene's objects. Error messages use `name` as the option's name.
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                          lam_error *error);
 
-// A warning of the scene for each coefficient over 1.
+// Adds a warning to the scene for each coefficient above 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene);
 
-// The same for the materials that the scene itself has: for the first few each, for the others together.
+// Adds the same warnings for the scene's own materials: one for each of the first few materials, and one for all the
+// rest.
 void materials_warn(lam_scene *scene);
 
-// "; for 0 to 255 write #ff0000" if a colour's three numbers look like bytes, else "". Returns `text`.
+// Writes "; for 0 to 255 write #ff0000" if the three numbers of a colour look like bytes, otherwise "". Returns `text`.
 enum { COLOR_ADVICE_SIZE = 40 };
 const char *color_advice(const double rgb[3], char text[COLOR_ADVICE_SIZE]);
 

@@ -1,4 +1,4 @@
-// option_groups.h: the values of the options, a struct for each group.
+// option_groups.h: stores the values of the options in one struct for each group.
 #ifndef OPTION_GROUPS_H
 #define OPTION_GROUPS_H
 
@@ -6,22 +6,22 @@
 
 enum { ACROSS_MAX = 2, VIEWS_MAX = 16 };
 
-// The values of an option that may be repeated, in order.
+// The values of a repeatable option, in order.
 struct texts {
     const char **items;
     int count;
 };
 
-// Whether the exposure is computed for the picture: for the lights of a file in candela and lux, always, never.
+// Selects automatic exposure: only for files with lights in candela or lux, always, or never.
 enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
 
-// --rig none: only the ambient light. A value in addition to lam_rig's.
+// RIG_DARK is --rig none, which leaves only the ambient light. Extends lam_rig.
 enum { RIG_DARK = 100, RIG_DEFAULT };
 
-// The frame in which the lights of a turntable are fixed.
+// Selects whether a turntable's lights turn with the camera or with the model.
 enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
 
-// --term: the protocol of pictures in a terminal.
+// --term: selects the protocol for pictures in a terminal.
 enum term_kind { TERM_AUTO, TERM_KITTY, TERM_ITERM2, TERM_SIXEL, TERM_BLOCKS, TERM_OFF };
 
 enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
@@ -39,149 +39,150 @@ enum sheet_name {
     SHEET_SURFACES,
 };
 
-// The picture and its file.
+// The picture and its output file.
 struct picture_options {
-    const char *output;     // NULL: <model's name>.png; "-": standard output
+    const char *output;     // NULL means <model's name>.png, "-" standard output
     int width, height;      // pixels
-    bool has_size;          // the size was given
-    const char *background; // as written; NULL: clear
+    bool has_size;          // true if the size was given
+    const char *background; // as typed; NULL means transparent
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress
-    int quality;            // 0: the format's own
+    int quality;            // 0 means the format's default
     bool durable;
     int term;               // enum term_kind
-    double exposure;        // stops, where the next is literal
+    double exposure;        // stops, if the kind is EXPOSURE_LITERAL
     int exposure_kind;      // enum exposure_kind
-    const char *show;       // as written (show_option.h); NULL: the picture
-    const char *save_scene; // the scene file to write; NULL: none
+    const char *show;       // as typed (show_option.h); NULL means the picture
+    const char *save_scene; // the scene file to write, or NULL
 };
 
-// Data to read from a model file.
+// Selects the data to read from a model file.
 struct model_options {
-    const char *scene, *variant, *animation; // as written; NULL: the file's own choice
-    double time_s;                           // valid if the flag below is set
+    const char *scene, *variant, *animation; // as typed; NULL means the file's default
+    double time_s;                           // valid if `has_time` is set
     bool has_time, lenient;
 };
 
 // The camera.
 struct view_options {
     int side;                          // lam_side
-    double azimuth_deg, elevation_deg; // valid if the flag below is set
+    double azimuth_deg, elevation_deg; // valid if the next flag is set
     bool has_azimuth, has_elevation;
-    double zoom;        // 0: 1
-    double fov_deg;     // of the fitted camera, vertical; 0: 30
-    int projection;     // 1: orthographic
+    double zoom;        // 0 means 1
+    double fov_deg;     // vertical, of the fitted camera; 0 means 30
+    int projection;     // 1 means orthographic
     int up;             // lam_up
-    const char *camera; // as written; NULL: fitted
+    const char *camera; // as typed; NULL means a fitted camera
 };
 
 // Lights.
 struct lighting_options {
-    struct texts lights;         // as written, checked
-    const char *look;            // as written; NULL: none
-    char *look_text;             // its file, which values point into; from malloc; of the options that read it
-    int look_first, look_lights; // the lights above that are the look's
+    struct texts lights;         // as typed, checked
+    const char *look;            // as typed; NULL if there is none
+    char *look_text;             // the look's text, from malloc; values point into it
+    int look_first, look_lights; // the range of `lights` that the look added
     int rig;                     // lam_rig, RIG_DARK or RIG_DEFAULT
     bool has_rig;
-    const char *ambient; // as written; NULL: none
+    const char *ambient; // as typed; NULL if there is none
     double light_scale;
     bool has_light_scale;
 };
 
 // Materials.
 struct material_options {
-    struct texts materials; // as written, checked
+    struct texts materials; // as typed, checked
     struct texts back_materials;
-    const char *model_color;   // of all materials, as written; NULL: their own
-    double shininess, opacity; // valid if the flag below is set
+    const char *model_color;   // the colour of all materials, as typed; NULL keeps their own
+    double shininess, opacity; // valid if the next flag is set
     bool has_shininess, has_opacity;
-    lam_rgb reflectivity; // valid if the flag below is set
+    lam_rgb reflectivity; // valid if the next flag is set
     bool has_reflectivity;
 };
 
 // How surfaces are drawn.
 struct shading_options {
     bool has_shading;
-    const char *ground_color;                 // of LAM_GROUND_COLOR, as written; NULL: draw.ground_color
-    const char *edge_color, *wireframe_color; // as written; NULL: `draw` decides
+    const char *ground_color;                 // LAM_GROUND_COLOR as typed; NULL means draw.ground_color
+    const char *edge_color, *wireframe_color; // as typed; NULL means the colour in `draw`
     bool two_sided, one_sided, show_lights;
     int cull; // lam_cull
     bool has_cull;
-    struct texts rotations; // as written, checked
-    // Set by `compare`, not by an option: the turns of any picture on its sheet, which all have one camera.
+    struct texts rotations; // as typed, checked
+    // The rotations of all pictures on a sheet, which share one camera. Set by `compare`, not by an option.
     struct texts sheet_rotations;
-    int slices, stacks; // of a built-in shape or a formula; 0: its own
+    int slices, stacks; // for built-in shapes and formulas; 0 means the shape's default
     bool flip;
     int normals;             // lam_normals
-    double crease_angle_deg; // < 0: the library's default
-    const char *environment; // as written; NULL: none
+    double crease_angle_deg; // the library's default if negative
+    const char *environment; // as typed; NULL if there is none
     double environment_rotation_deg;
 };
 
 // Surfaces given by formulas (shape).
 struct shape_options {
-    // Of the command `shape`, as written: a surface over u and v or an implicit one (the model then has the name of the
-    // option), and the ranges of u and v or of x, y and z. NULL: none.
+    // For the command `shape`, as typed: a surface over u and v or an implicit surface, and the ranges of u and v or of
+    // x, y and z. The model is named after the option. NULL if not given.
     const char *parametric, *u_range, *v_range, *implicit, *x_range, *y_range, *z_range;
 };
 
 // Animations.
 struct animation_options {
-    int turntable;       // frames of a full turn; 0: none
+    int turntable;       // frames in a full turn; 0 if there is no turntable
     int turntable_light; // enum turntable_light
-    struct texts sweeps; // as written
-    int frames;          // of sweeps; 0: the default
-    double fps;          // frames a second; 0: the library's default
-    // Set by animations, not by an option: the rig's lights become lights of the scene.
+    struct texts sweeps; // as typed
+    int frames;          // frames in a sweep; 0 means the default
+    double fps;          // frames per second; 0 means the library's default
+    // Set by animations, not by an option: adds the rig's lights to the scene.
     bool place_lights;
 };
 
-// How the work is done.
+// Selects the device and the threads.
 struct work_options {
-    int threads;           // 0: one for each processor
+    int threads;           // 0 means one per processor
     int isa;               // lam_isa
     int device;            // enum device_name
-    const char *gl_device; // a number or a part of a name; NULL: the first
+    const char *gl_device; // a number or part of a name; NULL means the first device
     int texture_filter;    // enum texture_filter
     int repeat;
 };
 
 // Limits (limit_options.h).
 struct limits_options {
-    double time_limit_s;         // 0: the default; infinity: none
-    uint64_t memory_limit_bytes; // 0: the default; UINT64_MAX: none
-    uint64_t triangle_limit;     // 0: the library's default, as in the next ones
+    double time_limit_s;         // 0 means the default, infinity no limit
+    uint64_t memory_limit_bytes; // 0 means the default, UINT64_MAX no limit
+    uint64_t triangle_limit;     // 0 means the library's default, also for the next fields
     uint64_t pixel_limit;
     uint64_t file_limit_bytes;
-    uint64_t expansion_limit, object_limit, layer_limit; // 0: by the size of the files
+    uint64_t expansion_limit, object_limit, layer_limit; // 0 means a limit that depends on the file size
     int json_depth_limit;
-    bool files_inside; // that a scene file names
+    bool files_inside; // restricts the files that a scene file names to its folder
     int sandbox;       // enum sandbox_mode
     struct texts allow_paths;
-    // Models that are worked on at the same time, which share the default memory; set by the loop over them. 0: one.
+    // The number of models in progress at the same time, which share the default memory limit. Set by the loop over the
+    // models; 0 means 1.
     int in_flight;
 };
 
 // Many models (render, batch).
 struct batch_options {
-    struct texts lists;               // files of names
-    int views[VIEWS_MAX], view_count; // lam_side; 0: as --view
+    struct texts lists;               // files that list models
+    int views[VIEWS_MAX], view_count; // lam_side; a count of 0 means --view
     int sizes[VIEWS_MAX][2], size_count;
-    const char *journal;     // NULL: the command's default; "none"
-    const char *shard;       // as written (batch_shard.h); NULL: all models
+    const char *journal;     // NULL means the command's default; "none" disables it
+    const char *shard;       // as typed (batch_shard.h); NULL means all models
     int shard_by;            // enum shard_by
-    const char *report_page; // NULL: none
+    const char *report_page; // NULL if no page is written
     int retry_failed;
     bool resume, skip_same, isolate, failures_ok;
-    const char *jobs;          // "-" or a file; NULL: none come
-    int ahead;                 // 0: the default
-    uint64_t line_limit_bytes; // 0: the default
+    const char *jobs;          // "-" or a file; NULL if jobs are not read
+    int ahead;                 // 0 means the default
+    uint64_t line_limit_bytes; // 0 means the default
 };
 
 // The viewer (view).
 struct viewer_options {
-    int port;            // 0: any that is free
-    double idle_minutes; // valid if the flag below is set
+    int port;            // 0 means any free port
+    double idle_minutes; // valid if the next flag is set
     bool has_idle, no_open;
 };
 
@@ -192,8 +193,8 @@ struct diff_options {
 
 // Hashes of pictures (hash).
 struct hash_options {
-    const char *check;    // the file to compare with; NULL: none
-    const char *pictures; // the folder where pictures are kept; NULL: nowhere
+    const char *check;    // the file to compare with, or NULL
+    const char *pictures; // the folder for the pictures; NULL keeps none
     bool update;
 };
 
@@ -204,35 +205,35 @@ struct convert_options {
 
 // Captions (compare, plot, materials, check, explain).
 struct captions_options {
-    const char *font; // NULL: the system's
+    const char *font; // NULL means the system's font
     bool no_captions;
-    const char *title;  // of the page; NULL: its own
-    struct texts texts; // of a sheet's pictures, in their order; the sheet supplies missing ones
+    const char *title;  // the page's title; NULL means the default
+    struct texts texts; // captions of a sheet's pictures in order; the sheet adds missing ones
 };
 
 // Sheets (compare).
 struct sheet_options {
     int name;            // enum sheet_name
-    struct texts across; // as written, at most ACROSS_MAX
+    struct texts across; // as typed, at most ACROSS_MAX
 };
 
 // Plots (plot).
 struct plot_options {
-    double to; // right end of a plot's axis; 0: fitted
+    double to; // the right end of the axis; 0 means a fitted axis
 };
 
 // Checking shaders (check).
 struct check_options {
-    const char *vertex;   // file; NULL: none
-    const char *scenes;   // as written; NULL: all
-    const char *contract; // as written; NULL: recognised
-    int light_frame;      // lam_light_frame; WORLD: the contract's
-    int highlight;        // lam_reflection; AUTO: the contract's
-    int terms;            // bits of lam_check_term; 0: as the shaders declare
+    const char *vertex;   // a file, or NULL
+    const char *scenes;   // as typed; NULL means all scenes
+    const char *contract; // as typed; NULL means automatic detection
+    int light_frame;      // lam_light_frame; WORLD means the contract's default
+    int highlight;        // lam_reflection; AUTO means the contract's default
+    int terms;            // bits of lam_check_term; 0 means the terms that the shaders declare
     double stop_after_s;
     int search_limit;                                            // lam_check_params.max_pictures
-    const char *class_folder, *csv;                              // NULL: none
-    const char *moodle, *gradescope, *submitty, *write_contract; // files; NULL: none
+    const char *class_folder, *csv;                              // NULL if not given
+    const char *moodle, *gradescope, *submitty, *write_contract; // output files; NULL if not given
     bool list;
 };
 
@@ -240,12 +241,12 @@ struct check_options {
 struct shader_options {
     int glsl;      // lam_glsl
     int lights_in; // lam_shader_lights
-    int host;      // 1: C code as well
+    int host;      // 1 also writes C code
     bool products;
     int style;           // lam_shader_style
-    const char *mistake; // the id of one, or "list"; NULL: none
-    bool lecture_device; // OpenGL draws in the lecture style, with that mistake: the cells of a sheet
-    int object;          // valid if the flag below is set
+    const char *mistake; // an id, or "list"; NULL if there is none
+    bool lecture_device; // OpenGL draws in the lecture style with this mistake, as on a sheet
+    int object;          // valid if the next flag is set
     bool has_object;
 };
 
@@ -260,7 +261,7 @@ struct settings_options {
 // Printed output.
 struct report_options {
     bool json, quiet, verbose, dry_run, version, help;
-    bool brief_help; // -h, not --help
+    bool brief_help; // true for -h, false for --help
 };
 
 #endif

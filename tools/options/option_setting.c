@@ -1,5 +1,5 @@
-// option_setting.c: creates options from the library's settings. The settings' table provides words, default, range and
-// summary; a row of option_table.c adds details and the position in the help.
+// option_setting.c: creates options from the library's settings. The table of settings provides words, defaults, ranges
+// and summaries; a row of option_table.c adds details and the position in the help.
 #include "options.h"
 
 #include <stdio.h>
@@ -25,7 +25,7 @@ static void add_word(const char *name, int value, const char *summary)
     pool[pool_used++] = (struct word){name, value, summary};
 }
 
-// Fills the words of an option. For bits, the first word sets all of them.
+// Fills the words of an option. For a bit mask, the first word sets all bits.
 static const struct word *words_of(const lam_setting *setting)
 {
     const struct word *first = &pool[pool_used];
@@ -44,8 +44,8 @@ static const struct word *words_of(const lam_setting *setting)
     return first;
 }
 
-// Formats a number of at least 0 with up to five decimals, or three significant digits if it has a fraction. printf
-// would need a tenth of the start-up time.
+// Formats a number of at least 0 with up to five decimals, or three significant digits if it has a fraction. Calling
+// printf would take a tenth of the start-up time.
 static void put_number(char *text, double number)
 {
     long long scaled = (long long)(number * 100000 + 0.5), unit = 1;
@@ -66,7 +66,7 @@ static void put_number(char *text, double number)
     *text = 0;
 }
 
-// Formats the word for 0, or the number.
+// Formats the number, or the word that means 0.
 static const char *standard_of(const lam_setting *setting, char text[NAME_SIZE])
 {
     const char *word;
@@ -96,7 +96,7 @@ static const struct {
     [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
-// Collects the rows that need data from the settings' table, and counts all rows. Returns the number of collected rows.
+// Collects the rows that take data from the table of settings and returns their number. Also counts all rows.
 static int open_rows(struct option *table, struct option *open[LAM_SETTINGS_MAX], int *rows)
 {
     int count = 0;
@@ -121,13 +121,13 @@ void option_settings_fill(struct option table[OPTIONS_MAX])
     struct option *open[LAM_SETTINGS_MAX];
     int rows, count = open_rows(table, open, &rows);
     if (rows >= OPTIONS_MAX - LAM_SETTINGS_MAX)
-        abort(); // OPTIONS_MAX must grow
+        abort(); // increase OPTIONS_MAX
     if (pool_used)
-        return; // it is full already
+        return; // already filled
     for (int i = 0; (setting = lam_draw_setting(i)); i++) {
         struct option *o = row_of(setting, open, count);
         if (!o && !kinds[setting->type].store)
-            continue; // a colour is set by another option: it depends on --color-mode
+            continue; // another option sets colours, since they depend on --color-mode
         if (!o) {
             snprintf(names[i], NAME_SIZE, "%s", setting->key);
             for (char *c = names[i]; *c; c++)

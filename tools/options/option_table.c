@@ -1,12 +1,12 @@
-// option_table.c: every option, once. The help, the man page, the completions and docs/command-line.md are generated
-// from these rows (tools/help).
+// option_table.c: the table of all options. The help, the man page, the completions and docs/command-line.md are
+// generated from it (tools/help).
 //
 // Longer than 600 lines: one row for each option, in the order of the help.
 #include "options.h"
 
 #include <lambent/check.h>
 
-// Limits in degrees for --fov, and for --camera with fovy alone.
+// The limits in degrees of --fov, and of --camera with only fovy.
 #define FOV_MIN 0.1
 #define FOV_MAX 179.9
 
@@ -41,7 +41,7 @@ const char *const group_titles[GROUP_COUNT] = {
 static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
                                            {"8", 8, NULL}, {"16", 16, NULL}, {NULL, 0, NULL}};
 
-// Filled by option_table_fill: auto, and the contracts that are built in.
+// Filled by option_table_fill with "auto" and the built-in contracts.
 enum { CONTRACT_WORDS_MAX = 24 };
 static struct word contract_words[CONTRACT_WORDS_MAX] = {{"auto", 0, NULL}};
 

@@ -46,7 +46,7 @@ const char *option_words_list(const struct option *option, char text[OPTION_WORD
     return text;
 }
 
-// Returns the value of one of the option's words.
+// Finds the value of one of the option's words.
 static bool read_word(const struct option *option, const char *value, int *found, lam_error *error)
 {
     struct suggestion nearest = suggest_start(value);
@@ -58,7 +58,7 @@ static bool read_word(const struct option *option, const char *value, int *found
         suggest_try(&nearest, w->name);
     }
     char known[OPTION_WORDS_SIZE], guess[64] = "";
-    if (nearest.best && nearest.best[0] > '9') // a number is never a mistyped word
+    if (nearest.best && nearest.best[0] > '9') // numbers are never treated as mistyped words
         snprintf(guess, sizeof guess, "; did you mean '%s'?", nearest.best);
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s", value, option_words_list(option, known),
                     guess);
@@ -129,8 +129,8 @@ double radians(double degrees) { return degrees * (3.14159265358979323846 / 180)
 
 const char *read_number(const char *text, double *value)
 {
-    // strtod also accepts spaces, hexadecimal, "inf" and "nan", so only plain decimals reach it. Its result is
-    // correctly rounded, and the program never sets a locale.
+    // strtod also accepts spaces, hexadecimal numbers, "inf" and "nan", so only plain decimals are passed to it. It
+    // rounds correctly, and the program never sets a locale.
     const char *s = text;
     if (*s == '-' || *s == '+')
         s++;
@@ -201,7 +201,7 @@ bool store_float(const struct option *option, const char *value, struct options 
     return true;
 }
 
-// Degrees, stored in radians.
+// Converts degrees to radians.
 bool store_angle(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     float *angle = field_of(options, option->field);
@@ -211,7 +211,7 @@ bool store_angle(const struct option *option, const char *value, struct options 
     return true;
 }
 
-// A cutoff of 0 is valid: no light is skipped.
+// A cutoff of 0 is valid and skips no light.
 bool store_cutoff(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     float *share = field_of(options, option->field);
@@ -221,7 +221,7 @@ bool store_cutoff(const struct option *option, const char *value, struct options
     return true;
 }
 
-// "auto" or stops.
+// Parses "auto" or a number of stops.
 bool store_exposure(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     bool fitted = strcmp(value, "auto") == 0;
@@ -234,7 +234,7 @@ bool store_exposure(const struct option *option, const char *value, struct optio
     return true;
 }
 
-// Parses "800" or "1920x1080", up to `end`.
+// Parses "800" or "1920x1080" and sets `end` to the rest of the text.
 static bool read_size(const char *value, long max, int size[2], char **end)
 {
     *end = (char *)(uintptr_t)value;
@@ -260,7 +260,7 @@ bool store_size(const struct option *option, const char *value, struct options *
     return true;
 }
 
-// "1024,256x128".
+// Parses "1024,256x128".
 bool store_sizes(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     options->batch.size_count = 0;
@@ -280,7 +280,7 @@ bool store_sizes(const struct option *option, const char *value, struct options 
     }
 }
 
-// "front,left,iso".
+// Parses "front,left,iso".
 bool store_views(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     options->batch.view_count = 0;
@@ -301,7 +301,7 @@ bool store_views(const struct option *option, const char *value, struct options 
     return true;
 }
 
-// "64", or "64x32".
+// Parses "64" or "64x32".
 bool store_segments(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     char *end = (char *)(uintptr_t)value;
@@ -317,7 +317,7 @@ bool store_segments(const struct option *option, const char *value, struct optio
 }
 
 // Parses a number with an optional suffix: k, M, G, T (powers of 1000) or Ki, Mi, Gi, Ti (powers of 1024). Returns the
-// rest of the text, or NULL if it is no number.
+// rest of the text, or NULL if the text does not start with a number.
 static const char *read_multiple(const char *value, double *out)
 {
     double number;
@@ -407,11 +407,11 @@ bool store_reflectivity(const struct option *option, const char *value, struct o
 bool store_camera(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_camera camera;
-    if (strncmp(value, "fovy=", 5) == 0 && !strchr(value, ',')) { // of the fitted camera
+    if (strncmp(value, "fovy=", 5) == 0 && !strchr(value, ',')) { // only the field of view of the fitted camera
         options->view.camera = NULL;
         return number_between(option, value + 5, false, &options->view.fov_deg, error);
     }
-    // A text without '=' names a camera of a file that is not read yet.
+    // A text without '=' names a camera in a file that has not been read yet.
     if (strchr(value, '=') && !lam_camera_parse(value, NULL, &camera, error))
         return false;
     *(const char **)field_of(options, option->field) = value;
@@ -435,7 +435,7 @@ bool store_list(const struct option *option, const char *value, struct options *
                   : complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected a file of names");
 }
 
-// Accepts "-" or a file. Other programs accept a number here.
+// Accepts "-" or a file. Other programs accept a number of jobs here.
 bool store_jobs(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (*value && strspn(value, "0123456789") == strlen(value))
@@ -467,7 +467,7 @@ bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg)
     return text && !*text && *angle_deg >= -1e6 && *angle_deg <= 1e6;
 }
 
-// Accepts a file or a folder that exists.
+// Accepts an existing file or folder.
 bool store_path(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (access(value, F_OK) != 0)

@@ -129,7 +129,7 @@ static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_e
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
 }
 
-// Suggests a letter only if a row lists it: similar spelling is meaningless for single letters.
+// Suggests a letter only if a row lists it, since similarity is meaningless for single letters.
 static bool unknown_letter(const char *word, char letter, uint64_t groups, lam_error *error)
 {
     const char typed[2] = {letter, 0};
@@ -158,8 +158,8 @@ static bool is_known_option(const char *word)
     return word[0] == '-' && word[1] == '-' && word[2] && find_long(word + 2, strcspn(word + 2, "="));
 }
 
-// Returns the option that the user meant: the plural form for several values, or the option that formerly had this name
-// if the value is one of its words.
+// Returns the option that the user probably meant: the plural form if there are several values, or the option that
+// formerly had this name if the value is one of its words.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
     if (option->several && strchr(value, ','))
@@ -217,7 +217,7 @@ static bool is_light(const struct option *option)
     return strcmp(option->name, "light") == 0 || strcmp(option->name, "rig") == 0;
 }
 
-// Returns whether the command line sets lights (a rig, or a light without +), which replace the lights of a look.
+// Returns whether the command line sets a rig, or a light without "+". Such lights replace the look's lights.
 static bool own_lights(const struct options *options)
 {
     bool own = option_given(options, "rig");
@@ -226,7 +226,7 @@ static bool own_lights(const struct options *options)
     return own;
 }
 
-// A look may contain only options of the picture, and no option that names an output file or another look.
+// A look may contain only options about the picture, and none that names an output file or another look.
 static bool fits(const struct option *option)
 {
     static const char *const others[] = {"look", "output", "save-scene", "size", "show", "light-cutoff"};
@@ -239,7 +239,7 @@ static bool fits(const struct option *option)
 
 struct look_lines {
     struct options *options;
-    const struct options *before; // of the command line
+    const struct options *before; // the options of the command line
     bool lights;                  // the command line sets lights
 };
 
@@ -270,7 +270,7 @@ static bool take_look_line(void *user, int line, char *name, char *value, lam_er
 
 static bool apply_look(const char *name, struct options *options, lam_error *error)
 {
-    struct options before = *options; // this copy shares the lists of the original; only its flags are read
+    struct options before = *options; // The copy shares the original's lists, but only its flags are read.
     struct look_lines lines = {options, &before, own_lights(options)};
     options->lighting.look = name;
     options->lighting.look_first = options->lighting.lights.count;
@@ -293,7 +293,7 @@ static void look_drop_lights(struct options *options)
     }
 }
 
-// Error: another command takes the option that was meant by the one that was typed.
+// Reports that the intended option belongs to another command.
 static bool does_not_apply(const struct option *option, const struct option *typed, lam_error *error)
 {
     char takers[200] = "";
@@ -335,7 +335,7 @@ static bool apply(const struct option *typed, const char *value, uint64_t groups
                     reason.text);
 }
 
-// Returns whether the next argument is the value of an option whose value is optional.
+// Returns whether the next argument is the value of an option with an optional value.
 static bool follows(const struct option *option, const char *word, const struct options *options)
 {
     struct options copy = *options;
@@ -343,15 +343,15 @@ static bool follows(const struct option *option, const char *word, const struct 
     return option->store(option, word, &copy, &unused);
 }
 
-// Returns whether the argument after an option with an optional value is a mistyped value: a plain word that names no
-// file, shape or command.
+// Returns whether the argument after an option with an optional value is probably a mistyped value: a plain word that
+// names no file, shape or command.
 static bool is_mistyped(const char *word)
 {
     return isalpha((unsigned char)*word) && !word[strspn(word, "abcdefghijklmnopqrstuvwxyz-")] &&
            access(word, F_OK) != 0 && lam_shape_find(word) < 0 && !find_command(word);
 }
 
-// Returns the argument after an option that needs a value, or NULL with the error if it is missing.
+// Returns the value after an option that requires one, or NULL if it is missing.
 static const char *next_value(const struct option *option, int count, char **words, int *at, lam_error *error)
 {
     if (*at + 1 < count && !is_known_option(words[*at + 1]))
@@ -377,7 +377,7 @@ static bool read_long(int count, char **words, int *at, uint64_t groups, struct 
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' takes no value; found '%s'", option->name, value);
     bool alone = option->alone && (*at + 1 == count || !follows(option, words[*at + 1], options));
     if (!value && alone && *at + 1 < count && is_mistyped(words[*at + 1]))
-        return apply(option, words[*at + 1], groups, options, error); // which reports the expected values
+        return apply(option, words[*at + 1], groups, options, error); // reports the expected values
     if (option->value && !value && alone)
         value = option->alone;
     if (option->value && !value && !(value = next_value(option, count, words, at, error)))
@@ -388,7 +388,7 @@ static bool read_long(int count, char **words, int *at, uint64_t groups, struct 
 // Parses "-q", "-qv", "-ofile" or "-o file".
 static bool read_letters(int count, char **words, int *at, uint64_t groups, struct options *options, lam_error *error)
 {
-    size_t length = strcspn(words[*at] + 1, "="); // -v is a letter, also where an option has the name --v
+    size_t length = strcspn(words[*at] + 1, "="); // -v is also a letter if an option is named --v
     const struct option *whole = length > 1 ? find_long(words[*at] + 1, length) : NULL;
     if (whole)
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '%s'; did you mean '--%s'?", words[*at], whole->name);
@@ -428,7 +428,7 @@ int options_first_operand(int count, char **words)
             size_t length = strcspn(word + 2, "=");
             const struct option *option = find_long(word + 2, length);
             if (!option)
-                return -1; // "--", or a mistake
+                return -1; // "--", or an error
             bool next = option->value && word[2 + length] != '=' && at + 1 < count;
             at += next && (!option->alone || follows(option, words[at + 1], &unused));
             continue;
@@ -445,7 +445,7 @@ int options_first_operand(int count, char **words)
     return -1;
 }
 
-// Detects the dash that word processors substitute for "--".
+// Detects the dash that word processors insert instead of "--".
 static bool has_long_dash(const char *word)
 {
     return strncmp(word, "–", 3) == 0 || strncmp(word, "—", 3) == 0 || strncmp(word, "−", 3) == 0;

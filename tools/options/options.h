@@ -1,5 +1,5 @@
-// options.h: the options of the program. One table serves the parser, the help, the man page, the shells' completions
-// and docs/command-line.md.
+// options.h: defines the program's options. The parser, the help, the man page, the shell completions and
+// docs/command-line.md use the same table.
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
@@ -9,9 +9,9 @@
 
 enum { OPTIONS_MAX = 256 };
 
-// The options of a command line; option_defaults() returns their defaults.
+// The options of a command line. option_defaults() returns the defaults.
 struct options {
-    // Stored by the options of lam_draw_setting, and by --samples and --tone. draw_params_of adds the others.
+    // Set by the options of lam_draw_setting and by --samples and --tone. draw_params_of adds the other fields.
     lam_draw_params draw;
 
     struct picture_options picture;
@@ -44,7 +44,7 @@ struct options {
     const char *values[OPTIONS_MAX]; // its last value there; NULL: it takes none
 };
 
-// Options that a command accepts without the rest of their group: bits above the groups' bits.
+// Bits above the group bits: options that a command accepts without the rest of their group.
 #define TAKES_OUTPUT         (1ull << 40)
 #define TAKES_JSON           (1ull << 41)
 #define TAKES_QUIET          (1ull << 42)
@@ -58,10 +58,10 @@ struct options {
 #define TAKES_TITLE          (1ull << 50)
 #define TAKES_MANY           (1ull << 51)
 #define TAKES_UP             (1ull << 52)
-// A command that writes no file of its own: of its groups it accepts all but the options that say where and how one is written.
+// Set for a command that writes no file of its own. It accepts its groups without the options about the output file.
 #define WRITES_NO_FILE (1ull << 63)
 
-// The background of the sheets of `compare` and `materials`, unless the command line names another.
+// The default background of the sheets of `compare` and `materials`.
 #define SHEET_BACKGROUND "white"
 
 enum option_group {
@@ -91,14 +91,14 @@ enum option_group {
     GROUP_COUNT,
 };
 
-// A word that an option accepts as its value. A list ends with a NULL name.
+// A word that an option accepts as a value. A list ends with a NULL name.
 struct word {
     const char *name;
     int value;
-    const char *summary; // NULL: the name says enough, or is another name of the word before
+    const char *summary; // NULL if the name is clear, or is an alias of the previous word
 };
 
-// The form of a value that is not one of a list of words.
+// The syntax of a value that is not one of the option's words.
 enum value_kind {
     VALUE_ANY,
     VALUE_FILE,
@@ -113,48 +113,48 @@ enum value_kind {
 
 struct option {
     const char *name; // without the dashes
-    char letter;      // the short form; 0: none
+    char letter;      // the short form; 0 if there is none
     enum option_group group;
-    const char *value;        // the placeholder of its value in the help; NULL: takes none
-    const char *standard;     // the default in words; NULL: not shown
+    const char *value;        // the value's placeholder in the help; NULL if the option takes none
+    const char *standard;     // the text of the default; NULL hides it
     const char *summary;      // one sentence for --help
-    const char *details;      // more for the man page and the docs, with `code` in back quotes; NULL: none
-    const struct word *words; // the accepted values; NULL: any
-    enum value_kind kind;     // of its value, for the completions
+    const char *details;      // more text for the man page and the docs, `code` in back quotes; may be NULL
+    const struct word *words; // the accepted values; NULL accepts any
+    enum value_kind kind;     // the value's syntax, for the completions
 
-    // Stores the value (NULL for a switch) at offset `field` of struct options. On failure error->text describes the
-    // mistake without naming the option.
+    // Stores the value (NULL for a switch) at offset `field` of struct options. On failure, error->text describes the
+    // mistake without the option's name.
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
-    size_t field, has_field;    // has_field: a bool to set as well (words and numbers); 0: none
-    double min, max;            // for numbers without a setting, which has its own
-    uint64_t single;            // TAKES_…, if commands may accept it without its group
-    const char *brief;          // for -h: a few words; NULL: not shown there
-    size_t letter_field;        // a bool to set as well where the option is given by its letter; 0: none
-    const char *alias;          // another long name that is the same; NULL: none
-    const char *others;         // other names that people try, separated by spaces, for suggestions; NULL: none
-    const char *alone;          // its value where the word after it is none of its own; NULL: it needs one
-    bool of_file;               // says where and how a file is written: see WRITES_NO_FILE
-    bool loads;                 // a change needs the model to be read again
-    const lam_setting *setting; // the row of the library's table that it stores; NULL: none
-    // The option that takes several values separated by commas, and is meant where a value has one; NULL: none.
+    size_t field, has_field;    // has_field is a bool to set as well; 0 if there is none
+    double min, max;            // for numbers that are not library settings
+    uint64_t single;            // TAKES_…, if a command may accept the option without its group
+    const char *brief;          // a few words for -h; NULL hides it there
+    size_t letter_field;        // a bool to set as well if the short form is used; 0 if there is none
+    const char *alias;          // another long name for the same option, or NULL
+    const char *others;         // names in other programs, separated by spaces, for suggestions; may be NULL
+    const char *alone;          // the value if none follows; NULL requires a value
+    bool of_file;               // concerns the output file: see WRITES_NO_FILE
+    bool loads;                 // requires reading the model again if it changes
+    const lam_setting *setting; // the library's setting that it stores, or NULL
+    // The option that takes several values separated by commas, suggested if a value contains a comma. May be NULL.
     const char *several;
-    const char *now;    // the option that has taken its place: it works as ever, and no help lists it; NULL: none
-    const char *former; // the option that had this name before: a value that is one of its words means it; NULL: none
+    const char *now;    // the option that replaces this one, which still works but is not listed; or NULL
+    const char *former; // the option that formerly had this name, suggested for its words; or NULL
 };
 
-// Ends with a NULL name. Nobody but option_table_fill writes to it.
+// Ends with a NULL name. Only option_table_fill modifies it.
 extern struct option option_table[OPTIONS_MAX];
-// Fills the table, with the words and settings that come from the library's tables. main calls it before anything reads the table.
+// Adds the words and settings of the library's tables. Must be called before the table is read.
 void option_table_fill(void);
-// The rows of settings get missing entries from the library's table; an option for each other setting follows the last
-// row. A second call changes nothing.
+// Completes the rows of settings from the library's table and appends a row for each remaining setting. A second call
+// has no effect.
 void option_settings_fill(struct option table[OPTIONS_MAX]);
 extern const char *const group_titles[GROUP_COUNT];
 
 struct options option_defaults(void);
 void options_free(struct options *options);
 
-// Makes an independent copy. False: out of memory; there is nothing to free.
+// Makes an independent copy. Returns false if memory runs out; then there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
 
 // Takes back what the user's settings file changed, for a scene file: it describes its picture itself.
@@ -163,42 +163,44 @@ void options_drop_settings(struct options *options);
 // Returns the option of a long name, or NULL if there is no such option.
 const struct option *option_find(const char *name);
 
-// Returns the position of the first word that is neither an option nor its value, or −1 if there is none, or "--" or an
-// unknown option comes before it.
+// Returns the index of the first argument that is neither an option nor an option's value. Returns −1 if there is none,
+// or if "--" or an unknown option precedes it.
 int options_first_operand(int count, char **words);
 
-// The words of an option: "flat, gouraud or phong". Returns `text`.
+// Writes an option's words as "flat, gouraud or phong". Returns `text`.
 enum { OPTION_WORDS_SIZE = 256 };
 const char *option_words_list(const struct option *option, char text[OPTION_WORDS_SIZE]);
 
-// Returns true if the command line has the option, given by its long name.
+// Returns true if the command line contains the option with this long name.
 bool option_given(const struct options *options, const char *name);
 
-// Returns true if a command accepts an option: `groups` has bit g set for each group accepted as a whole, and TAKES_…
-// bits.
+// Returns true if a command accepts an option. `groups` has bit g set for each complete group, and TAKES_… bits.
 bool option_is_taken(const struct option *option, uint64_t groups);
 
-// Parses the words of a command line (without the program's and the command's name). `groups` as above. Moves the
-// operands to the front of `words` and returns their number; −1: LAM_BAD_ARGUMENT.
+// Parses a command line without the names of the program and the command. `groups` is as for option_is_taken. Moves the
+// operands to the front of `words` and returns their number, or −1 with LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error);
 
-// Parsers of values, for the table's `store`; the comments name the type of the field.
-bool store_switch(const struct option *, const char *, struct options *, lam_error *);       // bool
-bool store_text(const struct option *, const char *, struct options *, lam_error *);         // const char *
-bool store_word(const struct option *, const char *, struct options *, lam_error *);         // int
-bool store_words(const struct option *, const char *, struct options *, lam_error *);        // int, bits
-bool store_glsl(const struct option *, const char *, struct options *, lam_error *);         // likewise
-bool store_up(const struct option *, const char *, struct options *, lam_error *);           // likewise
-bool store_integer(const struct option *, const char *, struct options *, lam_error *);      // int
-bool store_number(const struct option *, const char *, struct options *, lam_error *);       // double
-bool store_path(const struct option *, const char *, struct options *, lam_error *);         // struct texts
-bool store_seconds(const struct option *, const char *, struct options *, lam_error *);      // double, or none
-bool store_count(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
-bool store_float(const struct option *, const char *, struct options *, lam_error *);        // float
-bool store_angle(const struct option *, const char *, struct options *, lam_error *);        // float, from degrees
-bool store_cutoff(const struct option *, const char *, struct options *, lam_error *);       // float; 0 is stored as -1
-bool store_word_flag(const struct option *, const char *, struct options *, lam_error *);    // bool, words of 0 and 1
-bool store_exposure(const struct option *, const char *, struct options *, lam_error *);     // double, or auto
+// Parsers for the `store` member of the table. Each comment names the type of the field.
+bool store_switch(const struct option *, const char *, struct options *, lam_error *);  // bool
+bool store_text(const struct option *, const char *, struct options *, lam_error *);    // const char *
+bool store_word(const struct option *, const char *, struct options *, lam_error *);    // int, a bit mask
+bool store_words(const struct option *, const char *, struct options *, lam_error *);   // int, a bit mask
+bool store_glsl(const struct option *, const char *, struct options *, lam_error *);    // int, a bit mask
+bool store_up(const struct option *, const char *, struct options *, lam_error *);      // likewise
+bool store_integer(const struct option *, const char *, struct options *, lam_error *); // int
+bool store_number(const struct option *, const char *, struct options *, lam_error *);  // double
+bool store_path(const struct option *, const char *, struct options *, lam_error *);    // struct texts
+// double, infinity for "none"
+bool store_seconds(const struct option *, const char *, struct options *, lam_error *);
+bool store_count(const struct option *, const char *, struct options *, lam_error *); // uint64_t
+bool store_float(const struct option *, const char *, struct options *, lam_error *); // float
+// float, degrees in the text
+bool store_angle(const struct option *, const char *, struct options *, lam_error *);
+bool store_cutoff(const struct option *, const char *, struct options *, lam_error *); // float, −1 for 0
+// bool, from words with the values 0 and 1
+bool store_word_flag(const struct option *, const char *, struct options *, lam_error *);
+bool store_exposure(const struct option *, const char *, struct options *, lam_error *);     // double, or "auto"
 bool store_size(const struct option *, const char *, struct options *, lam_error *);         // width, height
 bool store_views(const struct option *, const char *, struct options *, lam_error *);        // views, view_count
 bool store_sizes(const struct option *, const char *, struct options *, lam_error *);        // sizes, size_count
@@ -215,19 +217,20 @@ bool store_camera(const struct option *, const char *, struct options *,
 bool store_light(const struct option *, const char *, struct options *, lam_error *); // struct texts, checked
 bool store_material(const struct option *, const char *, struct options *,
                     lam_error *);                                                     // struct texts, checked
-bool store_texts(const struct option *, const char *, struct options *, lam_error *); // struct texts, as they are
+bool store_texts(const struct option *, const char *, struct options *, lam_error *); // struct texts, unchecked
 bool store_across(const struct option *, const char *, struct options *,
-                  lam_error *); // repeatable, to ACROSS_MAX
+                  lam_error *); // struct texts, at most ACROSS_MAX
 bool store_rotation(const struct option *, const char *, struct options *,
                     lam_error *); // struct texts, checked
 bool store_opaque_color(const struct option *, const char *, struct options *,
                         lam_error *); // const char *, checked
 
-// Reads a plain decimal number at the start of `text` ("-1.5e3"; no hexadecimal, no "inf"). Returns the text after it;
-// NULL if there is no number or it is too large.
+// Reads a plain decimal number such as "-1.5e3" at the start of `text`; hexadecimal numbers and "inf" are rejected.
+// Returns the rest of the text, or NULL if there is no number or it is too large.
 const char *read_number(const char *text, double *value);
 
-// Parses "x:30", an axis and an angle. Returns false if it is not of that form, or over a million degrees.
+// Parses an axis and an angle, as in "x:30". Returns false if the syntax is wrong or the angle exceeds a million
+// degrees.
 bool rotation_parse(const char *text, lam_vec3 *axis, double *angle_deg);
 
 double radians(double degrees);

@@ -1,4 +1,4 @@
-// show_option.c: parses the value of --show: a word, or a word and a light: "diffuse", "light:key", "n.l:2".
+// show_option.c: parses the value of --show: a word, optionally with a light, as in "diffuse", "light:key" and "n.l:2".
 #include "show_option.h"
 
 #include <stdio.h>
@@ -66,7 +66,7 @@ static bool has_direction(const lam_light *light)
     return light->type != LAM_LIGHT_AMBIENT && light->type != LAM_LIGHT_HEMISPHERE;
 }
 
-// Finds a light by name, then by number from 1. Without a name or number, finds the first light with a direction.
+// Finds a light by name, then by its number from 1. Without `wanted`, finds the first light that has a direction.
 // Returns −1 if there is none.
 static int find(const char *wanted, const lam_light *lights, int count)
 {
@@ -78,7 +78,7 @@ static int find(const char *wanted, const lam_light *lights, int count)
     return wanted && *wanted >= '0' && *wanted <= '9' && !*end && number >= 1 && number <= count ? (int)number - 1 : -1;
 }
 
-// Lists lights as "'key', 'fill', 3", unnamed lights by number. Ends with "…" if the list does not fit.
+// Lists lights as in "'key', 'fill', 3", with numbers for unnamed lights. Ends the list with "…" if it does not fit.
 static void list(const lam_light *lights, int count, bool directed, char *out, size_t capacity)
 {
     size_t used = 0;

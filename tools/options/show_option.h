@@ -1,14 +1,14 @@
-// show_option.h: the value of --show, and its light.
+// show_option.h: parses the value of --show.
 #ifndef SHOW_OPTION_H
 #define SHOW_OPTION_H
 
 #include <lambent/lambent.h>
 
-// The output named by the option's text, which the parser has checked; NULL: the picture.
+// Returns the output that a checked value names. NULL means the picture.
 lam_output show_option_what(const char *text);
 
-// Sets params->output and params->output_light from the text, with the rig of `params`. LAM_BAD_ARGUMENT if the scene
-// has no such light; the error lists the lights of the scene.
+// Sets params->output and params->output_light from the value, using the rig of `params`. Fails with LAM_BAD_ARGUMENT
+// if the scene has no such light; the error lists the scene's lights.
 bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params *params, lam_error *error);
 
 #endif

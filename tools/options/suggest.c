@@ -1,4 +1,4 @@
-// suggest.c: finds the word nearest to a mistyped one.
+// suggest.c: finds the known word that is most similar to a mistyped word.
 #include "suggest.h"
 
 #include <lambent/base.h>
@@ -9,7 +9,7 @@
 
 struct suggestion suggest_start(const char *typed)
 {
-    // Accepts up to a third of the letters as wrong, and always one.
+    // Allows a third of the letters to differ, but at least one.
     int allowed = (int)strlen(typed) / 3;
     return (struct suggestion){.typed = typed, .distance = allowed < 1 ? 2 : allowed + 1};
 }
@@ -17,7 +17,7 @@ struct suggestion suggest_start(const char *typed)
 void suggest_try(struct suggestion *suggestion, const char *word)
 {
     int distance = lam_word_distance(suggestion->typed, word);
-    // Among equally near words, prefers the word that is a prefix of the other.
+    // Among equally similar words, prefers a word that is a prefix of the other.
     const char *best = suggestion->best;
     bool shorter = best && distance == suggestion->distance && strncmp(best, word, strlen(word)) == 0;
     if (distance < suggestion->distance || shorter) {

@@ -1,4 +1,4 @@
-// suggest.h: finds the word nearest to a mistyped one.
+// suggest.h: finds the known word that is most similar to a mistyped word.
 #ifndef SUGGEST_H
 #define SUGGEST_H
 
@@ -6,13 +6,13 @@
 
 struct suggestion {
     const char *typed;
-    const char *best; // NULL: no word is near enough
+    const char *best; // NULL if no word is similar enough
     int distance;
 };
 
 struct suggestion suggest_start(const char *typed);
 void suggest_try(struct suggestion *suggestion, const char *word);
-// Suggests the word if the typed one is among its other names, separated by spaces, or NULL if it has none.
+// Suggests `word` if the typed word is in `others`, a list separated by spaces. `others` may be NULL.
 void suggest_also(struct suggestion *suggestion, const char *word, const char *others);
 
 #endif

@@ -29,7 +29,7 @@ static bool is_material_key(const char *key)
     return false;
 }
 
-// Splits "roughness@handle".
+// Parses "roughness@handle".
 static bool take_material(const char *text, struct sweep *sweep)
 {
     const char *at = strchr(text, '@');
@@ -48,7 +48,7 @@ static const lam_field *light_field(const char *key)
     return NULL;
 }
 
-// Returns the index of the component with this letter in a field, or −1.
+// Returns the index of the component of a field with this letter, or −1.
 static int component_of(const lam_field *field, const char *letter)
 {
     const char *letters = field->type == LAM_FIELD_RGB                                           ? "rgb"
@@ -59,7 +59,7 @@ static int component_of(const lam_field *field, const char *letter)
     return found ? (int)(found - letters) : -1;
 }
 
-// "azimuth", "range" or "position.x".
+// Parses "azimuth", "range" or "position.x".
 static bool take_light_number(const char *text, struct sweep *sweep)
 {
     static const char *const others[] = {[SWEEP_LIGHT_AZIMUTH] = "azimuth",
@@ -83,14 +83,14 @@ static bool take_light_number(const char *text, struct sweep *sweep)
     return dot ? sweep->component >= 0 : !several;
 }
 
-// "light.azimuth", "light.2.azimuth" or "light.key.diffuse.r".
+// Parses "light.azimuth", "light.2.azimuth" or "light.key.diffuse.r".
 static bool take_light(const char *text, struct sweep *sweep)
 {
     sweep->kind = SWEEP_LIGHT;
     sweep->component = -1;
     if (take_light_number(text, sweep))
         return true;
-    // A name may contain dots.
+    // A light's name may contain dots.
     for (const char *dot = strchr(text, '.'); dot; dot = strchr(dot + 1, '.'))
         if (dot > text && take_light_number(dot + 1, sweep)) {
             snprintf(sweep->which, sizeof sweep->which, "%.*s", (int)(dot - text), text);
@@ -171,7 +171,7 @@ static bool is_angle(const struct sweep *sweep)
     return sweep->kind == SWEEP_ROTATE || (sweep->kind == SWEEP_LIGHT && sweep->light == SWEEP_LIGHT_AZIMUTH);
 }
 
-// "0..360" or "10..60..10".
+// Parses "0..360" or "10..60..10".
 static bool take_stops(const char *text, struct sweep *sweep, lam_error *error)
 {
     static const char *const form = "expected numbers with two dots between, such as 0..360";
@@ -195,7 +195,7 @@ static bool take_stops(const char *text, struct sweep *sweep, lam_error *error)
     return true;
 }
 
-// The option's own parser checks each stop: the values between lie in the same range.
+// Checks each stop with the option's own parser. The values between the stops lie in the same range.
 static bool check_stops(const struct sweep *sweep, lam_error *error)
 {
     for (int i = 0; i < sweep->stop_count && sweep->option; i++) {
@@ -242,7 +242,7 @@ double sweep_value(const struct sweep *sweep, int frame, int count)
     int parts = sweep->stop_count - 1;
     if (parts < 1)
         return sweep->stops[0];
-    int steps = sweep->closed || count < 2 ? count : count - 1; // Steps from the first stop to the last.
+    int steps = sweep->closed || count < 2 ? count : count - 1; // the steps from the first stop to the last
     int64_t at = (int64_t)frame * parts, part = at / steps, rest = at % steps;
     if (part >= parts)
         return sweep->stops[parts];

@@ -1,49 +1,50 @@
-// sweep_option.h: the values of --sweep: the numbers that change from frame to frame.
+// sweep_option.h: parses the values of --sweep, which describe numbers that change from frame to frame.
 #ifndef SWEEP_OPTION_H
 #define SWEEP_OPTION_H
 
 #include "options.h"
 
-// The kind of number that a sweep changes.
+// The kinds of numbers that a sweep can change.
 enum sweep_kind {
     SWEEP_OPTION,   // an option of the table
     SWEEP_MATERIAL, // a key of --material
-    SWEEP_ROTATE,   // a turn of --rotate
-    SWEEP_LIGHT,    // a number of one of the lights
+    SWEEP_ROTATE,   // an angle of --rotate
+    SWEEP_LIGHT,    // a number of a light
 };
 
-// The numbers of a light besides its fields.
+// The numbers of a light in addition to its fields.
 enum sweep_light { SWEEP_LIGHT_FIELD, SWEEP_LIGHT_AZIMUTH, SWEEP_LIGHT_ELEVATION, SWEEP_LIGHT_INTENSITY };
 
 enum { SWEEP_STOPS_MAX = 16, SWEEP_NAME_MAX = 80 };
 
 struct sweep {
     enum sweep_kind kind;
-    const struct option *option; // SWEEP_OPTION, and what SWEEP_MATERIAL and SWEEP_ROTATE are given to
-    char key[SWEEP_NAME_MAX];    // SWEEP_MATERIAL: "roughness"; SWEEP_ROTATE: "y"
-    char which[SWEEP_NAME_MAX];  // SWEEP_MATERIAL: the part after '@'; SWEEP_LIGHT: a name or number; "": none
+    const struct option *option; // the changed option; for SWEEP_MATERIAL and SWEEP_ROTATE, their option
+    char key[SWEEP_NAME_MAX];    // "roughness" for SWEEP_MATERIAL, "y" for SWEEP_ROTATE
+    char which[SWEEP_NAME_MAX];  // the part after '@', or the light's name or number; may be ""
     enum sweep_light light;
-    const char *field; // SWEEP_LIGHT_FIELD: its key
-    int component;     // of the field; −1: all
+    const char *field; // the key of SWEEP_LIGHT_FIELD
+    int component;     // the component of the field; −1 means all
     double stops[SWEEP_STOPS_MAX];
-    int stop_count; // 0: `time` over the whole length of the animation
-    bool closed;    // it ends as it begins: the last frame is one step before the end
-    bool whole;     // values are rounded to whole numbers
+    int stop_count; // 0 means `time` over the whole animation
+    bool closed;    // the last value equals the first, so the last frame is one step earlier
+    bool whole;     // rounds the values to integers
 };
 
-// Returns whether numbers in order make an option's value, and the value makes a picture.
+// Returns whether an option takes numbers and affects the picture.
 bool sweep_takes_option(const struct option *option);
 
-// Parses "KEY=FROM..TO", also with stops between. On failure error->text lacks the option's name. LAM_BAD_ARGUMENT.
+// Parses "KEY=FROM..TO", optionally with stops in between. Fails with LAM_BAD_ARGUMENT; error->text lacks the option's
+// name.
 bool sweep_parse(const char *text, struct sweep *sweep, lam_error *error);
 
-// Returns whether it sweeps the option of this name.
+// Returns whether the sweep changes the option with this name.
 bool sweep_is_option(const struct sweep *sweep, const char *name);
 
-// Returns the value in a frame of `count`.
+// Returns the value in frame `frame` of `count` frames.
 double sweep_value(const struct sweep *sweep, int frame, int count);
 
-// The words that give an option its value in a frame, in `text`; NULL: it is a light's.
+// The arguments that set an option to its value in a frame.
 struct sweep_words {
     char option[SWEEP_NAME_MAX + 3], value[3 * SWEEP_NAME_MAX];
 };

@@ -1,4 +1,4 @@
-// output.c: the path of a picture, checks before writing it, and the writing.
+// output.c: determines the path of a picture, checks it and writes the picture.
 #include "output.h"
 
 #include <errno.h>
@@ -40,8 +40,8 @@ char *output_path(const char *output, const char *model, const char *ending)
     return path;
 }
 
-// Checks that files can be made in the folder of `path`, or, if it is missing and `makes`, in the nearest folder above
-// it that exists.
+// Checks that files can be created in the folder of `path`. If the folder is missing and `makes` is set, checks the
+// nearest existing folder above it.
 static bool check_folder(const char *path, bool makes, lam_error *error)
 {
     char *folder = output_folder_of(path);
@@ -75,7 +75,7 @@ bool output_check(const char *path, const char *model, enum output_given given, 
     bool named = given != OUTPUT_BY_MODEL;
     if (stat(path, &there) != 0)
         return check_folder(path, given != OUTPUT_NAMED, error);
-    // The model is itself a picture: loading it reports the real mistake.
+    // The model is itself a picture. Loading the model will report the actual mistake.
     if (given != OUTPUT_NAMED && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev &&
         there.st_ino == of_model.st_ino)
         return true;
@@ -108,7 +108,7 @@ bool output_is_stream(const char *path)
                                       !lam_image_format_for(path, &format, NULL));
 }
 
-// A picture's name without an ending, as thumbnailers are given them: it is a PNG.
+// Thumbnailers are given names without an extension and expect a PNG.
 static bool is_without_ending(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -122,7 +122,7 @@ const char *output_ending(const char *path)
 
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
 {
-    *format = LAM_RGBA8; // of a stream
+    *format = LAM_RGBA8; // the format of a stream
     if (output_is_stream(path) || is_without_ending(path) || lam_image_format_for(path, format, error))
         return true;
     size_t used = strlen(error->text);
@@ -131,7 +131,7 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
     return false;
 }
 
-// Returns whether a format is written, from 8 bits a number.
+// Returns whether the format is written with 8 bits per channel.
 static bool holds_bytes(int format)
 {
     char path[32];
@@ -198,7 +198,7 @@ static bool save(const lam_image *image, const char *path, const lam_save_params
     return ok;
 }
 
-// Writes a picture whose PNG is known.
+// Writes a picture that is already encoded as a PNG.
 static bool save_shown(const lam_image *image, const lam_bytes *png, const char *path, const lam_save_params *params,
                        uint64_t *size, lam_error *error)
 {

@@ -1,4 +1,4 @@
-// output.h: the path of a picture, checks before writing it, and the writing.
+// output.h: determines the path of a picture, checks it and writes the picture.
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
@@ -7,61 +7,61 @@
 #include "output_folder.h"
 #include "output_name.h"
 
-// Returns true if --output names the picture itself: it is neither NULL (not given) nor a folder ("thumbs/").
+// Returns true if --output names a file, false if it is NULL (not given) or a folder ("thumbs/").
 bool output_is_named(const char *output);
 
-// Returns the path of a picture, from malloc: `output` if it names a file; else the model's name with `ending` in that
-// folder or the current one: "dir/koala.obj" gives "koala.png" for ".png" and "koala-terms.png" for "-terms.png", "-"
-// gives "model.png". Returns NULL if memory runs out.
+// Returns the path of a picture, allocated with malloc. This is `output` if it names a file; otherwise the model's name
+// with `ending`, in the folder `output` or in the current folder. For example, "dir/koala.obj" gives "koala.png" for
+// ".png" and "koala-terms.png" for "-terms.png"; "-" gives "model.png". Returns NULL if memory runs out.
 char *output_path(const char *output, const char *model, const char *ending);
 
-// Returns the path of a model's picture, from malloc: the name that a pattern gives, else as output_path. Returns NULL
-// if memory runs out.
+// Returns the path of a model's picture, allocated with malloc: the expanded pattern, or the result of output_path.
+// Returns NULL if memory runs out.
 char *output_path_of(const char *output, const struct output_words *words);
 
-// Where the name of a picture comes from: the model's name, alone or in a folder of the user's; a name that the user
-// gave; a pattern that the user gave. The first two are false and true of output_is_named.
+// The source of a picture's name: the model's name (in the current or a given folder), the user's name, or the user's
+// pattern. The values of the first two equal the result of output_is_named.
 enum output_given { OUTPUT_BY_MODEL, OUTPUT_NAMED, OUTPUT_PATTERN };
 enum output_given output_given(const char *output);
 
-// Checks before the work whether `path` can be written: its folder exists and is writable, the path is not a folder,
-// and, if the model gave the name, it is not a file that lambent did not write. Unless the user named the file, the
-// folder may be missing (-o pictures/), if it can be made.
+// Checks before the work starts that `path` can be written: its folder exists and is writable, and the path is not a
+// folder. If the name comes from the model, an existing file must have been written by Lambent. Unless the user named
+// the file, a missing folder (-o pictures/) is allowed if it can be created.
 bool output_check(const char *path, const char *model, enum output_given given, lam_error *error);
 
-// Returns true if the picture is written directly to `path` as a PNG: "-", or a pipe or device without a picture's
-// extension.
+// Returns true if the picture is written directly to `path` as a PNG: "-", or a pipe or device without the extension of
+// a picture format.
 bool output_is_stream(const char *path);
 
-// Returns the ending of the format that is written to `path`, as "jpg": "png" of a stream and of a name without an
-// ending.
+// Returns the extension of the format written to `path`, such as "jpg"; "png" for a stream or a name without an
+// extension.
 const char *output_ending(const char *path);
 
-// The pixels of that format; bytes for a stream. Error: LAM_UNSUPPORTED.
+// Sets `format` to the pixel format of that file format; 8 bits per channel for a stream. Fails with LAM_UNSUPPORTED.
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Checks that the file's format stores 8 bits per number. Errors: as output_format, and "PATH: a sheet is written as
-// .svg, .png or .jpg" with the noun "sheet" and the extensions `others` (".svg, " or ""), which the command writes
+// Checks that the file format stores 8 bits per channel. Fails like output_format, or with "PATH: a sheet is written as
+// .svg, .png or .jpg", with the noun "sheet" and the extensions `others` (".svg, " or "") that the command writes
 // itself.
 bool output_check_bytes(const char *path, const char *noun, const char *others, lam_error *error);
 
-// Returns true if the name ends like a file of a model format. Scene files (.json) do not count: most JSON files are
-// not one.
+// Returns true if the name has the extension of a model format. Scene files (.json) do not count, since most JSON files
+// are no scenes.
 bool is_model_name(const char *name);
 
-// Writes a picture to a file, whose missing folder is made, or to a stream. `size` receives the bytes written, 0 for a
-// file that is not regular.
+// Writes a picture to a file, whose missing folder is created, or to a stream. Sets `size` to the number of bytes, or
+// to 0 if the file is not regular.
 bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
                  lam_error *error);
 
-// Shows each picture that output_save writes, as a PNG and as pixels (LAM_RGBA8); pictures for "-" are shown and not
-// written. NULL: none is shown.
+// A callback for each picture that output_save writes, which gets it as a PNG and as pixels (LAM_RGBA8). With a
+// callback, pictures for "-" are only passed to it and not written. NULL removes the callback.
 typedef bool output_show_fn(const lam_bytes *png, const lam_image *image, lam_error *error);
 void output_show_with(output_show_fn *show);
 
-// The same for encoded bytes; `durable` as in lam_save_params.
+// Does the same for encoded bytes. `durable` is as in lam_save_params.
 bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, uint64_t *size, lam_error *error);
 
-// Returns the size of the file at `path` in bytes; 0 if it is not a file.
+// Returns the size in bytes of the file at `path`, or 0 if it is not a file.
 uint64_t output_size(const char *path);
 #endif

@@ -1,4 +1,4 @@
-// output_name.c: names of pictures made from a pattern.
+// output_name.c: expands the patterns for names of pictures.
 #include "output_name.h"
 
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 static const struct {
     const char *name;
-    unsigned bit; // 0: always known
+    unsigned bit; // 0 if the word is always known
 } words[] = {{"stem", 0}, {"ext", 0}, {"dir", 0}, {"view", NAME_VIEW}, {"size", NAME_SIZE}, {"frame", NAME_FRAME}};
 
 enum { WORDS = sizeof words / sizeof words[0] };
@@ -23,7 +23,8 @@ struct part {
     bool word;
 };
 
-// Takes the next part off a pattern. False: the end, or a brace without its partner (*pattern is then not "").
+// Removes the next part from the start of a pattern. Returns false at the end, or at an unmatched brace, in which case
+// *pattern is not "".
 static bool next_part(const char **pattern, struct part *part)
 {
     const char *at = *pattern;
@@ -85,7 +86,7 @@ const char *output_stem(const char *model, int *length)
 {
     const char *name = strcmp(model, "-") == 0 ? "model" : model;
     const char *end = name + strlen(name);
-    while (end > name && end[-1] == '/') // the model is a folder: loading it reports that
+    while (end > name && end[-1] == '/') // a model path that is a folder is reported when it is loaded
         end--;
     const char *start = end;
     while (start > name && start[-1] != '/')
@@ -100,7 +101,7 @@ const char *output_stem(const char *model, int *length)
     return "model";
 }
 
-// The model's folder below the root, each component that leads somewhere by its name.
+// Prints the model's folder below the root without ".", ".." and a leading "/".
 static void print_folder(FILE *out, const struct output_words *w)
 {
     size_t root = w->root ? strlen(w->root) : 0;

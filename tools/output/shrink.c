@@ -10,7 +10,8 @@ static unsigned char encode(double linear)
     return (unsigned char)((x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055) * 255 + 0.5);
 }
 
-// Averages the pixels under each pixel of the smaller picture: linear light, premultiplied by alpha.
+// Averages the pixels of the large picture under each pixel of the small picture, in linear light with premultiplied
+// alpha.
 static void average(const lam_image *from, const lam_image *to)
 {
     for (int y = 0; y < to->height; y++)

@@ -1,14 +1,15 @@
-// shrink.h: small pictures of large ones.
+// shrink.h: reduces large pictures.
 #ifndef SHRINK_H
 #define SHRINK_H
 
 #include <lambent/image.h>
 
-// Makes a picture (LAM_RGBA8) whose longer side has at most `most` pixels, of one that is linear and premultiplied (LAM_RGBA32F,
-// lam_image_load_linear). It is never larger than `from`. The caller frees it. Error: LAM_LIMIT.
+// Makes a reduced picture (LAM_RGBA8) whose longer side has at most `most` pixels. `from` is linear and premultiplied
+// (LAM_RGBA32F, lam_image_load_linear). The result is never larger than `from`. The caller frees it. Fails with
+// LAM_LIMIT.
 bool shrink_linear(const lam_image *from, int most, lam_image *to, lam_error *error);
 
-// The same of a picture of bytes, LAM_RGBA8 without padding, sRGB-encoded. One that fits already is copied.
+// Does the same for a picture in LAM_RGBA8 without padding, encoded in sRGB. Copies a picture that already fits.
 bool shrink_bytes(const lam_image *from, int most, lam_image *to, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// terminal.c: the option --term: a picture on standard output, in the terminal's protocol.
+// terminal.c: shows pictures on standard output in the terminal's protocol (--term).
 #include "terminal.h"
 
 #include <errno.h>
@@ -13,11 +13,11 @@
 
 enum {
     PIECE = 4096,
-    SIXEL = 6 // pixels, the height of a row of sixels
+    SIXEL = 6 // pixels, the height of a sixel row
 };
 
 static struct terminal terminal = {.kind = TERM_OFF};
-static bool missing_chafa; // the terminal has sixels, and the library is not installed
+static bool missing_chafa; // the terminal has sixels, but the library is not installed
 
 bool terminal_shows(void) { return terminal.kind != TERM_OFF; }
 
@@ -32,7 +32,7 @@ static const char *word_of(enum term_kind kind)
     return word->name;
 }
 
-// The requirements of --term KIND on the command line and the terminal.
+// Checks whether the command line and the terminal allow --term KIND.
 static bool check_asked(const struct options *o, bool alone, lam_error *error)
 {
     const char *word = word_of((enum term_kind)o->picture.term);
@@ -99,7 +99,7 @@ bool terminal_refuse(const char *command, lam_error *error)
                     command);
 }
 
-// The factor that fits the picture into the terminal, below 1 if it is too large; and whether its height is the limit.
+// Returns the factor below 1 that fits a large picture into the terminal, and whether the height is the limit.
 static double scale_of(const lam_image *image, bool *tall)
 {
     const struct terminal *t = &terminal;
@@ -110,7 +110,7 @@ static double scale_of(const lam_image *image, bool *tall)
     return *tall ? down : across;
 }
 
-// Returns the picture's size in the terminal: its own if it fits, with a line left for the prompt.
+// Returns the picture's size in the terminal: its own size if it fits, leaving one line for the prompt.
 static struct chafa_size fit(const lam_image *image)
 {
     const struct terminal *t = &terminal;
@@ -135,7 +135,7 @@ static bool show_png(const lam_bytes *png, const lam_image *image, lam_error *er
     char *text = base64_encode(png->data, png->size, &length), place[32] = "";
     if (!text)
         return complain(error, LAM_LIMIT, "out of memory");
-    // The terminal scales it, and finds the other side from the picture's.
+    // The terminal scales the picture and computes the other side from the aspect ratio.
     bool tall, kitty = terminal.kind == TERM_KITTY;
     struct chafa_size size = fit(image);
     if (scale_of(image, &tall) < 1)

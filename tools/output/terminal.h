@@ -1,4 +1,4 @@
-// terminal.h: pictures in the terminal (--term): which protocol it has, and the picture in that protocol on standard output.
+// terminal.h: shows pictures in the terminal (--term): detects the supported protocol and writes the picture in it.
 #ifndef TERMINAL_H
 #define TERMINAL_H
 
@@ -6,32 +6,33 @@
 
 #include "options.h"
 
-// A terminal, and the size of a character cell in it.
+// The properties of a terminal and the size of its character cells.
 struct terminal {
-    enum term_kind kind;         // TERM_OFF: it shows no pictures
+    enum term_kind kind;         // TERM_OFF if it shows no pictures
     int columns, rows;           // in cells
-    int cell_width, cell_height; // in pixels; 10 by 20 where the terminal does not say
-    bool has_truecolor, has_256; // of blocks
+    int cell_width, cell_height; // in pixels; 10 by 20 if the terminal does not report it
+    bool has_truecolor, has_256; // the colours of block characters
 };
 
-// Finds out, before any sandbox and before the work, whether pictures go to the terminal too, and lets output_save show them.
-// `alone`: the command makes one picture. --term auto shows it if no file is named, standard output is a terminal that has
-// kitty's, iTerm2's or sixel graphics, and no other report goes there. Errors, where --term asks for more than can be had:
-// LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (no libchafa).
+// Determines whether pictures are also shown in the terminal, and makes output_save show them. Must be called before a
+// sandbox is entered and before the work starts. `alone` is set if the command makes one picture. With --term auto, the
+// picture is shown if no file is named, standard output is a terminal that supports the graphics of kitty or iTerm2 or
+// sixels, and no other report is written there. If --term requests an unavailable protocol, fails with
+// LAM_BAD_ARGUMENT, or LAM_UNSUPPORTED without libchafa.
 bool terminal_start(const struct options *options, bool alone, lam_error *error);
 
-// Returns whether pictures go to the terminal.
+// Returns whether pictures are shown in the terminal.
 bool terminal_shows(void);
 
-// Complains that a picture cannot go to standard output, a terminal that is to show none. False.
+// Reports that a picture cannot be written to standard output because it is a terminal without pictures. Returns false.
 bool terminal_refuse(const char *command, lam_error *error);
 
-// terminal_probe.c: the abilities of the terminal on standard output, from the environment and from its own answers. It
-// waits at most half a second, and leaves the terminal's settings as they were. In the background it asks nothing.
+// terminal_probe.c: detects the terminal's capabilities from the environment and from its answers. Waits at most half a
+// second and restores the terminal's settings. Sends no query from a background process.
 struct terminal terminal_probe(bool asks);
 
-// terminal_chafa.c: a picture as sixels or as block characters, through libchafa. `columns` and `rows`: of blocks, the cells
-// to fill; `width` and `height`: of sixels, pixels. `out` is freed with lam_bytes_free.
+// terminal_chafa.c: converts a picture to sixels or block characters with libchafa. `columns` and `rows` are the cells
+// to fill with blocks, `width` and `height` the pixels of sixels. Free `out` with lam_bytes_free.
 bool chafa_open(lam_error *error);
 struct chafa_size {
     int columns, rows, width, height;

@@ -1,7 +1,6 @@
-// terminal_chafa.c: sixels and block characters by libchafa, which is opened (dlopen) when they are wanted and not
-// before.
+// terminal_chafa.c: makes sixels and block characters with libchafa, which is loaded with dlopen only if it is needed.
 //
-// The library's header is not needed to build: the few functions and numbers below belong to its stable interface
+// Building does not need the library's header: the few functions and constants below belong to its stable interface
 // (https://hpjansson.org/chafa/ref/), unchanged since version 1.6.
 #include "terminal.h"
 
@@ -22,7 +21,7 @@ struct g_string {
     size_t length, allocated;
 };
 
-// FUNCTION(result, name, parameters): the functions used from the library, and from GLib, which it loads.
+// FUNCTION(result, name, parameters): the functions called in libchafa, and in GLib, which libchafa loads.
 #define FUNCTIONS                                                                                                      \
     FUNCTION(void *, chafa_canvas_config_new, (void))                                                                  \
     FUNCTION(void, chafa_canvas_config_unref, (void *))                                                                \
@@ -44,7 +43,7 @@ struct g_string {
     FUNCTION(char *, g_string_free, (struct g_string *, int))
 
 static struct {
-    void *library; // stays open
+    void *library; // never closed
 #define FUNCTION(result, name, parameters) result(*name) parameters;
     FUNCTIONS
 #undef FUNCTION
@@ -91,7 +90,7 @@ bool chafa_print(const struct terminal *terminal, const lam_image *image, const 
     chafa.chafa_canvas_config_set_canvas_mode(config, sixels || terminal->has_truecolor ? TRUECOLOR
                                                       : terminal->has_256               ? INDEXED_256
                                                                                         : INDEXED_16);
-    // Sixels are pixels: one cell of the picture's size, which no rounding to cells stretches.
+    // Sixels use a single cell of the picture's size, so that rounding to cells does not stretch the picture.
     chafa.chafa_canvas_config_set_geometry(config, sixels ? 1 : size->columns, sixels ? 1 : size->rows);
     chafa.chafa_canvas_config_set_cell_geometry(config, sixels ? size->width : terminal->cell_width,
                                                 sixels ? size->height : terminal->cell_height);

@@ -1,8 +1,9 @@
-// terminal_probe.c: which pictures a terminal shows. Names in the environment settle it for kitty, Ghostty, iTerm2 and WezTerm;
-// others are asked: kitty's query, and "primary device attributes", which every terminal answers, so that the wait ends.
+// terminal_probe.c: detects the graphics protocol of a terminal. Environment variables identify kitty, Ghostty, iTerm2
+// and WezTerm. Other terminals get two queries: kitty's query, and "primary device attributes", which every terminal
+// answers, so that the wait ends.
 //
 // Kitty: https://sw.kovidgoyal.net/kitty/graphics-protocol/#querying-support-and-available-transmission-mediums
-// Attributes, 4 for sixel graphics, and the size of a cell (16 t): https://invisible-island.net/xterm/ctlseqs/ctlseqs.html
+// Attributes (4 means sixel graphics) and the cell size (16 t): https://invisible-island.net/xterm/ctlseqs/ctlseqs.html
 #include "terminal.h"
 
 #include "progress.h"
@@ -31,13 +32,14 @@ static bool env_starts(const char *name, const char *start)
     return found && strncmp(found, start, strlen(start)) == 0;
 }
 
-// tmux and screen pass on the environment of the terminal around them, but not its graphics.
+// tmux and screen pass on the environment of the outer terminal but not its graphics.
 static bool is_multiplexed(void)
 {
     return getenv("TMUX") || env_starts("TERM", "screen") || env_starts("TERM", "tmux");
 }
 
-// Terminals that name themselves, and names that exclude pictures. TERM_AUTO: ask.
+// Identifies the terminals that name themselves, and names that exclude pictures. TERM_AUTO means that a query is
+// needed.
 static enum term_kind kind_by_name(void)
 {
     const char *term = getenv("TERM");
@@ -77,7 +79,7 @@ static const char *find_attributes(const char *text)
     return NULL;
 }
 
-// LAMBENT_TERM_WAIT: the milliseconds that a terminal at the end of a slow line has to answer.
+// LAMBENT_TERM_WAIT: the number of milliseconds to wait for a terminal on a slow connection.
 static int wait_ms(void)
 {
     const char *text = getenv("LAMBENT_TERM_WAIT");
@@ -86,7 +88,7 @@ static int wait_ms(void)
     return text && *text && (*end || wanted < 0) ? WAIT_MS : wanted > WAIT_MAX_MS ? WAIT_MAX_MS : (int)wanted;
 }
 
-// Reads until the last answer has arrived, or time is over.
+// Reads until the last answer has arrived or the time has expired.
 static void read_answers(int file, char *text, size_t size)
 {
     double end = clock_ms() + wait_ms();
@@ -99,7 +101,7 @@ static void read_answers(int file, char *text, size_t size)
             return;
         if (!(wait.revents & POLLIN)) {
             if (wait.revents)
-                return; // hung up
+                return; // the connection was closed
             continue;
         }
         ssize_t got = read(file, text + length, size - 1 - length);
@@ -107,7 +109,7 @@ static void read_answers(int file, char *text, size_t size)
             continue;
         if (got <= 0)
             return;
-        for (ssize_t i = 0; i < got; i++) // a text of C has no zeros
+        for (ssize_t i = 0; i < got; i++) // the text is a C string and must not contain zeros
             if (text[length + (size_t)i] == 0)
                 text[length + (size_t)i] = '?';
         length += (size_t)got;
@@ -115,7 +117,7 @@ static void read_answers(int file, char *text, size_t size)
     }
 }
 
-// Asks, with echo and lines off. Signals wait until the terminal is as it was.
+// Sends a query with echo and line mode disabled. Blocks signals until the terminal's settings are restored.
 static bool ask(int file, const char *question, char *answer, size_t size)
 {
     struct termios before, raw;
@@ -181,7 +183,7 @@ struct terminal terminal_probe(bool asks)
     const char *colors = getenv("COLORTERM"), *term = getenv("TERM");
     t.has_truecolor = colors && (strcmp(colors, "truecolor") == 0 || strcmp(colors, "24bit") == 0);
     t.has_256 = term && strstr(term, "256color");
-    // The terminal itself, by its name: standard output may be open for writing alone.
+    // Opens the terminal by its name, because standard output may be open only for writing.
     char name[256];
     int file = t.kind != TERM_OFF && asks && tcgetpgrp(STDOUT_FILENO) == getpgrp() &&
                        ttyname_r(STDOUT_FILENO, name, sizeof name) == 0

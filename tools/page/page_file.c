@@ -1,4 +1,4 @@
-// page_file.c: where the page lies, and reading whole files.
+// page_file.c: finds the page and reads whole files.
 #include "page_file.h"
 
 #include <errno.h>
@@ -23,7 +23,7 @@ bool page_is_named(const char *output)
     return length > 5 && strcasecmp(output + length - 5, ".html") == 0;
 }
 
-// One command makes the page: for a program in the build folder of its sources it can be said in full.
+// Reports that the page is missing. For a program in a build folder, the error names the command that makes the page.
 static void fail_missing(const char *program, size_t folder, lam_error *error)
 {
     char path[PATH_MAX + 100], *sources = NULL;
@@ -55,7 +55,7 @@ char *page_file_find(lam_error *error)
             complain(error, LAM_LIMIT, "out of memory");
         return found;
     }
-    // From the program's folder: installed, and in a build folder.
+    // Relative to the program's folder: the installed page, and the page of a build folder.
     static const char *const places[] = {"../" LAMBENT_DATADIR "/lambent/lambent.html", "../build-web/lambent.html"};
     ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
     own[length > 0 ? length : 0] = 0;
@@ -73,7 +73,7 @@ char *page_file_find(lam_error *error)
     return NULL;
 }
 
-// Reads `size` bytes. False: errno, or 0 where the file has ended before.
+// Reads `size` bytes. Returns false with errno, or with errno 0 if the file ends earlier.
 static bool read_all(int file, char *bytes, size_t size)
 {
     for (size_t at = 0; at < size;) {

@@ -1,4 +1,4 @@
-// page_model.c: the files and the words of a model in a page.
+// page_model.c: collects the files and the command line of a model for a page.
 #include "page_model.h"
 
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static bool add(struct page_model *model, const char *path, char *inside, lam_er
     return true;
 }
 
-// Returns whether ".." leads a name out of the folder that it begins in.
+// Returns whether ".." in a name leads out of the starting folder.
 static bool climbs_out(const char *name)
 {
     int depth = 0;
@@ -49,7 +49,7 @@ static bool is_file(const char *path)
     return stat(path, &about) == 0 && S_ISREG(about.st_mode);
 }
 
-// Returns whether a file lies in the folder or below it, wherever links lead. `folder`: a real path.
+// Returns whether a file is in the folder or its subfolders after links are resolved. `folder` must be a real path.
 static bool is_below(const char *folder, const char *path)
 {
     char *real = realpath(path, NULL);
@@ -59,7 +59,7 @@ static bool is_below(const char *folder, const char *path)
     return below;
 }
 
-// The model and the files that it names, by their names in the model's folder, which is the page's "/".
+// Adds the model and the files that it names, with their names in the model's folder, which is "/" in the page.
 static bool add_files(const struct job *job, struct page_model *model, lam_error *error)
 {
     const char *slash = strrchr(job->model, '/'), *path;
@@ -72,9 +72,9 @@ static bool add_files(const struct job *job, struct page_model *model, lam_error
         const char *name = path + length;
         char *inside = NULL;
         bool beside = strncmp(path, job->model, (size_t)length) == 0 && *name != '/' && !climbs_out(name);
-        if (beside && !is_file(path)) // it was not found: the page says so too
+        if (beside && !is_file(path)) // the page will also report the missing file
             continue;
-        if (!beside || (i && !is_below(folder, path))) { // the model itself may be a link, which the user has named
+        if (!beside || (i && !is_below(folder, path))) { // the user may name the model by a link
             ok = complain(
                 error, LAM_UNSUPPORTED,
                 "%s: is outside the folder of %s, and a page contains no files of other folders; copy it there", path,
@@ -136,9 +136,9 @@ void page_model_free(struct page_model *model)
     *model = (struct page_model){0};
 }
 
-// Contents of files for which the page's module has no decoder.
+// File types that the page's module cannot decode.
 static const struct {
-    const char *ending, *extension; // NULL: not by it
+    const char *ending, *extension; // NULL if it is not recognised this way
     const char *sentence;
 } unreadable[] = {
     {".webp", "EXT_texture_webp", "the page cannot read pictures in WebP"},
@@ -167,8 +167,8 @@ const char *page_model_lacks(const struct page_model *model, const lam_file_info
 
 // --- words
 
-// Returns whether an option belongs to the picture, and has a control in the page. A look is in the options that it
-// sets.
+// Returns whether an option concerns the picture and has a control in the page. A look is replaced by the options that
+// it sets.
 bool page_model_has_option(const struct option *option)
 {
     static const char *const without[] = {"output", "save-scene", "durable", "compress", "quality", "look"};

@@ -1,5 +1,5 @@
-// page_write.c: the page in one file, with a model in it. The model's files and the command line are texts that no browser runs, so the
-// page's policy, which names its scripts by their hashes, stays as it is; web/page/inside.js reads them.
+// page_write.c: writes the one-file page with a model. Browsers do not run the model's files and the command line, so
+// the page's policy, which lists its scripts by their hashes, needs no change; web/page/inside.js reads them.
 #include "page_write.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "page_model.h"
 #include "scene_settings.h"
 
-enum { PAGE_MAX = 64 << 20 }; // bytes of the page without a model
+enum { PAGE_MAX = 64 << 20 }; // the maximum size of the page without a model
 
 bool page_wanted(const struct job *job) { return !job->picture_bytes && page_is_named(job->output); }
 
@@ -67,7 +67,7 @@ static bool put_file(FILE *out, const struct page_file *file, size_t *left, lam_
     return true;
 }
 
-// The page's own text, with the model before its end.
+// Writes the page's own text with the model inserted before its end.
 static bool put_page(FILE *out, const struct job *job, const struct options *given, const char *page,
                      const struct page_model *model, lam_error *error)
 {

@@ -30,7 +30,7 @@ static void degrees(struct json *json, const char *key, double radians)
     json_number(json, key, radians * (180 / 3.14159265358979323846));
 }
 
-// A matrix with the rows ambient, diffuse and specular.
+// Writes a matrix with the rows ambient, diffuse and specular.
 static void matrix(struct json *json, const char *key, lam_rgb ambient, lam_rgb diffuse, lam_rgb specular)
 {
     json_open(json, key, '[');
@@ -42,7 +42,7 @@ static void matrix(struct json *json, const char *key, lam_rgb ambient, lam_rgb 
 
 static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
-// The cone of a spot light, or null.
+// Writes the cone of a spot light, or null.
 static void write_cone(struct json *json, const lam_light *light)
 {
     if (light->type != LAM_LIGHT_SPOT) {
@@ -282,7 +282,7 @@ static void write_rows(struct json *json, const char *key, const double *numbers
     json_close(json, ']');
 }
 
-// The matrices, and the corners and the point in each space; or null.
+// Writes the matrices, and the corners and the point in each space, or null.
 static void write_places(struct json *json, const lam_explained_fragment *f)
 {
     if (!f->places || !f->matrices) {
@@ -315,7 +315,7 @@ static void write_places(struct json *json, const lam_explained_fragment *f)
     json_number(json, "winding", f->winding);
 }
 
-// The reflection model and its formulas. `gated`: nothing of it where n·l is not over 0.
+// Writes the reflection model and its formulas. With `gated`, the model is zero where n·l is not positive.
 static void write_formulas(struct json *json, const lam_explained_fragment *f)
 {
     const lam_reflection_info *model = lam_reflection_describe(f->reflection);

@@ -1,4 +1,4 @@
-// picture_json.c: a drawn picture for pages.
+// picture_json.c: describes a drawn picture in JSON for web pages.
 #include "picture_json.h"
 
 #include "light_place.h"

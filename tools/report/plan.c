@@ -20,7 +20,7 @@ bool plan_replaces(const struct job *job)
     return strcmp(job->output, "-") != 0 && stat(job->output, &found) == 0 && S_ISREG(found.st_mode);
 }
 
-// The values of an option that may be repeated. NULL: it may not.
+// Returns the values of a repeatable option, or NULL if the option is not repeatable.
 static const struct texts *texts_of(const struct option *option, const struct options *options)
 {
     bool repeated = option->store == store_light || option->store == store_material || option->store == store_rotation;
@@ -42,7 +42,7 @@ void each_given_option(const struct options *options, option_visit *visit, void 
     }
 }
 
-// Quoted where a shell would take the value apart.
+// Quotes the value if a shell would split it.
 static void print_option(void *user, const char *name, const char *value)
 {
     FILE *out = user;

@@ -13,14 +13,14 @@
 #include "sandbox_start.h"
 #include "settings_json.h"
 
-// Returns the model's format; "shape" for a built-in shape.
+// Returns the model's format, or "shape" for a built-in shape.
 static const char *format_of(const lam_scene *scene)
 {
     const char *format = lam_scene_format(scene);
     return format && *format ? format : "shape";
 }
 
-// Rounded to thirteen digits, which survive the conversion to radians and back.
+// Rounds to thirteen digits, which survive the conversion to radians and back.
 static double degrees(double angle_rad)
 {
     char text[32];
@@ -28,7 +28,7 @@ static double degrees(double angle_rad)
     return strtod(text, NULL);
 }
 
-// "turn.png", or of frames in files of their own "turn-00.png to turn-35.png".
+// Prints "turn.png", or "turn-00.png to turn-35.png" for frames in separate files.
 static void say_output(const struct job *job)
 {
     say_plain("%s", strcmp(job->output, "-") == 0 ? "standard output" : job->output);
@@ -166,7 +166,7 @@ static void json_model(struct json *json, const struct job *job)
     json_close(json, '}');
 }
 
-// The frames of an animation.
+// Writes the frames of an animation.
 static void json_frames(struct json *json, const struct job *job)
 {
     if (!job->frames.count)
@@ -234,7 +234,7 @@ static void json_device(struct json *json, const lam_device *device)
     json_close(json, '}');
 }
 
-// Rounded to microseconds.
+// Rounds the time to microseconds.
 static void json_ms(struct json *json, const char *key, double ms)
 {
     json_number(json, key, (double)(int64_t)(ms * 1e3 + 0.5) / 1e3);
@@ -369,7 +369,7 @@ FILE *report_stream(const struct options *options)
     return options->picture.output && strcmp(options->picture.output, "-") == 0 ? stderr : stdout;
 }
 
-// Names the help of the option or command that a usage error begins with.
+// Refers to the help of the option or command at the start of a usage error.
 static void say_where_to_look(const char *text)
 {
     char name[64];

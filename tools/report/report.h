@@ -16,11 +16,11 @@ void report_table(const struct job *job);
 // (then nothing else is written there). Returns NULL if there is no report.
 FILE *report_stream(const struct options *options);
 
-// Reports a failure without a job (a wrong command line, no device), in JSON as well if that is enabled; returns the
-// exit code.
+// Reports a failure that has no job, such as a wrong command line or a missing device, also as JSON if requested.
+// Returns the exit code.
 int report_failure(const lam_error *error, const struct options *options);
 
-// Prints one line in the form of docs/report.schema.json. `job` NULL: `error` is about the command line.
+// Prints one line in the format of docs/report.schema.json. If `job` is NULL, `error` concerns the command line.
 void report_json(FILE *file, const struct job *job, const lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// interrupt.c: signals such as Ctrl-C set a flag, so that a run stops cleanly and leaves no partial files.
+// interrupt.c: sets a flag on signals such as Ctrl-C, so that a run stops cleanly and leaves no partial files.
 #include "interrupt.h"
 
 #include <signal.h>
@@ -22,7 +22,7 @@ void interrupt_start(void)
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
         struct sigaction old,
-            action = {.sa_handler = catch, .sa_flags = (int)SA_RESETHAND}; // no SA_RESTART: reads return
+            action = {.sa_handler = catch, .sa_flags = (int)SA_RESETHAND}; // without SA_RESTART, reads return
         sigemptyset(&action.sa_mask);
         if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
             sigaction(signals[i], &action, NULL);
@@ -43,6 +43,6 @@ void interrupt_finish(void)
 void interrupt_with_parent(pid_t parent)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) // the parent ended before the signal was asked for, so that it never comes
+    if (getppid() != parent) // the parent ended before prctl, so that the signal will never come
         _exit(1);
 }

@@ -1,6 +1,6 @@
-// sandbox.c: Landlock: files are within reach only below the given paths. https://docs.kernel.org/userspace-api/landlock.html
+// sandbox.c: restricts file access to given paths with Landlock. https://docs.kernel.org/userspace-api/landlock.html
 //
-// The numbers of the interface are written here, because headers of distributions are older than kernels.
+// The constants of the interface are defined here because the headers of distributions are older than their kernels.
 #include "sandbox.h"
 
 #include <errno.h>
@@ -17,7 +17,7 @@ void sandbox_add(struct sandbox_paths *paths, const char *path, int access)
 {
     if (paths->count && paths->items[paths->count - 1].access == access &&
         strcmp(paths->items[paths->count - 1].path, path) == 0)
-        return; // models of one folder follow each other
+        return; // avoids duplicates, since models often share a folder
     if (paths->count == paths->capacity) {
         int capacity = paths->capacity ? 2 * paths->capacity : 32;
         struct sandbox_path *grown = realloc(paths->items, (size_t)capacity * sizeof *grown);
@@ -76,10 +76,10 @@ enum {
     ADD_RULE = 445,
     RESTRICT_SELF = 446,
     RULESET_VERSION = 1 << 0, // a flag of CREATE_RULESET
-    PATH_BENEATH = 1,         // a kind of rule
+    PATH_BENEATH = 1,         // a type of rule
 };
 
-// Rights to files, by the version that brought them.
+// Access rights to files, by the version that introduced them.
 enum {
     EXECUTE = 1 << 0,
     WRITE_FILE = 1 << 1,
@@ -119,7 +119,7 @@ static int landlock_version(void)
 struct sandbox_state sandbox_offered(void)
 {
     struct sandbox_state state = {0};
-    if (under_valgrind()) { // whose own system calls would look like the program's
+    if (under_valgrind()) { // Valgrind's own system calls would be filtered too
         state.reason = "Valgrind runs the program";
         return state;
     }
@@ -138,10 +138,11 @@ static uint64_t rights_of(int version)
            (version >= 5 ? IOCTL_DEV : 0);
 }
 
-// The process has no handle or no memory left, which says nothing about the kernel's sandbox or the path.
+// The process has no file handle or memory left, which is unrelated to the kernel's sandbox or the path.
 static bool is_exhausted(int reason) { return reason == EMFILE || reason == ENFILE || reason == ENOMEM; }
 
-// False: the kernel refuses the rule, or is_exhausted(errno). A path that does not exist, or may not be opened, needs none.
+// Returns false if the kernel rejects the rule or is_exhausted(errno). A path that does not exist or cannot be opened
+// needs no rule.
 static bool add_path(int rules, const struct sandbox_path *path, uint64_t handled)
 {
     struct stat about;
@@ -166,7 +167,7 @@ static bool add_path(int rules, const struct sandbox_path *path, uint64_t handle
     return ok;
 }
 
-// False: errno says why.
+// Returns false and sets errno on failure.
 static bool enter_landlock(const struct sandbox_paths *paths, int version)
 {
     struct ruleset set = {.files = rights_of(version), .network = 3, .scoped = 3};
@@ -184,7 +185,8 @@ static bool enter_landlock(const struct sandbox_paths *paths, int version)
     return ok;
 }
 
-// Of root's privileges, those to read any file stay. CAP_PERFMON, for one, shows the environment of other processes in spite of Landlock.
+// Keeps only root's privileges to read any file. For example, CAP_PERFMON reveals the environment of other processes in
+// spite of Landlock.
 static void drop_capabilities(void)
 {
     struct __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};
@@ -197,7 +199,7 @@ static void drop_capabilities(void)
         data[i].effective &= i ? 0 : kept;
         data[i].inheritable = 0;
     }
-    syscall(SYS_capset, &header, data); // giving up is always permitted
+    syscall(SYS_capset, &header, data); // dropping privileges is always permitted
 }
 
 bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error)
@@ -207,7 +209,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
         return complain(error, LAM_LIMIT, "out of memory");
     if (!state->landlock && !state->filter)
         return true;
-    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) { // without it a program could be run with more rights
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) { // otherwise an executed program could gain privileges
         *state = (struct sandbox_state){.reason = "the kernel does not let a process drop privileges"};
         return true;
     }

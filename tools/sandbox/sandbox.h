@@ -1,15 +1,15 @@
-// sandbox.h: drops the privileges that reading a stranger's file does not need: files outside a few folders (Landlock),
-// other programs, the network, other processes (a seccomp filter). Dropped privileges cannot be regained. Linux on
-// x86-64 and aarch64; elsewhere there is none.
+// sandbox.h: drops privileges that are not needed to read untrusted files: access to files outside a few folders
+// (Landlock), to other programs, the network and other processes (a seccomp filter). Dropped privileges cannot be
+// regained. It works on Linux on x86-64 and aarch64; other systems have no sandbox.
 #ifndef SANDBOX_H
 #define SANDBOX_H
 
 #include "writer.h"
 
 enum {
-    SANDBOX_READ = 1,  // a file, or all files of a folder and below it
-    SANDBOX_WRITE = 2, // a pipe or a device; files are written by the writer (writer.h)
-    // For the writer: a file that it may make, and replace if Lambent wrote it, or if anyone did.
+    SANDBOX_READ = 1,  // a file, or all files in a folder and its subfolders
+    SANDBOX_WRITE = 2, // a pipe or a device; the writer writes files (writer.h)
+    // Lets the writer create a file, and replace a file written by Lambent, or any file.
     SANDBOX_MAKE = 4,
     SANDBOX_REPLACE = 8,
 };
@@ -19,56 +19,57 @@ struct sandbox_path {
     int access; // SANDBOX_…
 };
 
-// The files that stay within reach.
+// The paths that stay accessible.
 struct sandbox_paths {
     struct sandbox_path *items;
     int count, capacity;
-    bool failed;      // memory was out: sandbox_enter fails
-    bool scene_files; // some of them may name files anywhere (sandbox_start.c)
-    bool serves;      // the filter is SANDBOX_SERVES
-    // The files that the writer writes, and the number of threads that it serves (0: one). NULL: SANDBOX_MAKE and SANDBOX_REPLACE.
+    bool failed;      // memory ran out; sandbox_enter then fails
+    bool scene_files; // a scene file may name files anywhere (sandbox_start.c)
+    bool serves;      // selects the filter SANDBOX_SERVES
+    // Decides which files the writer writes, for the given number of threads (0 means 1). NULL uses SANDBOX_MAKE and
+    // SANDBOX_REPLACE.
     writer_rule *may_write;
     void *user;
     int writers;
 };
 
-// Adds a path, which is copied. Paths that do not exist when the sandbox is entered stay inaccessible.
+// Adds a copy of a path. A path that does not exist when the sandbox is entered stays inaccessible.
 void sandbox_add(struct sandbox_paths *paths, const char *path, int access);
 void sandbox_paths_free(struct sandbox_paths *paths);
 
-// The protections in force, or available on this machine.
+// The protections that are active, or available on this machine.
 struct sandbox_state {
-    int landlock;          // the kernel's version of Landlock; 0: none
+    int landlock;          // the kernel's Landlock version; 0 if there is none
     bool filter;           // the seccomp filter
-    bool reads_everything; // files may be read anywhere
-    const char *reason;    // why one of them is missing; NULL: both are active
+    bool reads_everything; // all files are readable
+    const char *reason;    // why a protection is missing; NULL if both are active
 };
 
-// Returns the protections that the kernel offers. Changes nothing.
+// Returns the protections that the kernel offers without changing anything.
 struct sandbox_state sandbox_offered(void);
 
-// Enters the sandbox: this thread and threads that it starts later, and the filter for all threads; call it before
-// threads start. Protections that the kernel lacks are skipped, and `state` reports it. False with LAM_LIMIT: out of
-// memory.
+// Enters the sandbox. Landlock applies to this thread and the threads that it starts later, the filter to all threads,
+// so call it before threads start. Skips protections that the kernel lacks and reports them in `state`. Fails with
+// LAM_LIMIT if memory runs out.
 bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error);
 
-// One line: "Landlock 7 and seccomp", "seccomp; Landlock is missing: …", "off". Returns `out`.
+// Writes one line such as "Landlock 7 and seccomp", "seccomp; Landlock is missing: …" or "off". Returns `out`.
 enum { SANDBOX_TEXT_SIZE = 160 };
 const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEXT_SIZE]);
 
-// The system calls that the seccomp filter permits a process: bits.
+// Selects the system calls that the seccomp filter permits, as bits.
 enum sandbox_filter {
-    SANDBOX_DRAWS = 0, // read and draw: no other process, no socket, and files are opened for reading alone
-    SANDBOX_SERVES =
-        1, // also: accept connections on sockets that listen already, watch files, make processes of its own program, which may
-    // then install SANDBOX_DRAWS, and end them. No socket is made, bound or connected, no program is run.
-    SANDBOX_OPENS_PIPES = 2, // existing files may be opened for writing, if Landlock permits it
-    SANDBOX_NO_OPENAT2 =
-        4, // whose flags no filter sees: for kernels whose Landlock does not keep files from being emptied
+    SANDBOX_DRAWS = 0, // reading and drawing: no processes, no sockets, files only read
+    // Also accepts connections on listening sockets, watches files, and starts and ends processes of its own program,
+    // which may then install SANDBOX_DRAWS. It cannot create, bind or connect sockets or run programs.
+    SANDBOX_SERVES = 1,
+    SANDBOX_OPENS_PIPES = 2, // also opens existing files for writing, if Landlock permits it
+    // Forbids openat2, whose flags a filter cannot check, for kernels whose Landlock does not stop truncation.
+    SANDBOX_NO_OPENAT2 = 4,
 };
 
-// sandbox_filter.c: installs a seccomp filter for all threads, in addition to filters in force. Returns false if the
-// kernel refuses; errno says why.
+// sandbox_filter.c: installs a seccomp filter for all threads in addition to the active filters. Returns false and sets
+// errno if the kernel rejects it.
 bool sandbox_filter_install(unsigned kind);
 
 #endif

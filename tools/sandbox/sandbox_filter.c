@@ -1,9 +1,11 @@
-// sandbox_filter.c: the seccomp filter: the system calls that reading and drawing need. Others do not exist for this process
-// (ENOSYS): no program is run, no socket made, no other process traced, signalled, made, measured or slowed down, no file is
-// made, renamed, removed or given other rights, no file system mounted. https://docs.kernel.org/userspace-api/seccomp_filter.html
+// sandbox_filter.c: installs the seccomp filter, which allows the system calls needed for reading and drawing. All
+// others fail with ENOSYS. The process therefore cannot run programs, create sockets, create, trace, signal, measure or
+// slow down other processes, create, rename, remove or change the permissions of files, or mount file systems.
+// https://docs.kernel.org/userspace-api/seccomp_filter.html
 //
-// ENOSYS and not an end of the process: C libraries that try a newer call continue with the older one. Written by hand: it is
-// two lists, and libseccomp would be one more library to open at every start.
+// The filter returns ENOSYS instead of killing the process, because C libraries that try a newer call then fall back to
+// an older one. It is written by hand because it consists of two lists, and libseccomp would be another library to load
+// at every start.
 #include "sandbox.h"
 
 #if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__))
@@ -28,9 +30,9 @@
 #define ARCHITECTURE AUDIT_ARCH_AARCH64
 #endif
 
-// Allowed with any arguments. Calls that this machine's headers lack have no number here.
+// Allowed with any arguments. A call that is missing in this machine's headers has no number here.
 static const unsigned allowed[] = {
-    // Files: Landlock decides which can be opened, and conditions (below) how.
+    // Files. Landlock decides which files can be opened, and the conditions below decide how.
     SYS_read,
     SYS_write,
     SYS_pread64,
@@ -76,7 +78,7 @@ static const unsigned allowed[] = {
     SYS_exit,
     SYS_exit_group,
     SYS_getcpu,
-    // Itself.
+    // The process itself.
     SYS_rt_sigaction,
     SYS_rt_sigprocmask,
     SYS_rt_sigreturn,
@@ -91,7 +93,7 @@ static const unsigned allowed[] = {
     SYS_geteuid,
     SYS_getgid,
     SYS_getegid,
-    SYS_wait4, // of the writer
+    SYS_wait4, // for the writer
 #ifdef SYS_statx
     SYS_statx,
 #endif
@@ -110,7 +112,7 @@ static const unsigned allowed[] = {
 #ifdef SYS_getrlimit
     SYS_getrlimit,
 #endif
-#if defined(__x86_64__) // which still has the calls of before
+#if defined(__x86_64__) // x86-64 still has the older calls
     SYS_stat,
     SYS_lstat,
     SYS_access,
@@ -126,7 +128,7 @@ static const unsigned allowed[] = {
 #endif
 };
 
-// The further calls of SANDBOX_SERVES.
+// The additional calls of SANDBOX_SERVES.
 static const unsigned served[] = {
     SYS_accept4,    SYS_recvfrom,  SYS_sendfile,    SYS_shutdown,          SYS_setsockopt,
     SYS_getsockopt, SYS_epoll_ctl, SYS_epoll_pwait, SYS_inotify_add_watch,
@@ -135,12 +137,13 @@ static const unsigned served[] = {
 #endif
 };
 
-// Allowed if half of an argument, after `mask`, is one of some values; consecutive rows of one call must all match.
+// Allows a call if one half of an argument, masked with `mask`, equals one of the values. All consecutive rows of a
+// call must match.
 struct condition {
     unsigned call;
     int half; // LOW(argument) or HIGH(argument)
     unsigned mask;
-    int error; // the call's result if it does not match
+    int error; // the error returned if no value matches
     int count;
     unsigned values[6];
 };
@@ -148,9 +151,9 @@ struct condition {
 #define LOW(argument)  (2 * (argument))
 #define HIGH(argument) (2 * (argument) + 1)
 #define ALL            0xFFFFFFFFU
-#define SELF           0xFFFFFFFEU // among the values: this process's number
+#define SELF           0xFFFFFFFEU // means this process's ID in the list of values
 
-// PR_SET_VMA names memory, which the C library does to its own.
+// The C library uses PR_SET_VMA to name its memory.
 #ifndef PR_SET_VMA
 #define PR_SET_VMA 0x53564d41
 #endif
@@ -159,39 +162,42 @@ struct condition {
 #endif
 
 enum {
-    // Flags of open() that make or empty a file. A file that may only be read is emptied by O_TRUNC alone before Landlock 3.
+    // Flags of open() that create or truncate a file. Before version 3, Landlock does not stop O_TRUNC alone from
+    // emptying a read-only file.
     MAKES = O_CREAT | O_TRUNC | (O_TMPFILE & ~O_DIRECTORY) | O_ASYNC,
     WRITES = O_WRONLY | O_RDWR,
     NAMESPACES =
         CLONE_NEWNS | CLONE_NEWCGROUP | CLONE_NEWUTS | CLONE_NEWIPC | CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNET,
 };
 
-#define NEGATIVE 0x80000000U // of a clock: it is another process's
+#define NEGATIVE 0x80000000U // a negative clock ID belongs to another process
 
 static const struct condition conditions[] = {
-    // The terminal's size and state; never TIOCSTI, which types into it, nor FIOASYNC and SIOCSPGRP, which direct signals.
+    // The size and state of the terminal. TIOCSTI, which types into it, and FIOASYNC and SIOCSPGRP, which redirect
+    // signals, stay forbidden.
     {SYS_ioctl, LOW(1), ALL, ENOSYS, 4, {TCGETS, TIOCGWINSZ, TIOCGPGRP, FIONREAD}},
     {SYS_prctl, LOW(0), ALL, ENOSYS, 5, {PR_SET_NAME, PR_GET_NAME, PR_SET_VMA, PR_GET_DUMPABLE, PR_GET_SECCOMP}},
-    // Nothing that directs signals (F_SETOWN, O_ASYNC by F_SETFL), locks a file, or lets a journal be written elsewhere than at its end.
+    // Commands that redirect signals (F_SETOWN, O_ASYNC with F_SETFL), lock files or turn off appending to a journal
+    // stay forbidden.
     {SYS_fcntl, LOW(1), ALL, ENOSYS, 5, {F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD, F_SETFD, F_GETFL}},
     {SYS_sched_getaffinity, LOW(0), ALL, EPERM, 2, {0, SELF}},
     {SYS_clock_gettime, LOW(0), NEGATIVE, EPERM, 1, {0}},
     {SYS_clock_getres, LOW(0), NEGATIVE, EPERM, 1, {0}},
     {SYS_clock_nanosleep, LOW(0), NEGATIVE, EPERM, 1, {0}},
-    // Signals to itself, as abort() and the end after Ctrl-C send them.
+    // Signals to the process itself, which abort() and the exit after Ctrl-C send.
     {SYS_kill, LOW(0), ALL, EPERM, 1, {SELF}},
     {SYS_tgkill, LOW(0), ALL, EPERM, 1, {SELF}},
-    // Its own limits are read and not set: the pointer to new ones is NULL.
+    // The process may read its limits but not set them: the pointer to new limits must be NULL.
     {SYS_prlimit64, LOW(0), ALL, EPERM, 2, {0, SELF}},
     {SYS_prlimit64, LOW(2), ALL, EPERM, 1, {0}},
     {SYS_prlimit64, HIGH(2), ALL, EPERM, 1, {0}},
-    // A new thread.
+    // New threads.
     {SYS_clone, LOW(0), CLONE_THREAD | NAMESPACES, EPERM, 1, {CLONE_THREAD}},
 };
 
-// Conditions of SANDBOX_SERVES, tried before the others: signals that end its processes or cancel their work (from
-// version 6 on Landlock blocks others), calls of a new process on itself, and its stricter filter. MSG_FASTOPEN would
-// connect a socket.
+// The conditions of SANDBOX_SERVES, tested before the others. They allow signals that end its child processes or cancel
+// their work (Landlock blocks other targets since version 6), calls of a new process on itself, and the stricter
+// filter. MSG_FASTOPEN is excluded because it would connect a socket.
 static const struct condition served_conditions[] = {
     {SYS_kill, LOW(1), ALL, ENOSYS, 2, {SIGKILL, SIGUSR1}},
     {SYS_kill, LOW(0), NEGATIVE, EPERM, 1, {0}},
@@ -240,7 +246,8 @@ static void put(struct program *p, unsigned short code, unsigned k, unsigned cha
 static void load(struct program *p, size_t offset) { put(p, BPF_LD | BPF_W | BPF_ABS, (unsigned)offset, 0, 0); }
 static void end(struct program *p, unsigned result) { put(p, BPF_RET | BPF_K, result, 0, 0); }
 
-// After the number of a call is loaded: `length` instructions for this call alone, which end the program.
+// Executes the next `length` instructions only for this call; they end the program. Expects the number of the call to
+// be loaded.
 static void if_call(struct program *p, unsigned call, size_t length)
 {
     put(p, BPF_JMP | BPF_JEQ | BPF_K, call, 0, (unsigned char)length);
@@ -248,17 +255,17 @@ static void if_call(struct program *p, unsigned call, size_t length)
 
 static void allow(struct program *p, const unsigned *calls, size_t count)
 {
-    for (size_t i = 0; i < count; i++) { // x32's numbers are above all of these
+    for (size_t i = 0; i < count; i++) { // greater than or equal to the first number of x32
         if_call(p, calls[i], 1);
         end(p, SECCOMP_RET_ALLOW);
     }
 }
 
-enum { BESIDE_VALUES = 3 }; // instructions of a condition that are not comparisons
+enum { BESIDE_VALUES = 3 }; // the number of instructions of a condition besides the comparisons
 
 static void check(struct program *p, const struct condition *c)
 {
-    load(p, offsetof(struct seccomp_data, args) + 4 * (size_t)c->half); // both machines store the low half first
+    load(p, offsetof(struct seccomp_data, args) + 4 * (size_t)c->half); // both architectures are little-endian
     put(p, BPF_ALU | BPF_AND | BPF_K, c->mask, 0, 0);
     for (int k = 0; k < c->count; k++)
         put(p, BPF_JMP | BPF_JEQ | BPF_K, c->values[k] == SELF ? p->self : c->values[k], (unsigned char)(c->count - k),
@@ -266,7 +273,7 @@ static void check(struct program *p, const struct condition *c)
     end(p, SECCOMP_RET_ERRNO | (unsigned)c->error);
 }
 
-// The first list that has a call decides.
+// The first list that contains a call decides.
 static void allow_some(struct program *p, const struct condition *list, size_t count)
 {
     for (size_t i = 0, next; i < count; i = next) {
@@ -283,7 +290,7 @@ static void allow_some(struct program *p, const struct condition *list, size_t c
 static void build(struct program *p, unsigned kind)
 {
     load(p, offsetof(struct seccomp_data, arch));
-    put(p, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0); // else calls of 32 bits, with other numbers
+    put(p, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0); // 32-bit calls have other numbers
     end(p, SECCOMP_RET_KILL_PROCESS);
     load(p, offsetof(struct seccomp_data, nr));
     allow(p, allowed, COUNT(allowed));
@@ -316,7 +323,7 @@ bool sandbox_filter_install(unsigned kind)
         return false;
     }
     const struct sock_fprog filter = {p.length, p.code};
-    // All threads at once; of a thread that cannot be held to it, its number is returned.
+    // Applies the filter to all threads. If a thread cannot be synchronised, the call returns its ID.
     return syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_TSYNC, &filter) == 0;
 }
 

@@ -1,4 +1,4 @@
-// sandbox_start.c: which files a command may reach.
+// sandbox_start.c: determines the files that a command may access.
 #include "sandbox_start.h"
 
 #include <errno.h>
@@ -24,7 +24,8 @@ const char *sandbox_advice(const lam_error *error)
                : "";
 }
 
-// The folder of a path: the text up to its last '/', included; "." if there is none. Returns false if memory runs out.
+// Adds the folder of a path: the text up to and including its last "/", or "." if there is none. Returns false if
+// memory runs out.
 static bool add_folder_of(struct sandbox_paths *paths, const char *path, int access)
 {
     const char *slash = strrchr(path, '/');
@@ -46,8 +47,7 @@ void sandbox_add_input(struct sandbox_paths *paths, const char *model)
 {
     if (strcmp(model, "-") == 0 || lam_shape_find(model) >= 0)
         return;
-    sandbox_add(paths, model, SANDBOX_READ); // the path itself too: it may be a link to a file elsewhere, which the
-                                             // user made
+    sandbox_add(paths, model, SANDBOX_READ); // the path may be the user's link to a file in another folder
     add_folder_of(paths, model, SANDBOX_READ);
     paths->scene_files |= is_scene_file(model);
 }
@@ -60,7 +60,7 @@ void sandbox_add_older(struct sandbox_paths *paths, const char *path)
     if (strcmp(path, "-") == 0 || stat(path, &about) != 0)
         return;
     if (S_ISREG(about.st_mode))
-        sandbox_add(paths, path, SANDBOX_READ); // it is replaced if it says that it is ours
+        sandbox_add(paths, path, SANDBOX_READ); // it is read because only a file of Lambent may be replaced
     else if (!S_ISDIR(about.st_mode))
         sandbox_add(paths, path, SANDBOX_WRITE);
 }
@@ -72,7 +72,7 @@ void sandbox_add_output(struct sandbox_paths *paths, const char *path, bool by_m
         sandbox_add(paths, path, by_model ? SANDBOX_MAKE : SANDBOX_REPLACE);
 }
 
-// A list of paths separated by `separator`.
+// Adds the paths in a list separated by `separator`.
 static void add_list(struct sandbox_paths *paths, const char *list, char separator)
 {
     for (const char *at = list; at && *at;) {
@@ -86,8 +86,8 @@ static void add_list(struct sandbox_paths *paths, const char *list, char separat
     }
 }
 
-// Files that the program itself opens: libraries when they are needed, fonts, the number of processors, and the seed of tables of
-// keys (Jansson).
+// Adds the files that the program opens itself: shared libraries, fonts, the number of processors, and the seed of
+// Jansson's hash tables.
 static void add_system(struct sandbox_paths *paths)
 {
     static const char *const folders[] = {
@@ -108,7 +108,7 @@ static void add_system(struct sandbox_paths *paths)
         sandbox_add(paths, folders[i], SANDBOX_READ);
     add_list(paths, getenv("LD_LIBRARY_PATH"), ':');
     add_list(paths, getenv("LAMBENT_FONT"), 0);
-    // The module of Draco, at the library's search path (src/base/system/dynamic_library.c).
+    // The Draco module in the library's search path (src/base/system/dynamic_library.c).
     static const char *const modules[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
     char own[PATH_MAX], path[PATH_MAX + 100];
     ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
@@ -166,7 +166,7 @@ static enum writer_right right_of(void *user, const char *path)
     return right;
 }
 
-// The writer knows the paths as they are now.
+// Starts the writer with the current paths.
 static bool start_writer(struct sandbox_paths *paths, lam_error *error)
 {
     bool writes = paths->may_write;
@@ -190,7 +190,7 @@ bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_err
         active = (struct sandbox_state){.reason = sandbox_offered().reason};
         ok = check_required(o, error);
     } else {
-        limits_memory(o); // reads the system's files, which then are out of reach
+        limits_memory(o); // reads system files that are inaccessible afterwards
         add_system(paths);
         sandbox_add_options(paths, o);
         if (everything)

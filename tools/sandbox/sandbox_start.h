@@ -10,34 +10,36 @@
 #include "options.h"
 #include "sandbox.h"
 
-// Allows reading a model, and its folder with all sub-folders. "-" and names of shapes need nothing.
+// Allows reading a model and its folder with all subfolders. "-" and names of shapes need no permission.
 void sandbox_add_input(struct sandbox_paths *paths, const char *model);
 
-// Lets a picture be read, alone: an input of `diff`, an environment.
+// Allows reading a single file: an input of `diff`, or an environment.
 void sandbox_add_file(struct sandbox_paths *paths, const char *file);
 
-// Lets the writer make or replace a file, in a folder that need not exist yet. `by_model`: the model gave the name, so that only a
-// picture of Lambent's is replaced. A pipe or a device is opened inside. "-" needs nothing.
+// Allows the writer to create or replace a file, in a folder that may not exist yet. With `by_model`, the name comes
+// from the model, and only a file written by Lambent may be replaced. Pipes and devices are opened inside the sandbox.
+// "-" needs no permission.
 void sandbox_add_output(struct sandbox_paths *paths, const char *path, bool by_model);
 
-// Lets the files be reached that options name: environments, looks, the font, --allow-path, --save-scene. sandbox_start does it for its own.
+// Allows access to the files that options name: environments, looks, the font, --allow-path and --save-scene.
+// sandbox_start calls it for its own options.
 void sandbox_add_options(struct sandbox_paths *paths, const struct options *options);
 
-// The part of it that concerns this process: an older picture is read, a pipe is opened. paths->may_write decides on the rest.
+// Allows this process to read an older picture or open a pipe; paths->may_write decides about writing.
 void sandbox_add_older(struct sandbox_paths *paths, const char *path);
 
 // Returns whether sandbox_start would enter a sandbox.
 bool sandbox_is_wanted(const struct options *options);
 
-// Starts the writer, unless it runs already or nothing may be written. Then enters the sandbox of the options, with the
-// given paths, the options' paths and the system's libraries and fonts. Frees `paths` in any case. Call it before
-// threads start. Fails with LAM_UNSUPPORTED where --sandbox require cannot be had, LAM_LIMIT.
+// Starts the writer unless it already runs or nothing may be written. Then enters the sandbox selected by the options,
+// with the given paths, the options' paths and the system's libraries and fonts. Always frees `paths`. Must be called
+// before threads start. Fails with LAM_UNSUPPORTED if --sandbox require is not available, or LAM_LIMIT.
 bool sandbox_start(const struct options *options, struct sandbox_paths *paths, lam_error *error);
 
-// Returns the protections in force in this process; none before sandbox_start.
+// Returns the protections that are active in this process, none before sandbox_start.
 const struct sandbox_state *sandbox_active(void);
 
-// The addition to the error about a file that the sandbox may have blocked; "": none.
+// Returns a hint to add to the error about a file that the sandbox may have blocked, or "".
 const char *sandbox_advice(const lam_error *error);
 
 #endif

@@ -1,9 +1,9 @@
-// writer.c: the process that writes files for the one in the sandbox.
+// writer.c: the process that writes files for the process in the sandbox.
 //
-// For each thread that it can serve there is a pair of sockets. A request is a header, the path and the contents; the
-// answer is a lam_error. While a request is answered, signals wait in the thread that asked, so that one which ends the
-// process finds the file complete. After SIGKILL the writer finishes files that it has received completely, and drops
-// the rest.
+// There is one socket pair for each thread that it can serve. A request consists of a header, the path and the
+// contents; the answer is a lam_error. The requesting thread blocks signals until the answer arrives, so that a signal
+// that ends the process finds the file complete. After SIGKILL the writer finishes files that it has received
+// completely and discards the others.
 #include "writer.h"
 
 #include <stdlib.h>
@@ -41,11 +41,11 @@ enum action { SAVE, SAVE_DURABLY, REMOVE };
 
 struct request {
     uint32_t action;
-    uint32_t path_size; // with its zero
-    uint64_t size;      // of the contents
+    uint32_t path_size; // including the terminating zero
+    uint64_t size;      // the size of the contents
 };
 
-// Returns false if the other side has ended, or errno.
+// Returns false if the other process has ended or on an error (errno).
 static bool receive(int from, void *bytes, size_t size)
 {
     for (char *at = bytes; size;) {
@@ -60,7 +60,7 @@ static bool receive(int from, void *bytes, size_t size)
     return true;
 }
 
-// In one call if the other side is quick, so that it wakes once.
+// Sends everything in one call if possible, so that the receiver wakes once.
 static bool send_all(int to, struct iovec *parts, int count)
 {
     while (count) {
@@ -80,7 +80,7 @@ static bool send_all(int to, struct iovec *parts, int count)
 
 // --- the writer
 
-// A file that this run wrote in a format without room for a remark: its identity, and its last change.
+// A file that this run wrote in a format without metadata: its identity and modification time.
 struct own_file {
     dev_t device;
     ino_t number;
@@ -90,8 +90,8 @@ struct own_file {
 static struct {
     writer_rule *rule;
     void *user;
-    pthread_mutex_t lock;         // of the rule and the list
-    struct own_file own[OWN_MAX]; // the latest; earlier ones count as a stranger's
+    pthread_mutex_t lock;         // protects the rule and the list
+    struct own_file own[OWN_MAX]; // the most recent files; earlier ones count as another program's
     size_t own_count;
 } writing = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
@@ -155,7 +155,7 @@ static bool act(const struct request *request, const char *path, const lam_bytes
     return ok;
 }
 
-// Answers one request. Returns false if the other side has ended, or asks for something else than requests.
+// Answers one request. Returns false if the other process has ended or the request is invalid.
 static bool answer(int connection)
 {
     struct request request;
@@ -174,7 +174,7 @@ static bool answer(int connection)
     return ok;
 }
 
-// Serves some connections until all of them have ended.
+// Serves some connections until all of them are closed.
 static void serve(int *connections, int count)
 {
     struct pollfd wait[THREADS_MAX];
@@ -198,7 +198,8 @@ static void *serve_one(void *user)
     return NULL;
 }
 
-// Closes every file but the connections and standard error: locks, terminals and pipes are the other process's.
+// Closes every file except the connections and standard error, since locks, terminals and pipes belong to the other
+// process.
 static void close_others(const int *connections, int count)
 {
     int next = STDERR_FILENO + 1;
@@ -226,13 +227,13 @@ static _Noreturn void run(int *connections, int count)
     pthread_sigmask(SIG_BLOCK, &all, NULL);
     prctl(PR_SET_NAME, "lambent-writer");
     close_others(connections, count);
-    for (int stream = 0; stream <= STDERR_FILENO; stream++) // none of the files that it writes is a standard stream
+    for (int stream = 0; stream <= STDERR_FILENO; stream++) // the writer needs no standard streams
         (void)!open("/dev/null", O_RDWR | O_CLOEXEC);
     pthread_attr_t small;
     pthread_attr_init(&small);
     pthread_attr_setstacksize(&small, STACK);
     pthread_t threads[THREADS_MAX];
-    int own = count; // this thread serves those for which there is no other
+    int own = count; // this thread serves the connections without a thread of their own
     while (own > 1 && pthread_create(&threads[own - 1], &small, serve_one, &connections[own - 1]) == 0)
         own--;
     serve(connections, own);
@@ -252,7 +253,7 @@ static struct {
     pthread_cond_t given;
 } writer = {.lock = PTHREAD_MUTEX_INITIALIZER, .given = PTHREAD_COND_INITIALIZER};
 
-// A pair of connections above the standard streams, which may be closed.
+// Makes a socket pair whose numbers are above the standard streams, which may be closed.
 static bool make_pair(int *here, int *there)
 {
     int pair[2];
@@ -277,7 +278,7 @@ bool writer_start(writer_rule *rule, void *user, int count, lam_error *error)
     int made = 0;
     count = count < 1 ? 1 : count < THREADS_MAX ? count : THREADS_MAX;
     while (made < count && make_pair(&writer.connections[made], &there[made]))
-        made++; // fewer handles than threads: they take turns
+        made++; // with fewer handles than threads, the threads take turns
     pid_t process = made ? fork() : -1;
     int reason = errno;
     if (process == 0) {
@@ -371,7 +372,8 @@ static bool ask(enum action action, const char *path, const lam_bytes *bytes, la
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
 {
     struct stat there;
-    // Pipes and devices that a user names are opened here: a writer that waits for their reader could not be interrupted.
+    // This process opens pipes and devices that the user names, since a writer that waits for their reader could not be
+    // interrupted.
     if (!writer_is_there() || (stat(path, &there) == 0 && !S_ISREG(there.st_mode)))
         return save_here(path, bytes, durable, error);
     return ask(durable ? SAVE_DURABLY : SAVE, path, bytes, error);

@@ -1,4 +1,5 @@
-// drawing.c: lines, boxes and words on a page: SVG as its own elements, PNG by a small antialiasing painter.
+// drawing.c: draws lines, boxes and text on a page: as elements of an SVG, or on a PNG with a small antialiasing
+// painter.
 #include "drawing.h"
 
 #include <stdlib.h>
@@ -69,8 +70,8 @@ static uint8_t *pixel_at(struct drawing *d, int x, int y)
 
 static int within(double x, int max) { return !(x > 0) ? 0 : x < max ? (int)x : max; }
 
-// The page stays opaque, so blending is linear interpolation; of encoded values, with which type and thin lines look
-// best on white.
+// The page stays opaque, so blending is linear interpolation. Interpolating encoded values makes text and thin lines
+// look best on white.
 static void blend(uint8_t *pixel, uint32_t color, double cover)
 {
     for (int c = 0; c < 3; c++) {
@@ -79,8 +80,8 @@ static void blend(uint8_t *pixel, uint32_t color, double cover)
     }
 }
 
-// Returns the coverage of a pixel by a line of this half width. The edge is a ramp one pixel wide, which is exact for
-// edges along the axes and close for others.
+// Returns how much of a pixel a line with this half width covers. The edge is a ramp one pixel wide, which is exact for
+// horizontal and vertical edges and approximate for others.
 static double cover_at(struct point a, struct point b, double half, double x, double y)
 {
     double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
@@ -91,7 +92,7 @@ static double cover_at(struct point a, struct point b, double half, double x, do
     return cover < 0 ? 0 : cover > 1 ? 1 : cover;
 }
 
-// Draws all segments together, so that joints are not blended twice.
+// Draws all segments together, so that their joints are blended only once.
 static bool paint_line(struct drawing *d, const struct point *p, int count, double width, uint32_t color,
                        lam_error *error)
 {
@@ -133,7 +134,7 @@ static bool paint_line(struct drawing *d, const struct point *p, int count, doub
     return true;
 }
 
-// Cuts a line into dashes along its length.
+// Splits a line into dashes along its length.
 static bool paint_dashes(struct drawing *d, const struct point *p, int count, double width, uint32_t color, double dash,
                          lam_error *error)
 {
@@ -213,7 +214,7 @@ bool draw_dot(struct drawing *d, struct point middle, double radius, uint32_t co
     return true;
 }
 
-// Returns the bytes of the UTF-8 letter at the beginning of a text; 0: not a letter, or one that XML cannot contain.
+// Returns the bytes of the UTF-8 letter at the beginning of a text; 0 if not a letter, or one that XML cannot contain.
 static int letter_bytes(const char *text)
 {
     const unsigned char *at = (const unsigned char *)text;
@@ -227,7 +228,7 @@ static int letter_bytes(const char *text)
     return low || high || none || (at[0] < 32 && at[0] != '\t' && at[0] != '\n') ? 0 : bytes;
 }
 
-// Text of an element, and the end of it. Letters that XML cannot contain become U+FFFD.
+// Writes the text of an element and its end tag. Replaces characters that XML does not allow by U+FFFD.
 static void svg_letters(FILE *file, const char *text, const char *element)
 {
     while (*text) {
@@ -243,22 +244,22 @@ static void svg_letters(FILE *file, const char *text, const char *element)
     fprintf(file, "</%s>\n", element);
 }
 
-// Scripts whose letters follow each other from the left, unchanged from the font: ranges of Unicode
-// (https://www.unicode.org/Public/UCD/latest/ucd/Blocks.txt). The first ones are in the default font.
+// Scripts that are written from left to right without shaping: Unicode ranges
+// (https://www.unicode.org/Public/UCD/latest/ucd/Blocks.txt). The default font contains the first ones.
 static const struct {
     uint32_t first, last;
-    bool own_font; // the default font has none of them
+    bool own_font; // the default font contains none of them
 } plain_scripts[] = {
     {0x20, 0x052F, false},   // Latin, Greek, Cyrillic
-    {0x1E00, 0x1FFF, false}, // Latin and Greek with more marks
-    {0x2000, 0x2BFF, false}, // punctuation, symbols, arrows, formulas
+    {0x1E00, 0x1FFF, false}, // Latin and Greek with more diacritics
+    {0x2000, 0x2BFF, false}, // punctuation, symbols, arrows, mathematical operators
     {0x0530, 0x058F, true},  // Armenian
-    {0x10A0, 0x11FF, true},  // Georgian, Hangul's parts
+    {0x10A0, 0x11FF, true},  // Georgian, Hangul jamo
     {0x2C00, 0xD7FF, true},  // Chinese, Japanese, Korean and others
     {0xF900, 0xFAFF, true},  {0xFE10, 0xFE6F, true}, {0xFF00, 0xFFEF, true}, {0x20000, 0x3FFFF, true},
 };
 
-// Returns the number of a letter of UTF-8.
+// Decodes a UTF-8 character.
 static uint32_t letter_number(const char *text, int bytes)
 {
     uint32_t number = (unsigned char)*text & (bytes == 1 ? 0x7Fu : 0xFFu >> (bytes + 1));

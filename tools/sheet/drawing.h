@@ -9,63 +9,61 @@
 
 struct drawing {
     int width, height; // pixels
-    lam_image image;   // PNG: the page so far
-    lam_font *font;    // PNG; NULL: no text
-    FILE *svg;         // SVG: the file so far; NULL: PNG
-    char *svg_text;    // its contents, without the first and last lines
+    lam_image image;   // the page of a PNG
+    lam_font *font;    // the font of a PNG; NULL draws no text
+    FILE *svg;         // the file of an SVG; NULL for a PNG
+    char *svg_text;    // the SVG's contents without the first and last lines
     size_t svg_size;
-    char *title, *description; // of an SVG, for those who hear it; NULL: none
-    bool words;                // false: no text is drawn
-    lam_compress compress;     // of a PNG
-    int quality;               // of a JPEG or WebP; 0: the format's own
+    char *title, *description; // for screen readers, in an SVG; may be NULL
+    bool words;                // false draws no text
+    lam_compress compress;     // for a PNG
+    int quality;               // for a JPEG or WebP; 0 means the format's default
     bool durable;
 };
 
 struct point {
-    double x, y; // pixels from the upper left corner
+    double x, y; // pixels from the top left corner
 };
 
 enum align { ALIGN_LEFT, ALIGN_MIDDLE, ALIGN_RIGHT };
 
-// Makes a white page. `font` NULL: the system's (lam_font_open); an SVG needs none. On failure there is nothing
-// to free.
+// Makes a white page. A NULL `font` selects the system's font (lam_font_open), which an SVG does not need. On failure
+// there is nothing to free.
 bool drawing_open(struct drawing *drawing, int width, int height, bool svg, bool words, const char *font,
                   lam_error *error);
 void drawing_free(struct drawing *drawing);
 
-// Sets the title and description of an SVG for screen readers; a PNG contains only pixels. Returns false if memory runs
-// out.
+// Sets the title and description of an SVG for screen readers. A PNG stores neither. Returns false if memory runs out.
 bool drawing_describe(struct drawing *drawing, const char *title, const char *description, lam_error *error);
 
-// Colours are 0xrrggbb, sRGB. Widths and sizes are in pixels. Returns false if memory runs out.
+// Colours are sRGB, 0xrrggbb. Widths and sizes are in pixels. Functions return false if memory runs out.
 void draw_box(struct drawing *drawing, struct point corner, double width, double height, uint32_t color);
 bool draw_line(struct drawing *drawing, const struct point *points, int count, double width, uint32_t color,
                double dash,
-               lam_error *error); // `dash` > 0: dashes of that length, with gaps as long; 0: none
+               lam_error *error); // `dash` is the length of dashes and gaps; 0 draws a solid line
 bool draw_dot(struct drawing *drawing, struct point middle, double radius, uint32_t color, lam_error *error);
 void draw_text(struct drawing *drawing, struct point baseline, double size, enum align align, uint32_t color,
                const char *text);
-// Text rotated a quarter turn to the left, reading upwards, centred at the point; the baseline is vertical.
+// Draws a centred text rotated by 90 degrees, to be read upwards. The baseline is vertical.
 bool draw_text_upwards(struct drawing *drawing, struct point baseline, double size, uint32_t color, const char *text,
                        lam_error *error);
 
-// Returns the width of a text: exact for PNG, an estimate for SVG, whose viewer selects the font.
+// Returns the width of a text. It is exact for PNG and an estimate for SVG, where the viewer selects the font.
 double text_width(const struct drawing *drawing, double size, const char *text);
 
-// Lays a picture (LAM_RGBA8) onto the page, clipped at its edges; in an SVG it is a PNG with the label as its title.
-// Returns false if memory runs out.
+// Draws a picture (LAM_RGBA8) onto the page, clipped at the page's edges. An SVG embeds it as a PNG with the label as
+// its title. Returns false if memory runs out.
 bool draw_image(struct drawing *drawing, const lam_image *image, int left, int top, const char *label,
                 lam_error *error);
 
 // Returns true if the path names an SVG.
 bool drawing_is_svg(const char *path);
 
-// Returns whether a PNG's page can show a text that the user gave: letter by letter, from the left, with the default
-// font (or one that the user names: `has_font`). Error: LAM_UNSUPPORTED, which names the letter and the way out, an
-// SVG.
+// Returns whether a PNG can show a user's text: the script needs no shaping, and the font contains its characters
+// (`has_font`: the user names a font). Fails with LAM_UNSUPPORTED; the error names the character and recommends an SVG.
 bool drawing_check_text(const char *option, const char *text, bool has_font, lam_error *error);
 
-// Writes the page: a file completely or not at all, "-" or a pipe directly.
+// Writes the page. A file is written completely or not at all; "-" and pipes are written directly.
 bool drawing_write(struct drawing *drawing, const char *path, lam_error *error);
 
 #endif

@@ -7,7 +7,7 @@
 struct highlight highlight_find(const lam_image *whole, const lam_image *matt, int enlarged)
 {
     int w = whole->width, h = whole->height, width = w / enlarged, height = h / (2 * enlarged);
-    int span = w / 40 > 1 ? w / 40 : 1; // of the search window
+    int span = w / 40 > 1 ? w / 40 : 1; // the size of the search window
     const uint8_t *a = whole->pixels, *b = matt->pixels;
     int64_t best = -1;
     int best_x = w / 2, best_y = h / 2;

@@ -1,5 +1,5 @@
-// sheet.c: the sheets of the command `compare`, as options of the command line, with which a user can
-// draw each cell alone.
+// sheet.c: defines the sheets of the command `compare` as command line options, so that a user can draw each cell
+// separately.
 #include "sheet.h"
 
 #include <ctype.h>
@@ -12,10 +12,10 @@
 #include "sheet_defaults.h"
 #include "suggest.h"
 
-// Most cells have no look of their own.
+// Most cells do not set `look`.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
-// A light from the left front, slightly from above: its highlight is in sight on any rounded model, left of the middle.
+// A light from the front left, slightly above. Its highlight is visible on any rounded model, left of the centre.
 #define KEY        "directional:frame=camera,direction=3/-1/-3"
 #define BRIGHT     "ambient=0.15,diffuse=0.7,specular=1"
 #define WHITE      KEY ",color=0.8,ambient=0.1"
@@ -23,8 +23,8 @@
 #define ORANGE     "ambient=0.9/0.35/0.05,diffuse=0.9/0.35/0.05"
 #define AT_A_PLACE "point:position=1.5r/1.5r/1.5r,ambient=0.15,frame="
 
-// Defaults of sheets (sheet_defaults.h). On a coarse shape Gouraud shading loses this highlight, and flat shading shows
-// its facets.
+// Defaults of sheets (sheet_defaults.h). On a coarse shape, Gouraud shading misses this highlight and flat shading
+// shows the facets.
 #define COARSE {"--segments", NULL}
 #define LIT    {"--light", KEY "," BRIGHT}
 #define GLOSSY {"--material", "specular=0.7,shininess=100"}
@@ -140,7 +140,7 @@ static bool add_variant(struct sheet *sheet, const char *dashed, const char *nam
     return true;
 }
 
-// Adds the words of the option, each value once, without "auto", which selects one of the others.
+// Adds each value of the option once, without "auto", which selects one of the others.
 static bool add_words(struct sheet *sheet, const char *dashed, const struct option *option, lam_error *error)
 {
     for (const struct word *w = option->words; w->name; w++) {
@@ -153,7 +153,7 @@ static bool add_words(struct sheet *sheet, const char *dashed, const struct opti
     return true;
 }
 
-// Returns true if values that contain commas are separated by commas: in "point,spot:cutoff=9" a type follows a comma.
+// Returns true if commas separate values that contain commas: in "point,spot:cutoff=9" a type follows a comma.
 static bool lacks_semicolons(const struct option *option, const char *values)
 {
     if (strcmp(option->name, "light") != 0 || strchr(values, ';'))
@@ -164,10 +164,10 @@ static bool lacks_semicolons(const struct option *option, const char *values)
     return false;
 }
 
-// Rows of variants that need more than the option that varies to show a difference.
+// Rows of variants that need additional options to show a difference.
 static const struct row {
     const char *option;
-    const char *values; // if none are given; NULL: the option's words
+    const char *values; // the default values; NULL means the option's words
     struct sheet_default defaults[SHEET_DEFAULTS_MAX + 1];
 } row_table[] = {
     {"shading", NULL, {COARSE, LIT, GLOSSY}},
@@ -198,7 +198,7 @@ static const struct row *find_row(const char *option)
     return NULL;
 }
 
-// Two lights, one with attenuation, the other from behind, on a coloured surface: most mistakes become visible.
+// Two lights, one attenuated and one from behind, on a coloured surface. They make most mistakes visible.
 #define LAMP  "point:position=-1.2r/1.3r/1.7r,attenuation=0.3/0.1r/0.15r,ambient=0.2"
 #define RIM   "directional:direction=-1/-0.5/1.4,diffuse=0.4/0.45/0.55,specular=0.8"
 #define PAINT "ambient=0.3/0.12/0.08,diffuse=0.75/0.3/0.2,specular=0.5,shininess=20"
@@ -213,7 +213,7 @@ static bool add_mistake(struct sheet *sheet, const char *name, lam_error *error)
     return true;
 }
 
-// `values`: "all", or names separated by commas, which the caller checks.
+// Parses `values`: "all", or names separated by commas. The caller checks the names.
 static bool choose_mistakes(const char *values, struct sheet *sheet, char **store, lam_error *error)
 {
     *sheet = (struct sheet){.name = "mistake", .title = "Known mistakes", .mistakes = true};
@@ -236,7 +236,7 @@ static bool choose_mistakes(const char *values, struct sheet *sheet, char **stor
     return ok;
 }
 
-// The title of a row of pictures with different values of an option.
+// Makes the title of a row of pictures with different values of an option.
 static void title_of(const char *option, char *title, size_t size)
 {
     static const struct {
@@ -280,7 +280,7 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
     size_t length = strcspn(across, "=");
     if (length == 7 && memcmp(across, "mistake", 7) == 0)
         return choose_mistakes(across[length] ? across + length + 1 : "all", sheet, store, error);
-    bool term = length == 4 && memcmp(across, "term", 4) == 0; // another name of --show
+    bool term = length == 4 && memcmp(across, "term", 4) == 0; // an alias of --show
     const struct option *option = term ? find_option("show", 4, error) : find_option(across, length, error);
     if (!option)
         return false;
@@ -296,14 +296,14 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--across': found a comma between two lights in '%.200s', expected a semicolon",
                         across);
-    // One block: "--name" and the values, each ended by a zero.
+    // Allocates one block for "--name" and the values, each with a terminating zero.
     size_t dashed = strlen(option->name) + 3;
     *store = malloc(dashed + (values ? strlen(values) : 0) + 1);
     if (!*store)
         return complain(error, LAM_LIMIT, "out of memory");
     sprintf(*store, "--%s", option->name);
     *sheet = (struct sheet){.name = option->name, .across = true};
-    // Named terms and numbers show the unchanged model; the five terms are made visible.
+    // Single terms and numbers show the unchanged model. For all five terms the scene is changed to make them visible.
     if (row && (all_terms || strcmp(option->name, "show") != 0))
         memcpy(sheet->defaults, row->defaults, sizeof sheet->defaults);
     title_of(option->name, sheet->title, sizeof sheet->title);
@@ -324,13 +324,13 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
             value = end;
         }
     }
-    // Up to six in a row; more are distributed evenly over rows.
+    // Puts up to six pictures in a row and distributes more evenly over several rows.
     int rows = (sheet->count + 5) / 6;
     sheet->columns = rows ? (sheet->count + rows - 1) / rows : 1;
     return ok;
 }
 
-// Crosses two rows: one row for each picture of the first, one column for each of the second.
+// Combines two rows into a table with a row for each picture of the first and a column for each picture of the second.
 static bool cross(const struct sheet *lines, const struct sheet *columns, struct sheet *sheet, lam_error *error)
 {
     *sheet = (struct sheet){.name = "across", .columns = columns->count, .across = true};

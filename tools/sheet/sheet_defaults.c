@@ -1,10 +1,10 @@
-// sheet_defaults.c: which defaults of a sheet apply to a command line and a model.
+// sheet_defaults.c: decides which defaults of a sheet apply to a command line and a model.
 #include "sheet_defaults.h"
 
 #include <string.h>
 
-// Segments with which a shape shows its facets clearly, unless 24x12 does: the teapot counts stacks for each patch, the
-// knot is long, and implicit surfaces count cells.
+// Numbers of segments with which a shape clearly shows its facets; the others use 24x12. The teapot counts stacks for
+// each patch, the knot is long, and implicit surfaces count cells.
 static const struct {
     const char *shape, *segments;
 } coarse_shapes[] = {{"teapot", "24x4"}, {"torus-knot", "72x10"}, {"gyroid", "32"}, {"metaballs", "24"}};
@@ -17,7 +17,7 @@ static const char *coarse(const char *shape)
     return "24x12";
 }
 
-// In a row of variants the option that varies is given.
+// In a row of variants, the varied option counts as given.
 static bool is_given(const struct sheet *sheet, const struct options *options, const char *dashed)
 {
     if (option_given(options, dashed + 2))
@@ -29,7 +29,7 @@ static bool is_given(const struct sheet *sheet, const struct options *options, c
     return false;
 }
 
-// Returns whether the command line leaves a default to the model.
+// Returns whether the command line lets the model decide about a default.
 static bool is_open(const struct sheet *sheet, const struct options *options, const struct sheet_default *one)
 {
     bool light = strcmp(one->option, "--light") == 0;

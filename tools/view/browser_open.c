@@ -1,4 +1,4 @@
-// browser_open.c: opens an address in the user's browser, by xdg-open, which needs a display.
+// browser_open.c: opens an address in the user's browser with xdg-open, which requires a display.
 #include "browser_open.h"
 
 #include <fcntl.h>
@@ -19,7 +19,7 @@ bool browser_open(const char *address)
     pid_t process;
     if (!(x11 && *x11) && !(wayland && *wayland))
         return false;
-    // The browser that it becomes continues when this program is interrupted, and its messages are not this program's.
+    // The browser continues when this program is interrupted, and its messages are discarded.
     bool ok = posix_spawn_file_actions_init(&actions) == 0;
     ok = ok && posix_spawnattr_init(&attributes) == 0;
     if (!ok)

@@ -4,7 +4,8 @@
 
 #include <stdbool.h>
 
-// Returns whether a program runs that opens it: there is a display, and xdg-open. Before the sandbox.
+// Returns whether the browser was started, which requires a display and xdg-open. Must be called before the sandbox is
+// entered.
 bool browser_open(const char *address);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "console.h"
 
-// The address of a function, which ISO C does not let a void * become.
+// Finds the address of a function. ISO C does not allow the conversion of a void * to a function pointer.
 static bool find(void *library, const char *name, void *function)
 {
     void *address = dlsym(library, name);

@@ -1,4 +1,4 @@
-// http.h: libmicrohttpd, which `lambent view` opens (dlopen) when it starts.
+// http.h: the functions of libmicrohttpd, which `lambent view` loads with dlopen.
 // https://www.gnu.org/software/libmicrohttpd/manual/libmicrohttpd.html
 #ifndef HTTP_H
 #define HTTP_H
@@ -10,7 +10,7 @@
 
 #define HTTP_LIBRARY "libmicrohttpd.so.12"
 
-// The functions that are used here: each is a member of struct http with the type of its own declaration.
+// The functions used. Each is a member of struct http with the type of its declaration.
 #define HTTP_FUNCTIONS(each)                                                                                           \
     each(MHD_start_daemon) each(MHD_stop_daemon) each(MHD_run) each(MHD_get_daemon_info) each(MHD_get_connection_info) \
         each(MHD_get_timeout) each(MHD_queue_response) each(MHD_create_response_from_buffer)                           \
@@ -24,7 +24,7 @@ struct http {
 #undef MEMBER
 };
 
-// The library stays open until the program ends. LAM_UNSUPPORTED.
+// Loads the library, which stays loaded until the program ends. Fails with LAM_UNSUPPORTED.
 bool http_open(struct http *http, lam_error *error);
 
 #endif

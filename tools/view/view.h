@@ -1,4 +1,5 @@
-// view.h: `lambent view`: a server on this machine alone, for the page that shows a model or the gallery of a folder.
+// view.h: `lambent view`: a server, reachable only from this machine, for the page that shows a model or the gallery of
+// a folder.
 #ifndef VIEW_H
 #define VIEW_H
 
@@ -9,7 +10,7 @@
 #include "view_watch.h"
 
 enum {
-    VIEW_TOKEN_SIZE = 33, // 128 bits in hexadecimal digits, and the closing zero
+    VIEW_TOKEN_SIZE = 33, // 128 bits in hexadecimal digits, and the terminating zero
     VIEW_ADDRESS_SIZE = 80,
 };
 
@@ -17,39 +18,39 @@ enum {
 struct view_listener {
     struct MHD_Connection *connection;
     struct view *view;
-    char *pending; // text to send; from malloc
+    char *pending; // the text to send, from malloc
     size_t size;
     bool suspended;
     struct view_listener *next;
 };
 
-// A connection, from its acceptance to its end: the library's context of a socket.
+// A connection from its acceptance to its end. Stored as the library's context of a socket.
 struct view_socket {
     int file;
-    bool waits;      // for a request; it is in view.waiting
-    bool names_zero; // the address of its last request contains "%00"
-    double since_ms; // clock_ms() at which it began to wait
+    bool waits;      // waits for a request and is in view.waiting
+    bool names_zero; // the address of the last request contains "%00"
+    double since_ms; // the clock_ms() at which it started to wait
     struct view_socket *before, *after;
 };
 
-// Connections that wait, in the order in which they began to.
+// The waiting connections, in the order in which they started to wait.
 struct view_sockets {
     struct view_socket *oldest, *newest;
     int count;
 };
 
-// A request of HTTP, from its first line to the end of its answer.
+// An HTTP request, from its first line to the end of the answer.
 struct view_connection {
     struct view *view;
     struct MHD_Connection *connection;
-    struct view_task *task; // it waits for
+    struct view_task *task; // the task that it waits for
     struct view_result result;
-    bool finished; // the task is done, and `result` is set
+    bool finished; // the task is finished and `result` is set
     enum view_kind kind;
     bool thumbnail;
     struct view_listener *listener;
     const struct view_socket *socket;
-    struct view_connection *next; // in view.connections
+    struct view_connection *next; // the next in view.connections
 };
 
 struct view {
@@ -59,21 +60,21 @@ struct view {
     int port;
     char token[VIEW_TOKEN_SIZE];
     struct view_peers peers;
-    const char *folder; // NULL: one model is shown
+    const char *folder; // NULL if a single model is shown
     struct view_files files;
     struct view_page page;
     struct view_tasks tasks;
     struct view_watch watch;
     struct view_listener *listeners;
     struct view_sockets waiting;
-    struct view_connection *connections; // whose answers are not whole yet
-    double alive_ms;                     // clock_ms() at which the listeners have last heard something
+    struct view_connection *connections; // the requests with incomplete answers
+    double alive_ms;                     // the clock_ms() of the last message to the listeners
     bool ends;
 };
 
-// Serves until Ctrl-C, or until no connection has been open for `--idle` minutes. Prints the address. Errors: LAM_UNSUPPORTED
-// (libmicrohttpd or the page is missing), LAM_CANNOT_READ (the operand), LAM_LIMIT (no such port is free; the process may open no
-// socket), LAM_BAD_ARGUMENT.
+// Serves until Ctrl-C, or until no connection has been open for `--idle` minutes. Prints the address. Fails with
+// LAM_UNSUPPORTED (libmicrohttpd or the page is missing), LAM_CANNOT_READ (the operand), LAM_LIMIT (the port is in use,
+// or sockets are not available) or LAM_BAD_ARGUMENT.
 bool view_run(const char *operand, const struct options *options, lam_error *error);
 
 #endif

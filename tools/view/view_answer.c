@@ -1,4 +1,4 @@
-// view_answer.c: answers of HTTP.
+// view_answer.c: sends HTTP answers.
 #include "view_answer.h"
 
 #include <stdlib.h>
@@ -16,13 +16,13 @@ void view_answer_headers(const struct view *view, struct MHD_Response *response,
         {"Referrer-Policy", "no-referrer"}, // the address contains the token
         {"Cross-Origin-Resource-Policy", "same-origin"},
         {"Cross-Origin-Opener-Policy", "same-origin"},
-        {"Cross-Origin-Embedder-Policy", "require-corp"}, // with the opener's, several threads may draw in the page
+        {"Cross-Origin-Embedder-Policy", "require-corp"}, // with the opener policy, enables threads in the page
         {"X-Frame-Options", "DENY"},
     };
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++)
         view->http.MHD_add_response_header(response, headers[i][0], headers[i][1]);
     view->http.MHD_add_response_header(response, "Content-Type", type);
-    // A page's own policy is in it; nothing else is a page.
+    // The page contains its own policy; other contents get a strict one.
     view->http.MHD_add_response_header(response, "Content-Security-Policy",
                                        strncmp(type, "text/html", 9) == 0 ? "frame-ancestors 'none'"
                                                                           : "default-src 'none'; sandbox");
@@ -32,7 +32,7 @@ static enum MHD_Result queue(const struct view *view, struct MHD_Connection *con
                              struct MHD_Response *response)
 {
     if (!response)
-        return MHD_NO; // which closes the connection
+        return MHD_NO; // closes the connection
     view_answer_headers(view, response, type);
     if (status == MHD_HTTP_METHOD_NOT_ALLOWED)
         view->http.MHD_add_response_header(response, "Allow", "GET, HEAD");
@@ -44,7 +44,7 @@ static enum MHD_Result queue(const struct view *view, struct MHD_Connection *con
 enum MHD_Result view_answer(const struct view *view, struct MHD_Connection *connection, int status, const char *type,
                             const void *bytes, size_t size, enum view_bytes whose)
 {
-    // The library's parameter is not const, but it writes nothing there.
+    // The library's parameter is not const, but the library does not write to it.
     struct MHD_Response *response = view->http.MHD_create_response_from_buffer(
         size, (void *)(uintptr_t)bytes, whose == VIEW_OWNED ? MHD_RESPMEM_MUST_FREE : MHD_RESPMEM_PERSISTENT);
     if (!response && whose == VIEW_OWNED)
@@ -82,8 +82,8 @@ enum MHD_Result view_answer_result(struct view_connection *c)
         return view_answer_text(c->view, c->connection, 503, "out of memory");
     size_t size = result.notes + result.data;
     memmove(result.bytes, result.bytes + result.notes_at, size);
-    if (c->thumbnail && result.status == 422) { // browsers show such a picture too
-        result.bytes[size] = 0;                 // the process has left room for it
+    if (c->thumbnail && result.status == 422) { // browsers also show the picture of an error status
+        result.bytes[size] = 0;                 // the process has reserved a byte for it
         char *picture = view_gallery_failed(result.bytes, &size);
         free(result.bytes);
         return picture ? view_answer(c->view, c->connection, 422, "image/svg+xml", picture, size, VIEW_OWNED) : MHD_NO;

@@ -1,29 +1,29 @@
-// view_answer.h: answers of HTTP, with the headers that keep other pages out.
+// view_answer.h: sends HTTP answers, with headers that block access by other pages.
 #ifndef VIEW_ANSWER_H
 #define VIEW_ANSWER_H
 
 #include "view.h"
 
 enum view_bytes {
-    VIEW_BORROWED, // the bytes are the caller's, and stay until the server ends
-    VIEW_OWNED,    // they are from malloc, and the answer frees them
+    VIEW_BORROWED, // the caller's bytes, valid until the server ends
+    VIEW_OWNED,    // bytes from malloc, which the answer frees
 };
 
-// Queues an answer of bytes. NULL for `type`: text.
+// Queues an answer. `type` NULL means plain text.
 enum MHD_Result view_answer(const struct view *view, struct MHD_Connection *connection, int status, const char *type,
                             const void *bytes, size_t size, enum view_bytes whose);
 
-// Returns a sentence.
+// Answers with a sentence.
 enum MHD_Result view_answer_text(const struct view *view, struct MHD_Connection *connection, int status,
                                  const char *sentence);
 
-// Returns the contents of a file, whose handle it takes over.
+// Answers with the contents of a file and closes its handle at the end.
 enum MHD_Result view_answer_file(const struct view *view, struct MHD_Connection *connection, int file);
 
 // Answers a connection with the result of its task.
 enum MHD_Result view_answer_result(struct view_connection *connection);
 
-// Headers of every answer, on a response of the caller's.
+// Adds the headers of all answers to the caller's response.
 void view_answer_headers(const struct view *view, struct MHD_Response *response, const char *type);
 
 #endif

@@ -1,4 +1,4 @@
-// view_draw.c: the work of a drawing process.
+// view_draw.c: the drawing process: draws pictures on request.
 #include "view_draw.h"
 
 #include <errno.h>
@@ -22,7 +22,7 @@
 #include "picture_json.h"
 #include "view_words.h"
 
-static lam_cancel cancel; // of the request that is worked on; a signal's handler has no other place
+static lam_cancel cancel; // cancels the current request; global for the signal handler
 
 static void cancel_request(int number)
 {
@@ -34,10 +34,10 @@ struct drawer {
     const struct view_files *files;
     struct options limits;
     lam_device *device;
-    int threads; // of the device
+    int threads; // the number of threads of the device
     struct kept_model model;
     struct environment_cache *environments;
-    uint64_t stamp; // of the kept model's files
+    uint64_t stamp; // the stamp of the kept model's files
     int to;
 };
 
@@ -57,7 +57,7 @@ static void answer(const struct drawer *d, int status, bool keeps, const char *n
                    size_t bytes)
 {
     struct view_reply reply;
-    memset(&reply, 0, sizeof reply); // with its padding, which is sent too
+    memset(&reply, 0, sizeof reply); // including the padding, which is sent too
     reply.status = status;
     reply.keeps = keeps;
     reply.notes = (uint32_t)size;
@@ -76,9 +76,9 @@ static void answer_error(const struct drawer *d, const lam_error *error)
 
 // --- the model
 
-static uint64_t mix(uint64_t hash, uint64_t number) { return (hash ^ number) * 0x100000001b3u; } // FNV-1a's
+static uint64_t mix(uint64_t hash, uint64_t number) { return (hash ^ number) * 0x100000001b3u; } // one step of FNV-1a
 
-// Changes when a file of the model does: its place, its size or its time.
+// Returns a value that changes if the path, size or modification time of one of the model's files changes.
 static uint64_t stamp_of(const lam_scene *scene)
 {
     uint64_t hash = 0xcbf29ce484222325u;
@@ -120,7 +120,7 @@ static bool take_model(struct drawer *d, struct job *job, lam_error *error)
 
 // --- VIEW_MODEL
 
-// The folder of a path of the page, with the model's path in its own folder after it.
+// Writes the path of a file in the page. `inside` is the path relative to the model's folder.
 static void put_path(struct json *json, const char *key, const char *page_model, const char *inside)
 {
     char *path = NULL;
@@ -131,7 +131,7 @@ static void put_path(struct json *json, const char *key, const char *page_model,
     free(path);
 }
 
-// Files that were looked for and not found: once one exists, the picture changes.
+// Writes the missing files of the model, because the picture changes when one of them is created.
 static void put_missing(struct json *json, const struct job *job, const char *page_model)
 {
     const char *slash = strrchr(job->model, '/'), *path;
@@ -168,7 +168,7 @@ static uint64_t put_files(struct json *json, const struct page_model *model, con
     return bytes;
 }
 
-// The reason why the page does not draw the model itself. Returns `text`; NULL: it does.
+// Returns the reason why the page cannot draw the model itself in `text`, or NULL if it can.
 enum { REASON_SIZE = 700 };
 static const char *reason_of(const struct job *job, const struct page_model *model, bool listed, const char *why,
                              uint64_t bytes, char text[REASON_SIZE])
@@ -302,7 +302,7 @@ static void work(struct drawer *d, const struct view_request *request, const cha
     if (!ok)
         answer_error(d, &error);
     if (job.scene == d->model.scene)
-        job.scene = NULL; // which stays
+        job.scene = NULL; // the scene is kept
     job_free(&job);
     options_free(&options);
     view_words_free(&w);
@@ -331,7 +331,7 @@ void view_draw_serve(const struct view_files *files, const struct options *optio
     struct view_request request;
     sigemptyset(&action.sa_mask);
     sigaction(SIGUSR1, &action, NULL);
-    signal(SIGINT, SIG_IGN); // the server ends it
+    signal(SIGINT, SIG_IGN); // the server ends this process
     signal(SIGPIPE, SIG_DFL);
     while (read_all(from, &request, sizeof request)) {
         char *text = malloc((size_t)request.size + 1);

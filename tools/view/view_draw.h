@@ -1,42 +1,42 @@
-// view_draw.h: the work of a drawing process: it reads requests, draws with the options of their words, and answers; the model stays loaded.
-// It runs within the sandbox of a command that reads a stranger's file: no sockets, no other processes.
+// view_draw.h: the drawing process, which reads requests, draws with their options, and answers. It keeps the model
+// loaded. It runs in the sandbox for untrusted files, without sockets and other processes.
 #ifndef VIEW_DRAW_H
 #define VIEW_DRAW_H
 
 #include "options.h"
 #include "view_files.h"
 
-// The kind of a request.
+// The kinds of requests.
 enum view_kind {
-    VIEW_MODEL,   // the files that the model reads, and whether the page can draw it: JSON
-    VIEW_PIXELS,  // JSON about the picture (picture_json.h), and its pixels, RGBA
-    VIEW_PICTURE, // the bytes of the picture as PNG
-    VIEW_EXPLAIN, // JSON of the pixel x, y
+    VIEW_MODEL,   // JSON: the model's files, and whether the page can draw it
+    VIEW_PIXELS,  // JSON about the picture (picture_json.h), and its RGBA pixels
+    VIEW_PICTURE, // the picture as a PNG
+    VIEW_EXPLAIN, // JSON that explains the pixel x, y
     VIEW_KINDS,
 };
 
 struct view_request {
     enum view_kind kind;
     int x, y;
-    int threads;   // 0: one for each processor
-    int in_flight; // processes that draw at the same time, which share the memory
+    int threads;   // 0 means one per processor
+    int in_flight; // the number of drawing processes, which share the memory
     int size; // bytes of the words, which follow: each with a 0 at its end; the first is the model, by its path in the page or a shape's name
 };
 
-// Before the parts of an answer.
+// Precedes the parts of an answer.
 struct view_reply {
-    bool keeps;     // the model: it will be drawn again
-    int status;     // of HTTP: 200, 422 (a sentence why there is no picture), 409 (cancelled)
-    uint32_t notes; // bytes of JSON, or of the sentence
-    uint64_t data;  // bytes that follow it: pixels, a file
+    bool keeps;     // the model stays loaded for more pictures
+    int status;     // HTTP status: 200, 422 (with a sentence) or 409 (cancelled)
+    uint32_t notes; // the number of bytes of JSON or of the sentence
+    uint64_t data;  // the number of bytes after it: pixels or a file
 };
 
-// The largest model that the page draws itself: its triangles, lines and points, and the bytes of its files
-// (PAGE_FILES_MAX).
+// The largest model that the page draws itself: the number of triangles, lines and points. PAGE_FILES_MAX limits its
+// files.
 enum { VIEW_TRIANGLES_MAX = 2000000 };
 
-// Reads requests from `from` until it ends, and answers to `to`. SIGUSR1 cancels the one that is worked on. Does not return.
-// `options`: limits of the command line.
+// Reads requests from `from` until it ends and answers to `to`. SIGUSR1 cancels the current request. Does not return.
+// `options` contains the limits from the command line.
 _Noreturn void view_draw_serve(const struct view_files *files, const struct options *options, int from, int to);
 
 #endif

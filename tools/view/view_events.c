@@ -1,4 +1,5 @@
-// view_events.c: pages that hear of changes. A connection with nothing to say is suspended: the library does not ask it again.
+// view_events.c: informs pages about changed files. A connection without news is suspended, so that the library does
+// not poll it.
 #include "view_events.h"
 
 #include <stdlib.h>
@@ -10,7 +11,7 @@
 
 enum {
     KEEP_MS = 10000,
-    PENDING_MAX = 1 << 20, // bytes for a page that does not read
+    PENDING_MAX = 1 << 20, // limits the unsent bytes for a page that does not read
 };
 
 static void say(struct view_listener *l, const char *text, size_t size)

@@ -1,4 +1,5 @@
-// view_events.h: pages that hear of changes: server-sent events (https://html.spec.whatwg.org/#server-sent-events).
+// view_events.h: informs pages about changed files with server-sent events
+// (https://html.spec.whatwg.org/#server-sent-events).
 #ifndef VIEW_EVENTS_H
 #define VIEW_EVENTS_H
 
@@ -7,19 +8,19 @@
 // Answers a request that waits for changes.
 enum MHD_Result view_events_answer(struct view_connection *connection);
 
-// Tells all of them that a file has changed, by its path in the page.
+// Informs all listeners that the file with this path in the page has changed.
 void view_events_changed(struct view *view, const char *path);
 
-// Sends a comment now and then: a page that has gone is only noticed when something is sent to it.
+// Sends a comment from time to time, since a closed page is only detected by sending.
 void view_events_keep(struct view *view);
 
-// Sends a comment to one.
+// Sends a comment to one listener.
 void view_events_wake(struct view_listener *listener);
 
-// A listener's connection has ended.
+// Removes a listener whose connection has ended.
 void view_events_forget(struct view *view, struct view_listener *listener);
 
-// Ends all of them.
+// Ends all listeners.
 void view_events_end(struct view *view);
 
 #endif

@@ -1,5 +1,5 @@
-// view_files.c: the files that the viewer serves. The kernel resolves their paths below the folder's handle (openat2), so that neither
-// ".." nor a link leads out, also when somebody moves links about meanwhile.
+// view_files.c: opens the files that the viewer serves. The kernel resolves their paths below the folder's handle
+// (openat2), so that neither ".." nor links lead outside, even if somebody moves links at the same time.
 #include "view_files.h"
 
 #include <errno.h>

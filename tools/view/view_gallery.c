@@ -1,4 +1,4 @@
-// view_gallery.c: the gallery of a folder.
+// view_gallery.c: makes the gallery of a folder.
 #include "view_gallery.h"
 
 #include <stdlib.h>
@@ -31,7 +31,7 @@ char *view_gallery_words(const struct view *view, const char *model, size_t *siz
     if (!words)
         return NULL;
     memcpy(words, model, name);
-    if (given) // of nothing, the address may be NULL
+    if (given) // the address of an empty text may be NULL
         memcpy(words + name, view->page.words, given);
     memcpy(words + name + given, own[0], last);
     *size = name + given + last;
@@ -69,14 +69,14 @@ static void put_models(FILE *out, const struct view *view, const struct batch_pl
     fputs("<ul>\n", out);
     for (size_t i = 0; i < plan->count; i++) {
         const char *path = plan->models[i].path + prefix;
-        path += *path == '/' && path[1] == '/'; // the folder was named with a '/' at its end
-        if (is_open(view, path))                // else it is a link that leads out of the folder
+        path += *path == '/' && path[1] == '/'; // the folder's name ends with '/'
+        if (is_open(view, path))                // false for a link that leads out of the folder
             put_model(out, view, path);
     }
     fputs("</ul>\n", out);
 }
 
-// The lines of a sentence, as wide as a thumbnail.
+// Splits a sentence into lines that fit the width of a thumbnail.
 static void put_lines(FILE *out, const char *sentence)
 {
     enum { LETTERS = 34, LINES = 12, LINE_PX = 18 };
@@ -85,7 +85,7 @@ static void put_lines(FILE *out, const char *sentence)
         while (cut < length && cut > LETTERS / 2 && sentence[cut] != ' ')
             cut--;
         cut = cut < length && sentence[cut] != ' ' ? LETTERS : cut;
-        while (cut < length && ((unsigned char)sentence[cut] & 0xc0) == 0x80) // within a letter of UTF-8
+        while (cut < length && ((unsigned char)sentence[cut] & 0xc0) == 0x80) // inside a UTF-8 character
             cut++;
         char *part = strndup(sentence, cut);
         fprintf(out, "<tspan x=\"12\" dy=\"%d\">", LINE_PX);

@@ -1,4 +1,4 @@
-// view_page.c: the page of the viewer.
+// view_page.c: makes the page of the viewer.
 #include "view_page.h"
 
 #include <limits.h>
@@ -14,11 +14,11 @@
 #include "page_model.h"
 #include "plan.h"
 
-enum { PAGE_MAX = 64 << 20 }; // bytes of the page
+enum { PAGE_MAX = 64 << 20 }; // the maximum size of the page
 
 // --- the options of the command line
 
-// The position of the files, however the program's folder changes; the page has its own paths of them.
+// Stores the real paths of the files and replaces them by paths in the page.
 static bool take_environment(struct view_files *files, const struct page_model *model, lam_error *error)
 {
     files->environment = calloc((size_t)model->count + 1, sizeof *files->environment);
@@ -35,7 +35,7 @@ static bool take_environment(struct view_files *files, const struct page_model *
 
 struct words {
     FILE *words, *fragment;
-    const char *environment; // NULL: as it is
+    const char *environment; // NULL leaves it unchanged
 };
 
 static void put_option(void *user, const char *name, const char *value)
@@ -77,7 +77,7 @@ static bool take_options(struct view_page *page, const struct options *options, 
 
 // --- the page
 
-// JSON in which no '<' is left, so that a script element can contain it.
+// Writes JSON with '<' escaped, so that a script element can contain it.
 static void put_json(FILE *out, const char *id, const char *json)
 {
     fprintf(out, "<script type=\"application/json\" id=\"%s\">", id);
@@ -116,7 +116,7 @@ static bool put_data(FILE *out, const struct view_page *page, const char *model,
     return ok;
 }
 
-// The page's policy lets nothing out; this one is let reach the server that it comes from.
+// The page's policy forbids all connections; this one allows connections to the page's own server.
 static const char *const policy = "; base-uri 'none'", *const own_policy = "; connect-src 'self'; base-uri 'none'";
 
 static bool fill(struct view_page *page, const char *text, const char *model, lam_error *error)
@@ -141,7 +141,7 @@ static bool fill(struct view_page *page, const char *text, const char *model, la
     return ok;
 }
 
-// The module with threads is beside the page, if `make web` has made both.
+// Reads the module with threads, which is in the folder of the page if `make web` has made both.
 static bool take_module(struct view_page *page, const char *path, lam_error *error)
 {
     const char *slash = strrchr(path, '/');

@@ -1,4 +1,4 @@
-// view_peer.c: the user at the other end of a connection, from the kernel's table of them.
+// view_peer.c: finds the user at the other end of a connection in the kernel's tables.
 #include "view_peer.h"
 
 #include <fcntl.h>
@@ -22,8 +22,8 @@ void view_peers_close(struct view_peers *peers)
     *peers = (struct view_peers){{-1, -1}};
 }
 
-// Reads a line of a table, "SL: LOCAL:PORT REMOTE:PORT STATE TX:RX TIMER:WHEN RETRANSMITS UID …", numbers but UID in
-// hexadecimal digits. Returns true if it is that connection, seen from its other end.
+// Parses a line of a table: "SL: LOCAL:PORT REMOTE:PORT STATE TX:RX TIMER:WHEN RETRANSMITS UID …", with hexadecimal
+// numbers except for UID. Returns true if it describes the other end of the given connection.
 static bool is_other_end(const char *line, int other_port, int port, unsigned *state, unsigned *user)
 {
     char local[33], remote[33];
@@ -31,7 +31,8 @@ static bool is_other_end(const char *line, int other_port, int port, unsigned *s
     if (sscanf(line, " %*[^:]: %32[^:]:%x %32[^:]:%x %x %*[^ ] %*[^ ] %*x %u", local, &local_port, remote, &remote_port,
                state, user) != 6)
         return false;
-    // Each 32 bits of an address are a number of the machine's own; 127.0.0.1 is the last of them, whether alone or in IPv6.
+    // Each 32 bits of an address are a number in the machine's byte order; 127.0.0.1 is the last number in IPv4 and
+    // IPv6.
     static const unsigned char bytes[4] = {127, 0, 0, 1};
     unsigned loopback;
     char wanted[9];
@@ -43,7 +44,7 @@ static bool is_other_end(const char *line, int other_port, int port, unsigned *s
            strcmp(remote + remote_length - 8, wanted) == 0;
 }
 
-// Calls no function that opens a file, because the sandbox is active.
+// Must not open files, because the sandbox is active.
 bool view_peers_are_own(const struct view_peers *peers, int other_port, int port)
 {
     for (int i = 0; i < 2; i++) {

@@ -1,4 +1,4 @@
-// view_process.c: drawing processes.
+// view_process.c: starts and controls drawing processes.
 #include "view_process.h"
 
 #include <errno.h>
@@ -17,17 +17,17 @@
 
 enum {
     CANCEL_MS = 2000,
-    FILES_MAX = 4096, // the server has fewer handles: its connections are limited, and new ones take the lowest numbers
+    FILES_MAX = 4096, // more than the server's handles, whose connections are limited
 };
-static const uint64_t data_max = (uint64_t)1 << 33; // bytes of an answer
+static const uint64_t data_max = (uint64_t)1 << 33; // the maximum size of an answer
 
-// A connection that the server closes would stay open as long as a process has its handle.
+// Closes other handles, because a connection stays open as long as any process has a handle to it.
 static void close_others(int first, int second)
 {
     for (int file = 3; file < FILES_MAX; file++) {
         struct stat about;
         if (file != first && file != second && fstat(file, &about) == 0 &&
-            !S_ISDIR(about.st_mode)) // the folder of the files stays
+            !S_ISDIR(about.st_mode)) // keeps the folder of the files
             close(file);
     }
 }
@@ -36,7 +36,8 @@ static _Noreturn void run(const struct view_files *files, const struct options *
 {
     interrupt_with_parent(server);
     close_others(from, to);
-    // The server's filter lets it have connections and processes; this one needs neither. Its folders are Landlock's already.
+    // The server's filter allows connections and processes, which a drawing process does not need. Landlock already
+    // restricts its folders.
     if (sandbox_active()->filter && !sandbox_filter_install(SANDBOX_DRAWS))
         _exit(1);
     view_draw_serve(files, options, from, to);
@@ -70,8 +71,8 @@ bool view_process_start(struct view_process *process, const struct view_files *f
     return false;
 }
 
-// The words are part of a request, which is at most 64 KiB long (HEADERS_MAX in view_server.c), as much as fits into a
-// pipe. It is empty, so this does not wait.
+// Sends the words without waiting: a request has at most 64 KiB (HEADERS_MAX in view_server.c), which fits into the
+// empty pipe.
 static bool send_all(int to, const void *bytes, size_t size)
 {
     for (size_t at = 0; at < size;) {
@@ -105,7 +106,7 @@ void view_process_cancel(struct view_process *process)
     }
 }
 
-// Makes room for `size` bytes in all.
+// Enlarges the buffer to `size` bytes.
 static bool reserve(struct view_process *p, size_t size)
 {
     if (size <= p->capacity)

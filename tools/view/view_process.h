@@ -1,4 +1,4 @@
-// view_process.h: a drawing process (view_draw.h), as the server sees it: one request at a time.
+// view_process.h: controls a drawing process (view_draw.h) from the server. It handles one request at a time.
 #ifndef VIEW_PROCESS_H
 #define VIEW_PROCESS_H
 
@@ -7,34 +7,34 @@
 #include "view_draw.h"
 
 struct view_process {
-    pid_t pid; // 0: none
+    pid_t pid; // 0 if there is none
     int to, from;
-    char *model;    // of its last request; NULL: none
-    void *task;     // whose request it works on; NULL: none, it waits
-    bool cancelled; // it has been asked to end that
-    double stop_ms; // clock_ms() at which it is killed; 0: never
-    char *received; // of the answer
+    char *model;    // the model of the last request, or NULL
+    void *task;     // the task of the current request; NULL if it is idle
+    bool cancelled; // the current request is being cancelled
+    double stop_ms; // the clock_ms() at which it is killed; 0 if never
+    char *received; // the received part of the answer
     size_t size, capacity;
 };
 
-// Starts one. This process must have no other thread. False: errno.
+// Starts a process. This process must have no other threads. Returns false and sets errno on failure.
 bool view_process_start(struct view_process *process, const struct view_files *files, const struct options *options);
 
-// Sends a request and its words. Returns false if it does not take them; errno.
+// Sends a request and its words. Returns false and sets errno on failure.
 bool view_process_ask(struct view_process *process, const struct view_request *request, const char *words, void *task);
 
-// Asks it to end its request; one that does not is killed after a while.
+// Requests the cancellation of the current request. A process that does not react is killed after a while.
 void view_process_cancel(struct view_process *process);
 
-// Reads the bytes that have arrived. 1: the answer is whole, *reply with `received` after it; 0: not yet, or −1 if the
-// process has ended, or sends nonsense.
+// Reads the available bytes. Returns 1 if the answer is complete: *reply is set and `received` contains the rest.
+// Returns 0 if it is incomplete, and −1 if the process has ended or sent an invalid answer.
 int view_process_receive(struct view_process *process, struct view_reply *reply);
 
-// Returns the notes and the data of a whole answer: `received` from malloc, which the caller takes over. It may take
-// the next request then.
+// Returns the notes and the data of a complete answer. The caller owns the memory, which is from malloc. The process
+// can then handle the next request.
 char *view_process_take(struct view_process *process);
 
-// Kills it, and waits for its end.
+// Kills the process and waits for its end.
 void view_process_end(struct view_process *process);
 
 #endif

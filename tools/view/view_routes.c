@@ -1,5 +1,6 @@
-// view_routes.c: which requests are answered. A page of another site may send requests here, and a name of its own may lead to this
-// machine: it does not know the token, its Host and Origin are not ours, and it may read no answer (view_answer.c).
+// view_routes.c: decides which requests are answered. A page of another site can send requests here, and its host name
+// can resolve to this machine. But it does not know the token, its Host and Origin headers differ, and it cannot read
+// the answers (view_answer.c).
 #include "view_routes.h"
 
 #include <arpa/inet.h>
@@ -17,7 +18,7 @@
 
 // --- who asks
 
-// In a time that does not depend on where the first difference is.
+// Takes a time that does not depend on the position of the first difference.
 static bool same_token(const char *given, const char *token)
 {
     unsigned difference = 0;
@@ -27,7 +28,7 @@ static bool same_token(const char *given, const char *token)
 }
 
 struct header {
-    const char *name, *value; // value: NULL: there is none
+    const char *name, *value; // `value` is NULL if the header is missing
     int count;
 };
 
@@ -49,7 +50,7 @@ static struct header header(const struct view_connection *c, const char *name)
     return h;
 }
 
-// "127.0.0.1:PORT", or "localhost:PORT".
+// Accepts "127.0.0.1:PORT" and "localhost:PORT".
 static bool is_own_host(const struct view *view, const char *host)
 {
     static const char *const names[] = {"127.0.0.1", "localhost"};
@@ -62,8 +63,8 @@ static bool is_own_host(const struct view *view, const char *host)
     return false;
 }
 
-// Returns whether the request is for this server and the page that sent it is one of ours, by the browser's headers.
-// Each may occur once: of two a relay in between could have checked the other.
+// Returns whether the browser's headers say that the request is for this server and comes from one of its pages. Each
+// header may occur only once, because a relay may have checked the other one.
 static bool is_from_here(const struct view_connection *c)
 {
     const struct header host = header(c, "Host"), origin = header(c, "Origin"), site = header(c, "Sec-Fetch-Site");
@@ -100,19 +101,19 @@ static int number_of(const struct view_connection *c, const char *key)
     return text && *text && !*end && number >= 0 && number < 1 << 20 ? (int)number : -1;
 }
 
-// Begins a task, whose end answers the connection.
+// Starts a task. Its end answers the connection.
 static enum MHD_Result begin(struct view_connection *c, enum view_kind kind, const char *words, size_t size,
                              const char *client)
 {
     struct view *view = c->view;
-    if (view->ends) // requests suspended now would never be answered
+    if (view->ends) // a request suspended now would never be answered
         return view_answer_text(view, c->connection, 503, "the viewer has ended");
     struct view_request request = {.kind = kind, .x = number_of(c, "x"), .y = number_of(c, "y"), .size = (int)size};
     request.threads = client ? view->options->work.threads : 1;
     request.in_flight = client ? 1 : view->tasks.count - 1;
     c->kind = kind;
     if (kind == VIEW_MODEL)
-        view_watch_add(&view->watch, &view->files, words); // also if it cannot be read: it may become right
+        view_watch_add(&view->watch, &view->files, words); // also for an invalid file, which may be corrected
     c->task = view_tasks_add(&view->tasks, &request, words, client, c);
     if (!c->task)
         return view_answer_text(view, c->connection, 503, "out of memory");
@@ -152,7 +153,7 @@ static enum MHD_Result begin_thumbnail(struct view_connection *c, const char *pa
     return done;
 }
 
-// The folders of a model's files are watched from now on.
+// Watches the folders of a model's files.
 static void watch_model(struct view *view, const char *text, size_t size)
 {
     json_t *about = json_loadb(text, size, 0, NULL), *item;
@@ -208,7 +209,7 @@ static enum MHD_Result answer_page(struct view_connection *c)
     return view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", page->text, page->size, VIEW_BORROWED);
 }
 
-// Returns a path of the page: the address after a prefix.
+// Returns the part of an address after a prefix, a path in the page.
 static const char *path_after(const char *address, const char *word)
 {
     size_t length = strlen(word);
@@ -248,7 +249,7 @@ static enum MHD_Result answer_address(struct view_connection *c, const char *add
     return view_answer_text(view, c->connection, 404, "no such page");
 }
 
-// Another user can read the token in /proc, where xdg-open's arguments are.
+// Another user can read the token in the arguments of xdg-open in /proc.
 static bool is_own_user(const struct view_connection *c)
 {
     struct sockaddr_in other = {0};
@@ -268,7 +269,7 @@ static enum MHD_Result answer_request(struct view_connection *c, const char *url
         return view_answer_text(view, c->connection, 403, "not from here");
     if (strlen(url) < VIEW_TOKEN_SIZE + 1 || url[VIEW_TOKEN_SIZE] != '/' || !same_token(url + 1, view->token))
         return view_answer_text(view, c->connection, 403, "open the address that lambent view has printed");
-    if (!is_own_user(c)) // last, since it reads a table of the whole machine
+    if (!is_own_user(c)) // the last check, because it reads a table of the whole machine
         return view_answer_text(view, c->connection, 403, "this viewer answers only the user who has started it");
     if (c->socket->names_zero)
         return view_answer_text(view, c->connection, 404, "no name contains a zero byte");
@@ -284,7 +285,7 @@ enum MHD_Result view_routes_answer(void *user, struct MHD_Connection *connection
         c->finished = false;
         return view_answer_result(c);
     }
-    if (c) { // the body of a request, and a call while a task runs
+    if (c) { // a later call for the body, or while a task runs
         *upload_size = 0;
         return MHD_YES;
     }

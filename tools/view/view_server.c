@@ -1,4 +1,5 @@
-// view_server.c: the server's start, its loop and its end. One thread: whatever happens is a file that can be read.
+// view_server.c: the start, the loop and the end of the server. It has one thread, because every event is a file that
+// becomes readable.
 #include "view.h"
 
 #include <arpa/inet.h>
@@ -27,8 +28,8 @@
 
 enum {
     CONNECTIONS_MAX = 256,
-    SILENCE_S = 30,         // after which a connection that says nothing is closed
-    HEADERS_MAX = 64 << 10, // bytes of a request
+    SILENCE_S = 30,         // the timeout of an idle connection
+    HEADERS_MAX = 64 << 10, // the maximum size of a request
     STEP_MS = 500,
     IDLE_MINUTES = 30,
 };
@@ -45,7 +46,7 @@ static bool make_token(char token[VIEW_TOKEN_SIZE], lam_error *error)
     return true;
 }
 
-// Returns a socket of this machine alone that listens. −1 on failure.
+// Returns a listening socket that only this machine can reach, or −1 on failure.
 static int listen_here(struct view *view, lam_error *error)
 {
     struct sockaddr_in address = {.sin_family = AF_INET,
@@ -128,7 +129,7 @@ static void say_address(const struct view *view, const char *address, bool opene
     fflush(stdout);
     if (view->options->report.quiet)
         return;
-    // "CLIENT PORT SERVER PORT"
+    // Parses "CLIENT PORT SERVER PORT".
     if (!connection || sscanf(connection, "%*s %*s %255s", host) != 1)
         gethostname(host, sizeof host - 1);
     if (!opened)
@@ -153,7 +154,7 @@ static unsigned connections(const struct view *view)
     return info ? info->num_connections : 0;
 }
 
-// Waits for whatever comes next, at most STEP_MS.
+// Waits for the next event, at most STEP_MS.
 static void wait_for_something(const struct view *view)
 {
     struct pollfd wait[VIEW_PROCESSES_MAX + CONNECTIONS_MAX + 2];
@@ -169,7 +170,7 @@ static void wait_for_something(const struct view *view)
             wait[count++] = (struct pollfd){.fd = view->tasks.processes[i].from, .events = POLLIN};
     const nfds_t first = count;
     for (struct view_connection *c = view->connections; c && connection_count < CONNECTIONS_MAX; c = c->next)
-        if (c->task || (c->listener && c->listener->suspended)) { // the library does not look at it
+        if (c->task || (c->listener && c->listener->suspended)) { // the library does not poll it
             waiting[connection_count++] = c;
             wait[count++] = (struct pollfd){.fd = c->socket->file, .events = POLLRDHUP};
         }
@@ -190,7 +191,7 @@ static void loop(struct view *view)
         view_watch_read(&view->watch, &view->files, hear_change, view);
         view_tasks_step(&view->tasks);
         view_events_keep(view);
-        view->http.MHD_run(view->daemon); // sends the answers of requests that have just ended
+        view->http.MHD_run(view->daemon); // sends the answers of requests that have just finished
         view_tasks_step(&view->tasks);
         view_waiting_drop(view);
         double now = clock_ms();
@@ -208,7 +209,7 @@ static void loop(struct view *view)
 static void finish(struct view *view)
 {
     if (view->daemon) {
-        // The library ends no connection that is suspended.
+        // The library does not end suspended connections.
         view_events_end(view);
         view_tasks_end(&view->tasks);
         view->http.MHD_run(view->daemon);
@@ -241,9 +242,9 @@ bool view_run(const char *operand, const struct options *options, lam_error *err
         view_tasks_start(&view.tasks, &view.files, options, view_routes_done);
         view_watch_start(&view.watch);
         view_peers_open(&view.peers);
-        setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}); // drawing processes leave no files
+        setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}); // drawing processes leave no core files
         interrupt_start();
-        signal(SIGPIPE, SIG_IGN); // of closed connections and of drawing processes that have ended
+        signal(SIGPIPE, SIG_IGN); // raised by closed connections and ended drawing processes
         ok = start_daemon(&view, error);
     }
     if (ok) {

@@ -1,4 +1,4 @@
-// view_tasks.c: pictures that are asked for, and the processes that draw them.
+// view_tasks.c: distributes requested pictures to drawing processes.
 #include "view_tasks.h"
 
 #include <errno.h>
@@ -57,7 +57,7 @@ static struct view_process *process_of(struct view_tasks *tasks, const struct vi
     return NULL;
 }
 
-// Ends a task's picture; one that waits for a process ends with the next step.
+// Cancels a task's picture. A task that waits for a process ends in the next step.
 static void cancel(struct view_tasks *tasks, struct view_task *task)
 {
     task->superseded = true;
@@ -100,7 +100,8 @@ void view_tasks_drop(struct view_tasks *tasks, struct view_task *task)
         cancel(tasks, task);
 }
 
-// Returns the process for a task: one that has its model already, else a new one, else one that waits. NULL: all work.
+// Returns the process for a task. Prefers an idle process that has loaded the model, then a new one, then any idle one.
+// Returns NULL if all are busy.
 static struct view_process *find_process(struct view_tasks *tasks, const struct view_task *task)
 {
     struct view_process *free_one = NULL, *waiting = NULL;
@@ -109,14 +110,14 @@ static struct view_process *find_process(struct view_tasks *tasks, const struct 
         struct view_process *p = &tasks->processes[i];
         pictures += p->pid > 0 && p->task && !((const struct view_task *)p->task)->client;
         if (p->pid > 0 && p->model && task->client && strcmp(p->model, task->words) == 0 && (!p->task || p->cancelled))
-            return p->task ? NULL : p; // one that is about to end its picture has the model soonest
+            return p->task ? NULL : p; // a process about to finish already has the model loaded
         free_one = !p->pid && !free_one ? p : free_one;
         waiting = p->pid > 0 && !p->task && !waiting ? p : waiting;
     }
     if (!task->client && pictures >= tasks->count - 1)
         return NULL;
     if (!free_one && waiting) {
-        view_process_end(waiting); // each model has a process of its own
+        view_process_end(waiting); // each model has its own process
         free_one = waiting;
     }
     return free_one;
@@ -163,7 +164,7 @@ static void begin_waiting(struct view_tasks *tasks)
     }
 }
 
-// A process that has ended, or that was killed because it took too long.
+// Handles a process that has ended, or was killed because it took too long.
 static void lose(struct view_tasks *tasks, struct view_process *process, const char *sentence)
 {
     struct view_task *task = process->task;
@@ -185,12 +186,12 @@ static void receive(struct view_tasks *tasks, struct view_process *process)
     struct view_result result = {
         .status = reply.status, .notes_at = sizeof reply, .notes = reply.notes, .data = (size_t)reply.data};
     result.bytes = view_process_take(process);
-    if (!task) { // nobody has asked
+    if (!task) { // no task is waiting for this answer
         free(result.bytes);
         view_process_end(process);
         return;
     }
-    if (!task->client || !reply.keeps) // a thumbnail's model is drawn once
+    if (!task->client || !reply.keeps) // a thumbnail's model is drawn only once
         view_process_end(process);
     finish(tasks, task, &result);
 }
@@ -209,7 +210,7 @@ void view_tasks_step(struct view_tasks *tasks)
         for (int pieces = 0; pieces < 64 && p->pid > 0 && is_readable(p->from); pieces++)
             receive(tasks, p);
         if (p->pid > 0 && p->task && p->cancelled)
-            kill(p->pid, SIGUSR1); // again: it may have come before the process had read the request
+            kill(p->pid, SIGUSR1); // repeated, since the process may not have read the request yet
         if (p->pid > 0 && p->task && p->stop_ms > 0 && now > p->stop_ms)
             lose(tasks, p, "the time limit was reached (--time-limit)");
     }

@@ -1,5 +1,5 @@
-// view_tasks.h: requested pictures, and the processes that draw them: at most one for each processor, and one more for
-// the page in front, so that a gallery does not delay it.
+// view_tasks.h: distributes requested pictures to drawing processes. There is at most one for each processor, and one
+// more for the visible page, so that a gallery does not delay it.
 #ifndef VIEW_TASKS_H
 #define VIEW_TASKS_H
 
@@ -7,49 +7,49 @@
 
 enum { VIEW_PROCESSES_MAX = 64 };
 
-// The state of a task.
+// The result of a task.
 struct view_result {
-    int status;  // of HTTP
-    char *bytes; // the reply, its notes and its data, from malloc; NULL: there are none
+    int status;  // the HTTP status
+    char *bytes; // the reply with its notes and data, from malloc; may be NULL
     size_t notes_at, notes, data;
 };
 
 struct view_task {
     struct view_request request;
     char *words;  // from malloc
-    char *client; // the page that asks, from malloc: a newer picture ends its older one; NULL: a thumbnail
-    void *user;   // NULL: nobody waits for it any more
+    char *client; // the requesting page, whose newer picture cancels an older one, from malloc; NULL for a thumbnail
+    void *user;   // NULL if nobody waits for it any more
     bool running;
-    bool superseded; // a newer one has taken its place
+    bool superseded; // replaced by a newer task
     struct view_task *next;
 };
 
 struct view_tasks {
     const struct view_files *files;
     const struct options *options;
-    void (*done)(void *user, struct view_result *result); // takes over the bytes
+    void (*done)(void *user, struct view_result *result); // takes ownership of the bytes
     struct view_task *first;
     struct view_process processes[VIEW_PROCESSES_MAX];
-    int count;            // of processes that may run
-    double time_limit_ms; // of a request
+    int count;            // the maximum number of processes
+    double time_limit_ms; // for a request
 };
 
 void view_tasks_start(struct view_tasks *tasks, const struct view_files *files, const struct options *options,
                       void (*done)(void *user, struct view_result *result));
 
-// Adds a task; `words` and `client` are copied. Its end calls `done` with `user`, never from within this call. Returns
-// NULL if memory runs out.
+// Adds a task and copies `words` and `client`. When it ends, `done` is called with `user`, but never during this call.
+// Returns NULL if memory runs out.
 struct view_task *view_tasks_add(struct view_tasks *tasks, const struct view_request *request, const char *words,
                                  const char *client, void *user);
 
-// Nobody waits for it any more.
+// Discards a task that nobody waits for.
 void view_tasks_drop(struct view_tasks *tasks, struct view_task *task);
 
-// Gives waiting tasks to processes, and reads their results. Call it when one of their files can be read, and now and
-// then.
+// Assigns waiting tasks to processes and reads results. Must be called when one of the processes' files is readable,
+// and regularly.
 void view_tasks_step(struct view_tasks *tasks);
 
-// Ends all processes, and all tasks, with 503.
+// Ends all processes, and all tasks with status 503.
 void view_tasks_end(struct view_tasks *tasks);
 
 #endif

@@ -1,4 +1,4 @@
-// view_waiting.c: connections whose next request has not arrived completely.
+// view_waiting.c: limits the connections whose next request has not arrived completely.
 #include "view_waiting.h"
 
 #include <stdlib.h>
@@ -84,8 +84,8 @@ void view_waiting_begin(struct view *view, struct MHD_Connection *connection)
         append(&view->waiting, s);
 }
 
-// The library sees the end of the connection and closes it. Without a linger time the kernel forgets a closed connection immediately; else
-// an attacker could fill its table, which is read for each request (view_peer.c).
+// Shuts down the connection, so that the library closes it. Without a linger time the kernel immediately forgets a
+// closed connection. Otherwise an attacker could fill its table, which is read for each request (view_peer.c).
 static void drop(struct view_sockets *list, struct view_socket *s)
 {
     setsockopt(s->file, SOL_SOCKET, SO_LINGER, &(struct linger){.l_onoff = 1}, sizeof(struct linger));

@@ -1,4 +1,5 @@
-// view_watch.c: which files have changed. Folders are watched and not files: an editor puts a new file in the old one's place.
+// view_watch.c: watches folders for changed files. Watching the files themselves would not work, since editors replace
+// a file by a new one.
 #include "view_watch.h"
 
 #include <limits.h>
@@ -11,7 +12,8 @@
 
 enum { WATCHED_MAX = 1000 };
 
-// A file that is written is a whole one once it is closed; a link to an unnamed file, as lambent writes, only appears.
+// A file is complete once its writer closes it. A link to an unnamed file, which Lambent creates, is only reported as
+// created.
 static const uint32_t events =
     IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF;
 
@@ -33,7 +35,7 @@ void view_watch_end(struct view_watch *watch)
     *watch = (struct view_watch){.file = -1};
 }
 
-// Takes over `folder` and `only`.
+// Takes ownership of `folder` and `only`.
 static void add(struct view_watch *watch, const char *place, char *folder, char *only)
 {
     struct view_watched *grown = NULL;
@@ -43,7 +45,7 @@ static void add(struct view_watch *watch, const char *place, char *folder, char 
         struct view_watched *w = &watch->items[i];
         bool same = strcmp(w->folder, folder) == 0 && (only ? w->only && strcmp(w->only, only) == 0 : !w->only);
         if (same && strcmp(w->place, place) == 0) {
-            w->number = number; // another folder may have its name by now
+            w->number = number; // another folder may have taken its name
             number = -1;
         }
     }
@@ -59,7 +61,7 @@ static void add(struct view_watch *watch, const char *place, char *folder, char 
     free(only);
 }
 
-// The model may be a link: then the file that it leads to counts too.
+// If the model is a link, also watches its target.
 static void add_target(struct view_watch *watch, const struct view_files *files)
 {
     struct stat about;
@@ -106,7 +108,7 @@ struct listener {
     void *user;
 };
 
-// `name`: of a file in the folder; "": any of them may have changed.
+// Reports a changed file. An empty `name` means that any file of the folder may have changed.
 static void report(const struct view_files *files, const struct view_watched *w, const char *name,
                    const struct listener *listener)
 {
@@ -135,7 +137,7 @@ static void read_event(struct view_watch *watch, const struct view_files *files,
     }
 }
 
-// Watches a path again after it has come back.
+// Watches a folder again after it was recreated.
 static void find_again(struct view_watch *watch, const struct view_files *files, const struct listener *listener)
 {
     for (int i = 0; i < watch->count; i++) {

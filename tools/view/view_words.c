@@ -1,4 +1,4 @@
-// view_words.c: the words of the page's command line on this machine.
+// view_words.c: parses the page's command line on this machine.
 #include "view_words.h"
 
 #include <stdio.h>
@@ -13,8 +13,8 @@
 #include "look_option.h"
 #include "page_model.h"
 
-// Returns a path of the page on this machine, from malloc, if its file is served. Fails with LAM_CANNOT_READ,
-// LAM_LIMIT.
+// Converts a path in the page to a path on this machine, allocated with malloc, if the file is served. Fails with
+// LAM_CANNOT_READ or LAM_LIMIT.
 static char *machine_path(const struct view_files *files, const char *path, lam_error *error)
 {
     int file = view_files_open(files, path);
@@ -31,7 +31,7 @@ static char *machine_path(const struct view_files *files, const char *path, lam_
     return found;
 }
 
-// --environment FILE or six of them: paths in the page.
+// Converts the value of --environment, one file or six, from paths in the page.
 static bool take_environment(struct view_words *w, const struct view_files *files, struct options *out,
                              lam_error *error)
 {
@@ -56,7 +56,7 @@ static bool take_environment(struct view_words *w, const struct view_files *file
     return ok;
 }
 
-// Options of the picture; a look that is built in is one, and its file another's.
+// Accepts options of the picture, including built-in looks but not a look's file.
 static bool fits(const struct option *option, const struct options *given)
 {
     if (strcmp(option->name, "look") == 0)

@@ -1,4 +1,4 @@
-// view_words.h: the words of the page's command line on this machine.
+// view_words.h: parses the page's command line on this machine.
 #ifndef VIEW_WORDS_H
 #define VIEW_WORDS_H
 
@@ -6,10 +6,10 @@
 #include "view_files.h"
 
 struct view_words {
-    char *text;             // the words, each with a 0 at its end
-    char **words;           // pointers to them, which parsing moves
-    char *model;            // its path on this machine, or a shape's name
-    const char *page_model; // by its path in the page
+    char *text;             // the words, each with a terminating zero
+    char **words;           // pointers to the words, reordered by the parser
+    char *model;            // the model's path on this machine, or a shape's name
+    const char *page_model; // the model's path in the page
     char *environment;
 };
 

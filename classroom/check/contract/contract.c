@@ -1,4 +1,4 @@
-// contract.c: looks names up in a contract, and recognises the one that shaders use.
+// contract.c: looks up names in a contract, and recognises the contract of a pair of shaders.
 #include "contract.h"
 
 #include <stdio.h>
@@ -55,7 +55,7 @@ bool contracts_read(lam_check_contract *out[MAX_CONTRACTS], int *count, lam_erro
     return true;
 }
 
-// --- the contents of a contract, for users
+// --- the public contents of a contract
 
 const char *lam_check_contract_name(const lam_check_contract *contract) { return contract->contract.name; }
 const char *lam_check_contract_title(const lam_check_contract *contract) { return contract->contract.title; }
@@ -98,7 +98,7 @@ bool lam_check_role_row(int row, lam_check_role *out)
     return true;
 }
 
-// Names of generated vertex shaders (default_vertex_shader.c), known in every contract.
+// Names of generated vertex shaders (default_vertex_shader.c), which every contract knows.
 static const struct contract_name default_vertex_names[] = {
     {"lambent_position", SEMANTIC_POSITION, true, "vec3", "", NULL, LAM_FRAME_OBJECT, -1},
     {"lambent_normal", SEMANTIC_NORMAL, true, "vec3", "", NULL, LAM_FRAME_OBJECT, -1},
@@ -116,7 +116,7 @@ static const struct contract_name default_vertex_names[] = {
 
 // --- lookup
 
-// Stores "lights[12].a" as "lights[].a" and returns the index.
+// Converts "lights[12].a" to "lights[].a" and returns the index.
 static int strip_index(const char *name, char plain[96])
 {
     const char *open = strchr(name, '['), *close = open ? strchr(open, ']') : NULL;
@@ -132,7 +132,7 @@ static int strip_index(const char *name, char plain[96])
     return index;
 }
 
-// Whether a list of words, separated by blanks, contains the name.
+// Returns whether a list of words, separated by blanks, contains the name.
 static bool in_word_list(const char *list, const char *name)
 {
     size_t length = strlen(name);
@@ -142,8 +142,8 @@ static bool in_word_list(const char *list, const char *name)
     return false;
 }
 
-// Lambent's own names come in two more forms: "back_…" for the back of a surface, and fields of the material that only
-// some reflection models read, which the reference scenes leave at 0.
+// Lambent's own names have two more forms: "back_…" for the back of a surface, and fields of the material that only
+// some reflection models read; the reference scenes leave these at 0.
 static const struct contract_name *find_own(const struct contract *contract, const char *name)
 {
     static const struct contract_name other_field = {"material.*", SEMANTIC_ZERO,    false, "float", "0 here",

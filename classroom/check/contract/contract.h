@@ -12,11 +12,11 @@ struct contract_name {
     enum uniform_semantic semantic;
     bool attribute;
     const char *type;    // as the course declares it
-    const char *meaning; // for documentation and messages
-    // Other accepted names, separated by blanks. NULL: none.
+    const char *meaning; // text for documentation and messages
+    // Other accepted names, separated by blanks. May be NULL.
     const char *synonyms;
-    lam_light_frame space; // of roles with ROLE_IN_SPACE: OBJECT, WORLD or CAMERA
-    int group;             // of ROLE_LIGHT: index in contract.groups; −1: of no light
+    lam_light_frame space; // for a role with ROLE_IN_SPACE, the space: OBJECT, WORLD or CAMERA
+    int group;             // for ROLE_LIGHT, the index in contract.groups; −1 if it belongs to no light
 };
 
 // The meaning of a varying, for a fragment shader without a vertex shader.
@@ -24,8 +24,8 @@ enum varying_semantic {
     VARYING_NORMAL,   // unit
     VARYING_LIGHT,    // towards the light, not normalized
     VARYING_EYE,      // towards the eye, not normalized
-    VARYING_POSITION, // of the point
-    VARYING_DISTANCE, // to the light
+    VARYING_POSITION, // the point's position
+    VARYING_DISTANCE, // the distance to the light
     VARYING_TEXCOORD,
 };
 
@@ -35,14 +35,14 @@ struct contract_varying {
     lam_light_frame space;
 };
 
-// A colour that a shader has no name for: the scene's, or another colour, or a constant.
+// The source of a colour for which a shader has no name: the scene, another colour, or a constant.
 enum color_source { COLOR_OF_SCENE, COLOR_GIVEN, COLOR_OF_DIFFUSE, COLOR_OF_LIGHT };
 struct default_color {
     enum color_source source;
     lam_rgb value; // COLOR_GIVEN
 };
 struct default_number {
-    bool given; // false: the scene's
+    bool given; // if false, the scene's value is used
     float value;
 };
 
@@ -53,22 +53,22 @@ struct contract_defaults {
     struct default_number ambient_strength, diffuse_strength, specular_strength, shininess, spot_exponent;
     bool has_attenuation, has_direction, has_position;
     float attenuation[3];
-    lam_vec3 direction; // to the light; has_position: the light's place
-    int light_space;    // of both; the contract's unless it is said
+    lam_vec3 direction; // towards the light; with has_position, the light's position
+    int light_space;    // the space of both; by default the contract's space
 };
 
-// A variable that a shader gives a number: `float ambientStrength = 0.1;`. The name "pow" means a number that is the
+// A variable that a shader sets to a number: `float ambientStrength = 0.1;`. The name "pow" means a number that is the
 // second argument of pow().
 struct contract_constant {
     const char *name;
     enum uniform_semantic semantic;
 };
 
-// How the shaders of a contract with metalness and roughness light. The defaults are glTF 2.0's, appendix B; other
-// forms are recognised, and accepted if they are as right (fault_table.c).
+// The lighting of a contract's shaders with metalness and roughness. The defaults are glTF 2.0's, appendix B; other
+// forms are recognised, and accepted if they are as correct (fault_table.c).
 enum masking {
     MASKING_SMITH,  // Smith's for GGX, height-correlated
-    MASKING_SCHLICK // Schlick's approximation of it, k = (roughness + 1)²/8
+    MASKING_SCHLICK // Schlick's approximation, k = (roughness + 1)²/8
 };
 enum diffuse_share {
     DIFFUSE_OF_DIELECTRIC, // (1 - metallic)(1 - F), F from 0.04
@@ -86,16 +86,17 @@ struct physical_convention {
 
 // The contents of a contract's maps.
 struct map_convention {
-    // Maps of colours are encoded, pow(x, 1/2.2), and the shader decodes them; false: they are linear, as a texture with an
-    // sRGB format is for a shader.
+    // If true, colour maps are encoded with pow(x, 1/2.2), and the shader decodes them. If false, they are linear, as
+    // textures with an sRGB format are for a shader.
     bool encoded;
-    // v grows downward in the picture, as in glTF files: a patch whose u goes right and normal to the eye has its v go down.
+    // v grows downward in the picture, as in glTF files: on a patch whose u points right and whose normal points to the
+    // eye, v points down.
     bool v_down;
 };
 
-// Forms that a contract may demand; without that their counterparts are accepted (fault.h).
+// Forms that a contract may require; otherwise their counterparts are accepted (fault.h).
 enum contract_demand {
-    DEMAND_GATE = 1,         // no highlight where n.l <= 0
+    DEMAND_GATE = 1,         // no highlight if n.l <= 0
     DEMAND_UNIT_NORMALS = 2, // normalized in the vertex shader too
     DEMAND_BARE_AMBIENT = 4, // the ambient term is not attenuated
 };
@@ -104,38 +105,39 @@ enum contract_term { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4 };
 enum { MAX_LIGHT_GROUPS = 8, MAX_WEIGHTS = 32 };
 
 struct contract {
-    const char *name, *title, *text;         // `text`: the file
-    uint64_t hash;                           // of `text`
-    const char *versions;                    // of GLSL, separated by ", "; "": not said
+    const char *name, *title, *text;         // `text` is the file
+    uint64_t hash;                           // the hash of `text`
+    const char *versions;                    // GLSL versions, separated by ", "; "" if not stated
     const struct contract_name *names;       // ends with NULL
     const struct contract_varying *varyings; // ends with NULL
     // Built-in names whose use identifies the contract. Ends with NULL.
     const char *const *built_ins;
-    // The structs and lists of lights: "lights[]", "sun"; "" for names outside any.
+    // The structs and lists of lights: "lights[]", "sun"; "" for names outside them.
     const char *groups[MAX_LIGHT_GROUPS];
     int group_count;
     unsigned supports;     // bits of reference_need
     unsigned terms;        // bits of contract_term
     unsigned demands;      // bits of contract_demand
-    lam_light_frame space; // in which the course lights: CAMERA (eye space) or WORLD
+    lam_light_frame space; // the space of the lighting: CAMERA (eye space) or WORLD
     // The space of the first light: OBJECT (the model-view matrix transforms it like the vertices), WORLD or CAMERA.
     lam_light_frame light_frame;
     lam_reflection reflection;
     struct contract_defaults defaults;
-    struct physical_convention physical; // of shaders with metalness and roughness
+    struct physical_convention physical; // used by shaders with metalness and roughness
     struct map_convention maps;
     const struct contract_constant *constants; // ends with NULL
-    // The lines that an engine writes before the texts of a program, which then have no version line and declare none
-    // of its names. NULL: nothing.
+    // The lines that an engine inserts before the text of a shader, which then has no version line and declares none of
+    // these names. May be NULL.
     const char *prefix_vertex, *prefix_fragment;
-    const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL: not said
-    bool has_attenuation;    // names or constants
-    bool material_strengths; // colours and their strengths are apart
-    bool any_strengths;      // strengths and colours are the shader's own: the best fit to its pictures counts
-    // Of GLSL 110 and 120: names of gl_LightSource and the like; the texts are rewritten (fixed_state.h).
+    const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL if not stated
+    bool has_attenuation;    // attenuation has names or constants
+    bool material_strengths; // colours and their strengths are separate
+    bool any_strengths;      // shaders have their own strengths and colours, and the best fit to their pictures is used
+    // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The texts are rewritten
+    // (fixed_state.h).
     bool fixed_state;
-    const double *weights; // the points of each reference scene
-    bool printed;          // shaders of `lambent shader`, whose loops name the kinds of lights
+    const double *weights; // the points for each reference scene
+    bool printed;          // shaders of `lambent shader`, whose loops are named after the kinds of lights
 };
 
 // A contract that owns its memory.
@@ -145,22 +147,22 @@ struct lam_check_contract {
 };
 
 enum { MAX_CONTRACTS = 16 };
-// The shipped contracts, read. The caller frees them with lam_check_contract_free.
+// Reads the shipped contracts. The caller frees them with lam_check_contract_free.
 bool contracts_read(lam_check_contract *out[MAX_CONTRACTS], int *count, lam_error *error);
 
-// The row of a name. "lights[0].lightColor" is looked up as "lights[].lightColor", and its index is stored in `index`
-// (may be NULL), 0 outside of lists. NULL: unknown.
+// Returns the row of a name, or NULL if it is unknown. "lights[0].lightColor" is looked up as "lights[].lightColor",
+// and its index is stored in `index` (may be NULL), 0 outside of lists.
 const struct contract_name *contract_find(const struct contract *contract, const char *name, bool attribute,
                                           int *index);
 
-// The row of a varying's name. NULL: unknown.
+// Returns the row of a varying's name, or NULL if it is unknown.
 const struct contract_varying *contract_varying(const struct contract *contract, const char *name);
 
-// The contract's name most similar to an unknown one. NULL: none is similar.
+// Returns the contract's name most similar to an unknown one, or NULL if none is similar.
 const char *contract_nearest(const struct contract *contract, const char *name);
 
-// The name that the shaders use for a semantic: their own, else the contract's, else NULL. A material's colours may come
-// multiplied by the light's.
+// Returns the name that the shaders use for a semantic: their own, else the contract's, else NULL. A material's colours
+// may be multiplied by the light's.
 const char *contract_name_used(const struct contract *contract, enum uniform_semantic semantic,
                                const struct declarations *vertex, const struct declarations *fragment);
 
@@ -169,7 +171,7 @@ struct uniform_value {
     float v[16];
 };
 struct uniform_value matrix_value(const lam_mat4 *m);
-// `space`: of roles with ROLE_IN_SPACE.
+// Returns the value of a uniform. `space` matters only for roles with ROLE_IN_SPACE.
 struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int light, lam_light_frame space,
                                             const struct reference_scene *reference_scene,
                                             const struct reference_matrices *m);

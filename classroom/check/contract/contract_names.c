@@ -62,7 +62,7 @@ static bool read_type(struct contract_reader *r, const struct place *place, cons
     return json_unexpected(&r->json, KEY_OF(place, "type"), value, expected);
 }
 
-// The group of a light's name: the text before its last dot.
+// Finds the group of a light's name: the text before its last dot.
 static bool find_group(struct contract_reader *r, const struct place *place, const char *name, int *group)
 {
     struct contract *c = r->contract;
@@ -80,7 +80,7 @@ static bool find_group(struct contract_reader *r, const struct place *place, con
     return c->groups[c->group_count++] || contract_no_memory(r);
 }
 
-// A name of the fixed state as it is in rewritten texts: fixed_LightSource[].position.
+// Returns a name of the fixed state as it occurs in rewritten texts: fixed_LightSource[].position.
 static const char *fixed_state_name(struct arena *arena, const char *name)
 {
     char text[80];

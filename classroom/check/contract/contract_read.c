@@ -44,7 +44,7 @@ static bool read_demands(struct contract_reader *r, const json_t *root)
     return true;
 }
 
-// How many points each scene is worth.
+// Reads the points for each scene.
 static bool read_weights(struct contract_reader *r, const json_t *root)
 {
     const json_t *object = json_object_get(root, "weights");
@@ -82,8 +82,8 @@ static bool has_any(const struct contract *c, const enum uniform_semantic *list)
     return false;
 }
 
-// Values without a name in the shader or the contract: no attenuation, strengths of 1, white colours. Products of
-// colours have strengths in them.
+// Sets the values without a name in the shader or the contract: no attenuation, strengths of 1, white colours. Products
+// of colours include strengths.
 static void complete_defaults(struct contract *c)
 {
     static const enum uniform_semantic attenuations[] = {SEMANTIC_ATTENUATION, SEMANTIC_ATTENUATION_CONSTANT,
@@ -118,7 +118,8 @@ static void complete_defaults(struct contract *c)
             *colors[i].color = (struct default_color){COLOR_GIVEN, {1, 1, 1}};
 }
 
-// The space of the lights: of the first name with a light, or else of the default light, or else the shader's.
+// Returns the space of the lights: of the first name with a light, or else of the default light, or else of the
+// lighting.
 static lam_light_frame light_frame_of(const struct contract *c)
 {
     const struct contract_defaults *d = &c->defaults;
@@ -128,7 +129,7 @@ static lam_light_frame light_frame_of(const struct contract *c)
     return d->has_direction || d->has_position ? (lam_light_frame)d->light_space : c->space;
 }
 
-// Consequences of the names.
+// Sets members that follow from the names.
 static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 {
     struct contract *c = r->contract;

@@ -1,4 +1,4 @@
-// contract_reader.c: lists and names in a contract's file.
+// contract_reader.c: reads lists and names in a contract's file.
 #include "contract_reader.h"
 
 #include <ctype.h>
@@ -11,7 +11,7 @@ bool contract_no_memory(const struct contract_reader *r) { return fail_memory(r-
 const struct json_choice contract_spaces[] = {
     {"eye", LAM_FRAME_CAMERA}, {"world", LAM_FRAME_WORLD}, {"object", LAM_FRAME_OBJECT}, {NULL, 0}};
 
-// A name of GLSL: identifiers joined by dots; "[]" after the first one makes it a list.
+// Returns whether a text is a name in GLSL: identifiers joined by dots; "[]" after the first one makes it a list.
 static bool is_name(const char *text, bool plain)
 {
     for (bool first = true;; first = false) {

@@ -1,12 +1,12 @@
-// maps.c: factors and texels.
+// maps.c: the factors and texels of maps.
 #include "maps.h"
 
 #include "elementary.h"
 
-// glTF reads green and blue; a shader that reads red or alpha gets these.
+// glTF uses green and blue; a shader that reads red or alpha gets these numbers.
 static const float unread_red = 0.9f, unread_alpha = 0.7f;
 
-// The maps that can multiply a number.
+// The maps that can multiply each number.
 static const enum uniform_semantic maps_of[][2] = {
     [NUMBER_BASE_COLOR] = {SEMANTIC_BASE_COLOR_MAP, SEMANTIC_BASE_COLOR_MAP},
     [NUMBER_METALLIC] = {SEMANTIC_METALLIC_ROUGHNESS_MAP, SEMANTIC_METALLIC_MAP},
@@ -47,7 +47,7 @@ struct uniform_value map_texel(enum uniform_semantic map, const struct reference
 {
     const lam_vec3 n = s->bump;
     switch (map) {
-    case SEMANTIC_BASE_COLOR_MAP: // for other shaders, white: the colours are separate
+    case SEMANTIC_BASE_COLOR_MAP: // white for other shaders, since the colours are separate
         return s->physical ? color(s, NUMBER_BASE_COLOR, s->diffuse) : grey(1);
     case SEMANTIC_METALLIC_ROUGHNESS_MAP:
         return (struct uniform_value){{unread_red, texel_of(s, NUMBER_ROUGHNESS, s->roughness),

@@ -1,4 +1,5 @@
-// name_similarity.c: compares names of shaders word by word: "eye_position" and "eyePoint" are "eye" and a place.
+// name_similarity.c: compares names of shaders word by word: "eye_position" and "eyePoint" both mean "eye" and a
+// position.
 #include "name_similarity.h"
 
 #include <ctype.h>
@@ -12,7 +13,7 @@
 enum { MAX_WORDS = 6, WORD_LENGTH = 24 };
 static const double min_similarity = 0.5;
 
-// Words of the same row mean the same. Words of different rows of one class exclude each other.
+// Words of the same row have the same meaning. Words of different rows of one class exclude each other.
 enum { CLASS_OWNER, CLASS_KIND, CLASS_TERM, CLASS_POWER, CLASS_SPACE, CLASS_FALLOFF };
 static const struct {
     int class;
@@ -43,7 +44,7 @@ enum { ROLES = sizeof roles / sizeof roles[0] };
 
 struct name_words {
     char words[MAX_WORDS][WORD_LENGTH];
-    int roles[MAX_WORDS]; // index of the row; −1: none
+    int roles[MAX_WORDS]; // index of the row, or −1
     int count;
 };
 
@@ -58,7 +59,7 @@ static int role_of(const char *word)
 }
 
 // Splits "uLightPosition" and "light_position" into "light", "position": at underscores and capitals, without the
-// letter that says where a name comes from (vNormal, fN, uKa).
+// prefix that marks the kind of variable (vNormal, fN, uKa).
 static void split(const char *name, struct name_words *out)
 {
     *out = (struct name_words){0};
@@ -92,7 +93,7 @@ static bool has_word(const struct name_words *a, const struct name_words *b, int
     return false;
 }
 
-// Whether a word of each, in one class, contradict each other.
+// Returns whether a word of each, in one class, contradict each other.
 static bool contradict(const struct name_words *a, const struct name_words *b)
 {
     for (int i = 0; i < a->count; i++)
@@ -103,8 +104,8 @@ static bool contradict(const struct name_words *a, const struct name_words *b)
     return false;
 }
 
-// The share of the words of both that both have. `telling`: one of these says more than that it is a position, a matrix
-// or a colour.
+// Returns the share of all words that both names contain. Sets `telling` to whether one of these means more than a
+// position, a matrix or a colour.
 static double shared_words(const struct name_words *a, const struct name_words *b, bool *telling)
 {
     int shared = 0;
@@ -118,7 +119,7 @@ static double shared_words(const struct name_words *a, const struct name_words *
     return all > 0 ? (double)shared / all : 0;
 }
 
-// The sound of a name: its consonants, without doubles, similar sounds merged ("colour" and "color" are klr,
+// Gets the sound of a name: its consonants, without doubles, with similar sounds merged ("colour" and "color" are klr,
 // "normalise" and "normalize" nrmls).
 static void sound_of(const char *name, char out[WORD_LENGTH])
 {
@@ -183,7 +184,7 @@ double name_similarity(const char *a, const char *b)
         return 0.75;
     if (several && telling && shared >= 0.5)
         return 0.5 + 0.2 * shared;
-    // material_specular and reflect_specular: the same term of another owner.
+    // material_specular and reflect_specular are the same term with another prefix.
     int last = words_a.count - 1;
     bool same_term = several && words_a.roles[last] >= 0 && roles[words_a.roles[last]].class == CLASS_TERM &&
                      same_word(&words_a, last, &words_b, words_b.count - 1);

@@ -1,14 +1,15 @@
-// name_similarity.h: how likely one name of a shader was meant by another: by spelling, by sound, and by role.
+// name_similarity.h: estimates the likelihood that one name of a shader was meant instead of another: by spelling, by
+// sound, and by role.
 #ifndef NAME_SIMILARITY_H
 #define NAME_SIMILARITY_H
 
-// 1: the same but for case and underscores; 0: unrelated. Names whose words differ in role (light and eye, ambient and
-// diffuse, position and direction) are unrelated however alike their letters; words of the same role are the same
-// (position and point, eye and camera, normal and N).
+// Returns 1 for names that are equal except for case and underscores, and 0 for unrelated names. Names whose words have
+// different roles (light and eye, ambient and diffuse, position and direction) are unrelated, however similar they
+// look. Words with the same role count as equal (position and point, eye and camera, normal and N).
 double name_similarity(const char *a, const char *b);
 
-// The candidate most similar to `name`, of equal ones the first. NULL: none is similar enough to be suggested. NULL
-// candidates are skipped.
+// Returns the candidate most similar to `name`; of equal ones the first. Returns NULL if none is similar enough to be
+// suggested. NULL candidates are skipped.
 const char *name_nearest(const char *name, const char *const *candidates, int count);
 
 #endif

@@ -25,16 +25,16 @@ enum uniform_semantic {
     SEMANTIC_AMBIENT,
     SEMANTIC_DIFFUSE,
     SEMANTIC_SPECULAR,
-    // The same, times the light's colour.
+    // The product, times the light's colour.
     SEMANTIC_AMBIENT_PRODUCT,
     SEMANTIC_DIFFUSE_PRODUCT,
     SEMANTIC_SPECULAR_PRODUCT,
-    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // of one light, which dims it
-    // The strengths alone.
+    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // the product of one light, which attenuates it
+    // The strengths only.
     SEMANTIC_KA,
     SEMANTIC_KD,
     SEMANTIC_KS,
-    // The colours alone.
+    // The colours only.
     SEMANTIC_COLOR,
     SEMANTIC_SPECULAR_COLOR,
     SEMANTIC_SHININESS,
@@ -42,7 +42,7 @@ enum uniform_semantic {
     SEMANTIC_ROUGHNESS,
     SEMANTIC_ROUGHNESS_ANGLE, // Oren–Nayar's sigma
     SEMANTIC_EMISSION,        // factor of the emission map; 0 without one
-    // Maps: textures with one texel, another one in each scene (maps.h).
+    // Maps: textures with one texel, which differs between scenes (maps.h).
     SEMANTIC_BASE_COLOR_MAP,
     SEMANTIC_METALLIC_ROUGHNESS_MAP,
     SEMANTIC_METALLIC_MAP,
@@ -50,9 +50,10 @@ enum uniform_semantic {
     SEMANTIC_NORMAL_MAP,
     SEMANTIC_OCCLUSION_MAP,
     SEMANTIC_EMISSION_MAP,
-    SEMANTIC_MAP_ROW_U,      // of the matrix from the mesh's texture coordinates to a map's; w: factor of the texel
-    SEMANTIC_MAP_ROW_V,      // w: added to the texel
-    SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction to it, w 0
+    // a row of the matrix from the mesh's texture coordinates to a map's; w is the factor of the texel
+    SEMANTIC_MAP_ROW_U,
+    SEMANTIC_MAP_ROW_V,      // w is added to the texel
+    SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction towards it, w 0
     SEMANTIC_LIGHT_X,
     SEMANTIC_LIGHT_Y,
     SEMANTIC_LIGHT_Z,
@@ -66,7 +67,7 @@ enum uniform_semantic {
     SEMANTIC_ATTENUATION_QUADRATIC,
     SEMANTIC_ATTENUATION,  // constant, linear, quadratic, 0
     SEMANTIC_CONE,         // cosine of the cutoff, exponent, cosine of the outer angle, 1/width
-    SEMANTIC_CUTOFF,       // cosine of the cutoff; −1: no spot
+    SEMANTIC_CUTOFF,       // cosine of the cutoff; −1 if there is no spot
     SEMANTIC_OUTER_CUTOFF, // cosine of an angle just outside of the cutoff
     SEMANTIC_SPOT_EXPONENT,
     SEMANTIC_AMBIENT_LIGHT, // sum over all lights
@@ -80,11 +81,11 @@ enum uniform_semantic {
     SEMANTIC_COUNT
 };
 
-// The inputs that a role suits, and their types.
+// The kinds of input that a role suits.
 enum role_use {
     ROLE_ATTRIBUTE = 1,
     ROLE_UNIFORM = 2,
-    ROLE_LIGHT = 4,    // belongs to one light: one of lights[i], or the light of the same struct
+    ROLE_LIGHT = 4,    // belongs to one light: an element of lights[i], or the light of the same struct
     ROLE_IN_SPACE = 8, // has a space
     ROLE_CONSTANT = 16 // a shader may write it as a number
 };

@@ -1,4 +1,4 @@
-// uniform_semantic.c: the value of each uniform in a reference scene.
+// uniform_semantic.c: computes the value of each uniform in a reference scene.
 #include "maps.h"
 
 #include "linear.h"
@@ -13,7 +13,7 @@ static struct uniform_value vector(lam_vec3 v, float w)
     return (struct uniform_value){{(float)v.x, (float)v.y, (float)v.z, w}};
 }
 
-// The factor of a colour that a map multiplies.
+// Returns the factor of a colour that a map multiplies.
 static struct uniform_value color_factor(const struct reference_scene *s, enum map_number number, lam_rgb c,
                                          float alpha)
 {
@@ -21,7 +21,7 @@ static struct uniform_value color_factor(const struct reference_scene *s, enum m
         {map_factor(s, number, c.r), map_factor(s, number, c.g), map_factor(s, number, c.b), alpha}};
 }
 
-// A colour that the texel of the base colour map multiplies, such as the diffuse light's.
+// Returns a colour divided by the base colour map's texel, which will multiply it, such as the diffuse light's.
 static struct uniform_value without_texel(const struct reference_scene *s, struct uniform_value c)
 {
     const float base[] = {s->diffuse.r, s->diffuse.g, s->diffuse.b};
@@ -51,7 +51,7 @@ static lam_rgb total_ambient(const struct reference_scene *s)
     return sum;
 }
 
-// From world space.
+// Returns the matrix from world space.
 static lam_mat4 matrix_to(lam_light_frame frame, const struct reference_matrices *m)
 {
     lam_mat4 out = lam_mat4_identity();
@@ -68,7 +68,7 @@ static struct uniform_value light_position(const struct reference_light *light, 
                                                 : vector(mat4_point(to, light->position), 1);
 }
 
-// Cosine of the cutoff, exponent, and for shaders with two angles a hard edge at the cutoff, or none.
+// Returns cosine of the cutoff and exponent; for shaders with two angles a hard edge at the cutoff, or none.
 static struct uniform_value cone(const struct reference_light *light)
 {
     if (light->cutoff_deg <= 0)
@@ -77,11 +77,11 @@ static struct uniform_value cone(const struct reference_light *light)
     return (struct uniform_value){{cosine, light->exponent, cosine, 1e5f}};
 }
 
-// Published shaders with metalness and roughness divide by pi; lambent's lights have it in them: a white surface that faces
+// Published shaders with metalness and roughness divide by pi. Lambent's lights include pi: a white surface that faces
 // a light of 1 is 1.
 static float light_scale(const struct reference_scene *s) { return s->is_radiance ? (float)PI : 1; }
 
-// The inverse transpose of the matrix from the model's space.
+// Returns the inverse transpose of the matrix from the model's space.
 static struct uniform_value normal_matrix(lam_light_frame space, const struct reference_matrices *m)
 {
     if (space == LAM_FRAME_CAMERA)
@@ -132,7 +132,7 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
             return color_factor(s, NUMBER_BASE_COLOR, s->diffuse, s->alpha);
         return color(s->diffuse, s->kd, s->alpha);
     case SEMANTIC_DIFFUSE_PRODUCT:
-        // A metal scatters no light: its product is 0 (metallic is 0 if there is no such name).
+        // A metal does not scatter light: its product is 0 (metallic is 0 if there is no such name).
         return color(product(s->diffuse, light->color), s->kd * (1 - s->metallic), s->alpha);
     case SEMANTIC_SPECULAR:
     case SEMANTIC_SPECULAR_PRODUCT:

@@ -1,4 +1,4 @@
-// compiler_hints.c: rules that explain a compiler's message by the text of the shader.
+// compiler_hints.c: rules that explain a compiler's message from the text of the shader.
 #include "compiler_hints.h"
 
 #include <ctype.h>
@@ -70,11 +70,11 @@ static bool in_list(const char *word, const char *const *list, int count)
 
 static bool is_name(const char *w) { return isalpha((unsigned char)w[0]) || w[0] == '_'; }
 
-// Functions that are younger than GLSL 1.10 and GLSL ES 1.00.
+// Functions that were added after GLSL 1.10 and GLSL ES 1.00.
 static const struct {
     const char *name;
     int version, es_version;
-    const char *otherwise; // NULL: nothing to advise
+    const char *otherwise; // the advice, or NULL
 } young_functions[] = {
     {"inverse", 140, 300, "pass the inverse transpose as a uniform"},
     {"transpose", 120, 300, NULL},
@@ -99,7 +99,7 @@ static bool is_es(const struct declarations *d)
     return strcmp(d->profile, "es") == 0 || d->version == 100 || (!d->version && declarations_uses(d, "precision"));
 }
 
-// Explains a function that the shader's version of GLSL does not have. False: it is not one of these.
+// Explains a function that is missing in the shader's version of GLSL. Returns false if it is not one of these.
 static bool hint_young_function(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                 int line, const char *name)
 {
@@ -120,7 +120,8 @@ static bool hint_young_function(struct diagnostics *diagnostics, const struct de
     return false;
 }
 
-// The name that was probably meant by an undeclared one, used at word `at`, among those declared there. NULL: none.
+// Returns the name that was probably meant by an undeclared one, used at word `at`, among the names declared there.
+// Returns NULL if there is none.
 static const char *nearest_declared(const struct declarations *d, const char *name, int at)
 {
     bool called = at + 1 < d->word_count && strcmp(d->words[at + 1].text, "(") == 0;
@@ -141,7 +142,7 @@ static bool quoted_name(const char *words, char name[64])
     return true;
 }
 
-// The word `name` on a line, else the line's first word.
+// Finds the word `name` on a line, or else the line's first word.
 static int find_on_line(const struct declarations *d, int line, const char *name)
 {
     int first = -1;
@@ -162,7 +163,7 @@ static int first_on_line(const struct declarations *d, int line)
     return d->word_count;
 }
 
-// A member that no struct of the shader has: lights[0].postion.
+// Explains a member that no struct of the shader has: lights[0].postion.
 static void hint_member(struct diagnostics *diagnostics, const struct declarations *d, const char *file, int line,
                         const char *name)
 {
@@ -292,7 +293,7 @@ static void hint_types(struct diagnostics *diagnostics, const struct declaration
         size_t known = strlen(item->type);
         if (known > 0 && in_list(item->type, (const char *const[]){"in", "out", "uniform"}, 3))
             continue;
-        // vec3v Ns: the blank is one letter too late
+        // vec3v Ns: the space is one letter too late.
         char shorter[32];
         snprintf(shorter, sizeof shorter, "%.*s", (int)known - 1, item->type);
         if (in_list(shorter, types, COUNT(types)))
@@ -326,7 +327,7 @@ static void hint_globals(struct diagnostics *diagnostics, const struct declarati
 {
     if (strcmp(d->profile, "es") != 0)
         return;
-    for (int i = 2; i + 1 < d->word_count; i++) // vec3 name = something with a uniform in it;
+    for (int i = 2; i + 1 < d->word_count; i++) // vec3 name = an expression with a uniform;
         if (d->words[i].depth == 0 && strcmp(d->words[i].text, "=") == 0 &&
             in_list(d->words[i - 2].text, types, COUNT(types)))
             for (int k = i + 1; k < d->word_count && strcmp(d->words[k].text, ";") != 0; k++)

@@ -1,25 +1,25 @@
-// compiler_hints.h: explanations of compiler messages: mistakes of spelling and grammar that lectures print and
-// students make.
+// compiler_hints.h: explains compiler messages: mistakes of spelling and grammar that occur in lectures and in
+// students' shaders.
 #ifndef COMPILER_HINTS_H
 #define COMPILER_HINTS_H
 
 #include "diagnostics.h"
 #include "shader_interface.h"
 
-// For one message of the compiler about a line (0: unknown).
+// Adds hints for one message of the compiler about a line (0 if unknown).
 void compiler_hints_for_message(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                 int line, const char *message);
 
-// For the text of a shader that does not compile.
+// Adds hints for the text of a shader that does not compile.
 void compiler_hints_for_text(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                              bool vertex);
 
-// For the outputs of a fragment shader that compiles. `output`: the course's name of it; NULL: none. False: it writes
-// no colour that a picture can store.
+// Adds hints about the outputs of a fragment shader that compiles. `output` is the output's name in the course, or
+// NULL. Returns false if the shader writes no colour that a picture can store.
 bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                const char *output);
 
-// For two shaders that compile but do not link.
+// Adds hints for two shaders that compile but do not link.
 void compiler_hints_for_link(struct diagnostics *diagnostics, const struct shader_interface *interface,
                              const lam_check_params *params);
 

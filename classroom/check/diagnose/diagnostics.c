@@ -1,4 +1,4 @@
-// diagnostics.c: the list of messages that a report carries.
+// diagnostics.c: the list of messages in a report.
 #include "diagnostics.h"
 
 #include <stdarg.h>

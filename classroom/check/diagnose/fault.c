@@ -1,4 +1,4 @@
-// fault.c: sets of faults, and which of the table can occur in a pair of shaders.
+// fault.c: sets of faults, and the faults that can occur in a pair of shaders.
 #include "fault.h"
 #include "maps.h"
 
@@ -29,7 +29,7 @@ static bool hands_on_four(const struct declarations *fragment)
     return false;
 }
 
-// How the light of metalness and roughness is computed in a contract, as bits of fault_where.
+// Returns the lighting of a contract with metalness and roughness, as bits of fault_where.
 static unsigned physical_bits(const struct physical_convention *c)
 {
     return WHERE_PHYSICAL | (c->masking == MASKING_SCHLICK ? WHERE_SCHLICK : WHERE_SMITH) |
@@ -39,7 +39,7 @@ static unsigned physical_bits(const struct physical_convention *c)
            (c->encoding == ENCODING_NONE ? WHERE_LINEAR : WHERE_ENCODED);
 }
 
-// The bits of fault_maps.
+// Returns the bits of fault_maps.
 static unsigned map_bits(const struct shader_interface *r)
 {
     static const struct {
@@ -90,7 +90,7 @@ bool fault_is_style(const struct fault *fault, const struct shader_interface *in
     return fault->style || (fault->demand && !(fault->demand & interface->contract->demands));
 }
 
-// Row `index` of the list: no styles, and of each mistake the first form.
+// Returns row `index` of the public list, which contains no styles, and only the first form of each mistake.
 static const struct fault *listed(int index)
 {
     for (int i = 0; i < fault_count; i++)

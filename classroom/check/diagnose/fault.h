@@ -49,7 +49,7 @@
 // clang-format on
 
 enum fault_bit {
-    BIT_NONE, // ends the list of a fault's switches
+    BIT_NONE, // terminates the list of a fault's switches
 #define FAULT_BIT(name) BIT_##name,
     FAULT_BITS(FAULT_BIT)
 #undef FAULT_BIT
@@ -58,100 +58,101 @@ enum fault_bit {
 enum { FAULT_WORDS = 4 };
 _Static_assert(FAULT_BIT_COUNT <= 64 * FAULT_WORDS, "fault_set has room for all switches");
 
-// Switches, and the change of the highlight's exponent.
+// A set of switches, and the change of the highlight's exponent.
 typedef struct fault_set {
     uint64_t words[FAULT_WORDS]; // bit i: switch i
-    float factor;                // the exponent is multiplied by it; 0: it is not
-    float constant;              // the exponent, whatever the material's is; 0: the material's
+    float factor;                // multiplies the exponent; 0 if not used
+    float constant;              // replaces the material's exponent; 0 if not used
 } fault_set;
 
 bool fault_set_has(const fault_set *set, enum fault_bit bit);
 bool fault_set_equal(const fault_set *a, const fault_set *b);
 
-// The conditions under which a fault can occur; 0: always.
+// Bits for the conditions under which a fault can occur. 0 means always.
 enum fault_where {
     WHERE_FRAGMENT = 1,      // lighting in the fragment shader
     WHERE_VERTEX = 2,        // lighting in the vertex shader
     WHERE_OBJECT_LIGHT = 4,  // lights in object space
     WHERE_EYE_LIGHT = 8,     // lights in the space of the lighting, eye or world space
-    WHERE_PHONG = 16,        // Phong's highlight is expected
-    WHERE_BLINN = 32,        // Blinn–Phong's is expected
+    WHERE_PHONG = 16,        // a Phong highlight is expected
+    WHERE_BLINN = 32,        // a Blinn–Phong highlight is expected
     WHERE_REFLECT = 64,      // reflect() occurs in the shaders
     WHERE_WORLD = 128,       // lighting in world space
     WHERE_WORLD_LIGHT = 256, // lights in world space, lighting in eye space
-    WHERE_STRENGTHS = 1024,  // colours and their strengths are apart
-    WHERE_FOUR = 512,        // vectors of four components may be lit: some varying is a vec4, or the vertices are lit
+    WHERE_STRENGTHS = 1024,  // colours and their strengths are separate
+    WHERE_FOUR = 512,        // vectors of four components may be lit: a varying is a vec4, or the vertices are lit
     WHERE_CLASSIC = 2048,    // highlights with an exponent
     WHERE_PHYSICAL = 4096,   // metalness and roughness
-    WHERE_SCHLICK = 8192,    // and the contract's masking is Schlick's
-    WHERE_SMITH = 16384,     // or Smith's
-    WHERE_SHARED = 32768,    // the contract's diffuse part is reduced by Fresnel's
-    WHERE_TONED = 65536,     // its shaders have a tone curve
-    WHERE_UNTONED = 131072,  // or none
-    WHERE_ENCODED = 262144,  // they encode their colours
-    WHERE_LINEAR = 524288,   // or do not
+    WHERE_SCHLICK = 8192,    // the contract's masking is Schlick's
+    WHERE_SMITH = 16384,     // the contract's masking is Smith's
+    WHERE_SHARED = 32768,    // the contract's diffuse part is reduced by the Fresnel factor
+    WHERE_TONED = 65536,     // the contract's shaders have a tone curve
+    WHERE_UNTONED = 131072,  // the contract's shaders have no tone curve
+    WHERE_ENCODED = 262144,  // the contract's shaders encode their colours
+    WHERE_LINEAR = 524288,   // the contract's shaders do not encode their colours
     WHERE_OF_MIX = 1048576,  // the contract's F comes from the mixed F0 for the diffuse part too
     WHERE_NOT_OF_MIX = 2097152,
     WHERE_FLAT = 4194304, // `flat` occurs in the fragment shader
 };
 
-// Likewise, of maps; 0: whatever maps the shader reads.
+// Bits for the conditions on maps. 0 means no condition.
 enum fault_maps {
-    MAPS_BASE = 1,                // reads a map of the base colour
-    MAPS_METALLIC_ROUGHNESS = 2,  // one of roughness and metalness
-    MAPS_DATA = 4,                // that, or one of metalness or roughness alone
-    MAPS_NORMAL = 8,              // one of normals
-    MAPS_OCCLUSION = 16,          // one of occlusion, which multiplies an ambient term
-    MAPS_EMISSION = 32,           // one of emission
-    MAPS_ENCODED = 64,            // maps of colours are encoded
-    MAPS_LINEAR = 128,            // or linear
+    MAPS_BASE = 1,                // the shader reads a map of the base colour
+    MAPS_METALLIC_ROUGHNESS = 2,  // a map of roughness and metalness
+    MAPS_DATA = 4,                // that map, or one of only metalness or roughness
+    MAPS_NORMAL = 8,              // a normal map
+    MAPS_OCCLUSION = 16,          // an occlusion map, which multiplies an ambient term
+    MAPS_EMISSION = 32,           // an emission map
+    MAPS_ENCODED = 64,            // colour maps are encoded
+    MAPS_LINEAR = 128,            // colour maps are linear
     MAPS_BASE_FACTOR = 256,       // the base colour has a factor too
-    MAPS_DATA_FACTOR = 512,       // likewise metalness and roughness
-    MAPS_EMISSION_FACTOR = 1024,  // likewise the emission
-    MAPS_TANGENTS = 2048,         // tangents come as an attribute
-    MAPS_SIGN = 4096,             // with the sign of the bitangent
+    MAPS_DATA_FACTOR = 512,       // metalness and roughness have factors too
+    MAPS_EMISSION_FACTOR = 1024,  // the emission has a factor too
+    MAPS_TANGENTS = 2048,         // tangents are an attribute
+    MAPS_SIGN = 4096,             // the tangents include the sign of the bitangent
     MAPS_DERIVATIVES = 8192,      // dFdx occurs in the fragment shader
-    MAPS_UP = 16384,              // v goes up where u goes right
-    MAPS_DOWN = 32768,            // or down
-    MAPS_NO_BASE = 65536,         // reads no map of the base colour
-    MAPS_OCCLUSION_READ = 131072, // one of occlusion, whether there is an ambient term or not
-    MAPS_NO_OCCLUSION = 262144,   // or none
+    MAPS_UP = 16384,              // v goes up if u goes right
+    MAPS_DOWN = 32768,            // v goes down if u goes right
+    MAPS_NO_BASE = 65536,         // the shader reads no map of the base colour
+    MAPS_OCCLUSION_READ = 131072, // an occlusion map, with or without an ambient term
+    MAPS_NO_OCCLUSION = 262144,   // no occlusion map
     MAPS_ABSENT = MAPS_NO_BASE | MAPS_NO_OCCLUSION,
 };
 
-// The unknown that the search must find for a fault: the factor of the exponent, above or below 1, or the constant.
+// The unknown number that the search must find for a fault: the factor of the exponent, above or below 1, or the
+// constant exponent.
 enum fault_fit { FIT_NONE, FIT_LARGER, FIT_SMALLER, FIT_CONSTANT };
 
 enum { MAX_FAULT_BITS = 8 };
 
 struct fault {
     const char *id;
-    uint8_t bits[MAX_FAULT_BITS]; // of fault_bit; ends with BIT_NONE
+    uint8_t bits[MAX_FAULT_BITS]; // values of fault_bit, ends with BIT_NONE
     unsigned where;               // bits of fault_where
     unsigned needs;               // reference_need: one of the scenes in use must have it
-    const char *explanation;      // a sentence
+    const char *explanation;      // needs: reference_need; one of the scenes in use must have it
     const char *correction;       // one line; {place} is replaced by the shader's own name (fault_text)
     unsigned maps;                // bits of fault_maps
-    float factor;                 // of the exponent; 0: none
+    float factor;                 // the factor of the exponent, or 0
     enum fault_fit fit;
-    bool rare;       // not mentioned beside another with the same pictures
-    bool style;      // not a mistake: a form that is as right as the reference
-    bool whole_term; // a term, or several, are missing altogether
-    unsigned demand; // bits of contract_demand: a mistake only if the contract demands one of them, else a style
+    bool rare;       // not reported beside another fault with the same pictures
+    bool style;      // not a mistake, but a form that is as correct as the reference
+    bool whole_term; // one or more terms are missing completely
+    unsigned demand; // bits of contract_demand: a mistake only if the contract requires one of them, else a style
 };
 
 extern const struct fault faults[];
 extern const int fault_count;
 
-// The set with a fault of the table as well.
+// Returns the set with one more fault of the table.
 fault_set fault_set_add(const fault_set *set, const struct fault *fault);
 
-// Whether the fault can occur in these shaders.
+// Returns whether the fault can occur in these shaders.
 bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs);
 
-// Whether the fault is no mistake in these shaders, but a form that is accepted: a style, or one that their contract does not
-// demand otherwise.
+// Returns whether the fault is not a mistake in these shaders, but an accepted form: a style, or a form that their
+// contract does not forbid.
 bool fault_is_style(const struct fault *fault, const struct shader_interface *interface);
 
 // Expands an explanation or a correction: each {place} becomes the name that the shaders use.

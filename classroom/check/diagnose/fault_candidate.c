@@ -1,11 +1,12 @@
-// fault_candidate.c: measures sets of faults, scene by scene, as far as it is worth the pictures.
+// fault_candidate.c: measures sets of faults, scene by scene, as long as they are promising.
 #include "fault_candidate.h"
 
 #include <string.h>
 
 enum { IDLE_SCENES = 4 };
 
-static const double min_idle_gain = 0.001; // of one set over another with a fault less, in some scenes
+// the least gain of a set over the set without its last fault, in some scenes
+static const double min_idle_gain = 0.001;
 
 bool candidate_is_spoilt(const struct state *t, int index, const struct difference *d)
 {
@@ -59,8 +60,8 @@ bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_er
     return true;
 }
 
-// Whether a candidate explains no more than its parent, which lacks the last fault, in the first `count` scenes that
-// this fault changes: it is not worth pursuing.
+// Returns whether a candidate explains no more than its parent, which lacks the last fault, in the first `count` scenes
+// that this fault changes, so that it is not worth pursuing.
 static bool is_idle(const struct state *t, const struct candidate *c, const struct candidate *parent, const int *order,
                     int count)
 {
@@ -99,7 +100,7 @@ bool candidate_prepare(struct state *t, const fault_set *base, const struct faul
     *possible = true;
     if (!row->fit && !(row->factor > 0 && (base->factor > 0 || base->constant > 0)))
         return true;
-    *possible = base->factor == 0 && base->constant == 0; // one change of the exponent
+    *possible = base->factor == 0 && base->constant == 0; // the exponent can be changed only once
     if (!*possible || !row->fit)
         return true;
     bool ok = fault_measure_fit(&t->m, base, row, &out->exponent, error);
@@ -113,7 +114,7 @@ bool outcome_find_spoils(struct state *t, struct outcome *o, lam_error *error)
         return true;
     const fault_set none = {0};
     struct found_fault fault = o->fault;
-    if (fault.row->fit) // with another fault the number may be another
+    if (fault.row->fit) // the number may differ in combination with another fault
         fault.exponent = fault.row->fit == FIT_SMALLER ? 0.5f : 2;
     fault_set set = fault_measure_with(&none, &fault);
     for (int k = t->m.differ_count; k < t->m.scene_count && !o->spoils; k++) {

@@ -1,86 +1,88 @@
-// fault_candidate.h: sets of faults that the search tries, and the outcome of each fault alone. Within the search only.
+// fault_candidate.h: sets of faults that the search tries, and the result of each fault alone. Internal to the search.
 #ifndef FAULT_CANDIDATE_H
 #define FAULT_CANDIDATE_H
 
 #include "fault_measure.h"
 
-// As fractions of the difference without faults: the largest remainder of a scene, or of all, that counts as explained.
+// As fractions of the difference without faults: the largest remainder of a scene, or of all scenes, that counts as
+// explained.
 static const double max_ratio_explained = 0.125;
-// No limit of a mean difference.
+// Means that a mean difference has no limit.
 static const double no_limit = 1e9;
 
-// A set of faults, and the difference that it leaves.
+// A set of faults, and the remaining difference.
 struct candidate {
     struct found_fault members[MAX_FOUND_FAULTS];
     int count;
     fault_set set;
-    double mean;  // over all scenes
-    double score; // the remaining share of each scene's difference, on average: 1 is all, so small highlights count too
+    double mean; // over all scenes
+    // the mean remaining share of each scene's difference (1 is all of it), so that small highlights count too
+    double score;
     bool fits;
-    double parts[MAX_SCENES]; // of the score: the contribution of each scene
+    double parts[MAX_SCENES]; // the contribution of each scene to the score
 };
 
 // The effect of a single fault.
 struct outcome {
     struct found_fault fault;
-    double mean, score;       // as of a candidate
-    double parts[MAX_SCENES]; // likewise, of the scenes that differ
-    int order[MAX_SCENES];    // the scenes: differing ones first, the ones that it changes most in front
-    int changed_count;        // the number of differing scenes that it changes
-    uint32_t explained;       // the scenes that differ and that it explains
-    uint32_t exactly;         // the number of them that it explains up to rounding
+    double mean, score;       // same as in a candidate
+    double parts[MAX_SCENES]; // the same, for the scenes that differ
+    int order[MAX_SCENES];    // the scenes: differing ones first, starting with the most affected ones
+    int changed_count;        // number of differing scenes that it changes
+    uint32_t explained;       // the differing scenes that it explains
+    uint32_t exactly;         // number of scenes explained up to rounding
     double changes[MAX_SCENES];
-    int measured; // how many of the scenes that differ are measured
-    bool fits;    // all of these are within the tolerance
+    int measured; // number of measured differing scenes
+    bool fits;    // all measured scenes are within the tolerance
     bool applies, spoils_known, spoils;
 };
 
-// A search that runs.
+// The state of a search.
 struct state {
     struct fault_search *s;
     struct fault_measure m;
-    struct outcome *outcomes; // of each row of the table
-    // Each scene without faults, in the measured pixels. Of so few, more than the tolerated ones of a scene that passes may
-    // differ.
+    struct outcome *outcomes; // one for each row of the table
+    // Each scene without faults, in the measured pixels. Because these are few, more of them than the tolerance allows
+    // may differ in a scene that passes.
     struct difference without[MAX_SCENES];
 };
 
-// Whether a difference in a scene that passes without faults is one that the faults make.
+// Returns whether faults cause a difference in a scene that passes without faults.
 bool candidate_is_spoilt(const struct state *t, int index, const struct difference *d);
 
-// Whether the search has drawn as many pictures as it may.
+// Returns whether the search has reached its limit of pictures.
 bool search_is_spent(struct state *t);
 
-// The part of a candidate's score that comes from one scene. A scene that gets worse counts as one without faults: where
-// several faults act, one of them alone may well spoil it.
+// Returns the contribution of one scene to a candidate's score. A scene that gets worse counts as unchanged: one of
+// several faults alone may well spoil it.
 double candidate_score_of(const struct state *t, int index, const struct difference *d);
 
-// Measures a candidate in all scenes. Stops as soon as its mean exceeds its limit.
+// Measures a candidate in all scenes. It stops when the mean exceeds its limit.
 bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_error *error);
 
-// Measures a parent with one more fault, alone known as `o`. `useful`: its score is within the limit, and less than its
-// parent's.
+// Measures a parent with one more fault, whose result alone is `o`. Sets `useful` if its score is within the limit, and
+// below its parent's.
 bool candidate_try_child(struct state *t, const struct candidate *parent, const struct outcome *o, struct candidate *c,
                          double max_score, bool *useful, lam_error *error);
 
-// Makes the set of its members anew.
+// Recomputes the set from its members.
 void candidate_rebuild(struct candidate *c);
 
-// Completes a member to be added to a set. False: an error. `possible`: whether it can be added.
+// Completes a member to be added to a set. Returns false on error. Sets `possible` to whether it can be added.
 bool candidate_prepare(struct state *t, const fault_set *base, const struct fault *row, struct found_fault *out,
                        bool *possible, lam_error *error);
 
-// Whether a fault changes a scene that passes without it. A shader that has the fault would not pass there.
+// Finds whether a fault changes a scene that passes without it: a shader with the fault would not pass there.
 bool outcome_find_spoils(struct state *t, struct outcome *o, lam_error *error);
 
-// The outcome of a row of the table.
+// Returns the result of a row of the table.
 struct outcome *outcome_of(const struct state *t, const struct fault *row);
 
-// Together, faults that explain scenes of their own, the ones that explain most first. `all`: those must explain every
-// picture; otherwise, as many as explain further scenes and contradict none.
+// Combines faults that each explain scenes of their own, starting with those that explain most. With `all`, they must
+// explain every picture. Otherwise faults are added while they explain further scenes and contradict none.
 bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_error *error);
 
-// The beam search for sets of two, three and four faults.
+// Runs the beam search for sets of two, three and four faults.
 bool sets_try(struct state *t, struct candidate *best, lam_error *error);
 
 #endif

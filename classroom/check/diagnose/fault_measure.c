@@ -1,4 +1,4 @@
-// fault_measure.c: pictures with faults, from the cache or drawn, beside the shader's.
+// fault_measure.c: compares pictures with faults, cached or drawn, with the shader's pictures.
 #include "fault_measure.h"
 
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "linear.h"
 #include "shader_constants.h"
 
-// Copies a scene with the compared pixels that the fault shader draws. `memory`: 5 floats for each pixel of its
+// Copies a scene, reduced to the compared pixels that the fault shader draws. `memory`: 5 floats for each pixel of its
 // pictures.
 static void reduce_scene(const struct fault_measure *t, const struct scene_comparison *from,
                          struct scene_comparison *to, float *memory)
@@ -30,7 +30,7 @@ static void reduce_scene(const struct fault_measure *t, const struct scene_compa
     }
 }
 
-// Differing scenes first, by descending difference.
+// Orders scenes: differing ones first, by descending difference.
 static void order_scenes(struct fault_measure *t)
 {
     const struct scene_comparison *scenes = t->scenes;
@@ -51,8 +51,8 @@ static void order_scenes(struct fault_measure *t)
 
 bool fault_measure_open(struct fault_measure *t, struct fault_search *s, lam_error *error)
 {
-    // In large pictures, every second or third pixel of every second or third row tells as much: 35² to 48² of them. Not
-    // where a GPU may round corners to 1/16 of a pixel, which is more in a picture with fewer pixels.
+    // In large pictures, every second or third pixel of every second or third row is enough: 35² to 48² of them. This
+    // does not apply if a GPU may round corners to 1/16 of a pixel, which is more in a picture with fewer pixels.
     int stride = s->size >= 96 ? (s->size + 20) / 43 : s->size >= 70 ? 2 : 1;
     *t = (struct fault_measure){.s = s, .stride = s->painter->es_only ? 1 : stride};
     t->size = fault_shader_size(s->size, t->stride);
@@ -93,7 +93,7 @@ bool fault_measure_draw(struct fault_measure *t, int index, const fault_set *set
     return true;
 }
 
-// The samples of a scene drawn with faults. NULL: see `error`.
+// Returns the samples of a scene drawn with faults, or NULL and fills `error`.
 static const float *render_faults(struct fault_measure *t, int index, const fault_set *set, lam_error *error)
 {
     struct fault_search *s = t->s;
@@ -144,7 +144,7 @@ fault_set fault_measure_with(const fault_set *set, const struct found_fault *fau
 
 // --- fitting an exponent
 
-// The difference in a scene where the exponent is multiplied, or replaced, by 2^x.
+// Returns the difference in a scene if the exponent is multiplied, or replaced, by 2^x.
 static bool try_exponent(struct fault_measure *t, int scene, const fault_set *base, const struct fault *row,
                          double exponent, double *mean, lam_error *error)
 {
@@ -158,7 +158,7 @@ static bool try_exponent(struct fault_measure *t, int scene, const fault_set *ba
 
 static bool is_near(double a, double b) { return a > 0.98 * b && a < 1.02 * b; }
 
-// The number that somebody would have written: 2 for 1.99, 0.5 for 0.502, 0.3 for 0.299.
+// Returns the number that a person would write: 2 for 1.99, 0.5 for 0.502, 0.3 for 0.299.
 static double plain_number(double x)
 {
     double whole = x >= 1 ? (double)(long)(x + 0.5) : 1 / (double)(long)(1 / x + 0.5);
@@ -166,7 +166,7 @@ static double plain_number(double x)
     return is_near(whole, x) ? whole : is_near(tenth, x) ? tenth : x;
 }
 
-// The range of exponents, or of factors, as powers of 2.
+// Gets the range of exponents, or of factors, as powers of 2.
 static void range_of(const struct fault *row, double *from, double *to)
 {
     static const double ranges[][2] = {
@@ -175,14 +175,14 @@ static void range_of(const struct fault *row, double *from, double *to)
     *to = ranges[row->fit][1];
 }
 
-// The scene that differs and depends on the exponent most. -1: none does.
+// Finds the differing scene that depends most on the exponent. Returns −1 if there is none.
 static bool find_sensitive(struct fault_measure *t, const fault_set *base, const struct fault *row, int *scene,
                            lam_error *error)
 {
     double from, to, most = 1e-4;
     range_of(row, &from, &to);
     *scene = -1;
-    for (int k = 0, tried = 0; k < t->differ_count && tried < 4; k++) { // the four that differ most
+    for (int k = 0, tried = 0; k < t->differ_count && tried < 4; k++) { // only the four with the largest differences
         int i = t->order[k];
         double low = 1e9, high = 0;
         if (t->scenes[i].reference_scene.ks <= 0)

@@ -6,13 +6,13 @@
 
 struct fault_measure {
     struct fault_search *s;
-    struct scene_comparison *scenes; // of s, reduced to the pixels that are drawn
-    int stride, size;                // of the fault shader's pictures
-    struct fault_shader *shader;     // opened when it is first needed
+    struct scene_comparison *scenes; // the scenes of the search, reduced to the drawn pixels
+    int stride, size;                // the stride and size of the fault shader's pictures
+    struct fault_shader *shader;     // opened on first use
     float *pixels, *samples, *memory;
     int order[MAX_SCENES]; // the scenes to use: differing ones first, by descending difference
     int scene_count, differ_count;
-    uint64_t pictures; // measured so far
+    uint64_t pictures; // number measured so far
 };
 
 bool fault_measure_open(struct fault_measure *measure, struct fault_search *search, lam_error *error);
@@ -22,15 +22,15 @@ void fault_measure_close(struct fault_measure *measure);
 bool fault_measure_draw(struct fault_measure *measure, int scene, const fault_set *set, float *pixels,
                         lam_error *error);
 
-// The difference between the shader's picture of a scene and the one with these faults.
+// Measures the difference between the shader's picture of a scene and the picture with these faults.
 bool fault_measure_scene(struct fault_measure *measure, int scene, const fault_set *set, struct difference *difference,
                          lam_error *error);
 
-// The set with a fault as well, as it was fitted.
+// Returns the set with one more fitted fault.
 fault_set fault_measure_with(const fault_set *set, const struct found_fault *fault);
 
-// Finds the factor of the exponent, or the constant, of a fault in addition to `base`, by the scene whose highlight
-// depends on it most. 0: there is none.
+// Finds the factor of the exponent, or the constant, of a fault in addition to `base`, in the scene whose highlight
+// depends on it most. *exponent is 0 if there is none.
 bool fault_measure_fit(struct fault_measure *measure, const fault_set *base, const struct fault *row, float *exponent,
                        lam_error *error);
 

@@ -1,12 +1,13 @@
-// fault_search.c: the search for the faults that explain the pictures.
+// fault_search.c: searches for the faults that explain the pictures.
 //
-// 1. Each fault alone, up to the first scene that it does not explain. 2. Together, faults that explain scenes of their
-// own. 3. A beam search: each of the best few with one more fault, and so on. 4. If no set explains every picture: the
-// faults that explain some, and spoil none.
+// The search has four steps. First it tries each fault alone, up to the first scene that the fault does not explain.
+// Then it tries combinations of faults that each explain different scenes. The third step is a beam search, which adds
+// one more fault to each of the best few sets. If no set explains every picture, the last step reports the faults that
+// explain some pictures and spoil none.
 //
-// Nearly all of the time goes into drawing, so few pictures are drawn of hopeless sets: the added fault must gain in
-// the first of the scenes that it changes (is_idle). The search ends at its limit of pictures; they are counted whether
-// they come from the cache or not, so that the result does not depend on it.
+// Nearly all of the time is spent drawing, so hopeless sets are abandoned after few pictures: an added fault must
+// improve the first of the scenes that it changes (is_idle). The search ends at its limit of pictures; cached pictures
+// count too, so that the result does not depend on the cache.
 #include "fault_candidate.h"
 
 #include <stdlib.h>
@@ -14,10 +15,9 @@
 
 #include "fail.h"
 
-// As mean differences: the rounding error of an exact explanation in one scene; and the difference between the same
-// pictures.
+// Mean differences: the rounding error of an exact explanation in one scene, and the difference between equal pictures.
 static const double max_exact_scene = 1e-4, same_mean = 1e-5;
-// The least change of a scene's mean difference, by one fault alone, that counts as a change of the scene.
+// The smallest change of a scene's mean difference, by one fault alone, that counts as a change.
 static const double min_change = 1e-6;
 
 // --- one fault
@@ -27,7 +27,7 @@ static bool explains(const struct scene_comparison *scene, const struct differen
     return d->fits && d->mean <= max_ratio_explained * scene->mean_difference;
 }
 
-// The scenes without faults.
+// Measures the scenes without faults.
 static bool measure_without(struct state *t, lam_error *error)
 {
     const fault_set none = {0};
@@ -37,7 +37,7 @@ static bool measure_without(struct state *t, lam_error *error)
     return ok;
 }
 
-// Orders the scenes for sets with a fault: the ones that it changes most first.
+// Orders the scenes for sets with a fault: the most affected ones first.
 static void order_by_change(const struct state *t, struct outcome *o)
 {
     memcpy(o->order, t->m.order, sizeof o->order);
@@ -51,7 +51,8 @@ static void order_by_change(const struct state *t, struct outcome *o)
     }
 }
 
-// Measures a fault alone in the scenes that differ and are not measured yet. `all`: also after one that it does not explain.
+// Measures a fault alone in the differing scenes that are not measured yet. With `all`, continues after a scene that it
+// does not explain.
 static bool measure_outcome(struct state *t, struct outcome *o, bool all, lam_error *error)
 {
     const fault_set none = {0};
@@ -75,7 +76,7 @@ static bool measure_outcome(struct state *t, struct outcome *o, bool all, lam_er
     return true;
 }
 
-// Tries each fault of the table alone, as long as it explains one scene after the other. `best` is the best that explains
+// Tries each fault of the table alone, as long as it explains each scene. `best` is the best one that explains
 // everything.
 static bool try_each(struct state *t, struct candidate *best, lam_error *error)
 {
@@ -85,8 +86,8 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
         return false;
     for (int m = 0; m < fault_count && !search_is_spent(t); m++) {
         struct outcome *o = &t->outcomes[m];
-        bool exact = best->fits && best->mean <= same_mean; // a number that is fitted is no better
-        // An input without a value takes a term away just as well, and is reported already.
+        bool exact = best->fits && best->mean <= same_mean; // fitting a number cannot improve it
+        // An input without a value also removes a term, and is already reported.
         o->applies = fault_applies(&faults[m], s->interface, s->frame, s->reflection, s->needs) &&
                      !(faults[m].whole_term && s->has_unset_names) && !(faults[m].fit && exact);
         if (o->applies && !candidate_prepare(t, &none, &faults[m], &o->fault, &o->applies, error))
@@ -102,7 +103,7 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
             continue;
         if (!candidate_try(t, &c, no_limit, error))
             return false;
-        // Of faults that draw the same pictures the first in the table is found.
+        // Of faults with equal pictures, the first in the table is used.
         if (c.fits && c.mean <= max_ratio_explained * s->before &&
             (!best->fits || c.mean < 0.5 * best->mean - same_mean))
             *best = c;
@@ -110,7 +111,7 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
     return true;
 }
 
-// Measures each fault alone in the rest of the scenes, for sets of them.
+// Measures each fault alone in the remaining scenes, for sets.
 static bool complete_each(struct state *t, lam_error *error)
 {
     for (int m = 0; m < fault_count && !search_is_spent(t); m++) {
@@ -122,7 +123,8 @@ static bool complete_each(struct state *t, lam_error *error)
     return true;
 }
 
-// Accepted forms that a contract may demand otherwise are frequent together: each set of them is tried before any mistake.
+// Tries each set of accepted forms that a contract may forbid, before any mistake, because these forms often occur
+// together.
 static bool try_forms(struct state *t, struct candidate *best, lam_error *error)
 {
     struct found_fault forms[MAX_FOUND_FAULTS];
@@ -148,7 +150,7 @@ static bool try_forms(struct state *t, struct candidate *best, lam_error *error)
 
 // --- the result
 
-// Finds the faults that draw the same pictures in place of member `i` of a complete explanation.
+// Finds the faults that draw the same pictures if they replace member `i` of a complete explanation.
 static bool find_also(struct state *t, const struct candidate *best, int i, struct found_fault *found, lam_error *error)
 {
     for (int m = 0; m < fault_count && found->also_count < MAX_ALSO; m++) {
@@ -172,7 +174,7 @@ static bool find_also(struct state *t, const struct candidate *best, int i, stru
     return true;
 }
 
-// Stores a candidate as the result; the fault that explains most comes first.
+// Stores a candidate as the result; the fault that explains most is first.
 static bool store(struct state *t, struct candidate *c, lam_error *error)
 {
     struct fault_search *s = t->s;

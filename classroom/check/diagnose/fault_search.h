@@ -11,8 +11,8 @@ enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32, MAX_ALSO = 3 };
 // A fault of the table, with the result of the search.
 struct found_fault {
     const struct fault *row;
-    float exponent;                     // fitted: the factor of the exponent, or the constant; 0: nothing is fitted
-    double after;                       // mean difference over all scenes with this fault and those before it
+    float exponent;                     // fitted factor of the exponent, or constant; 0 if nothing was fitted
+    double after;                       // mean difference over all scenes with this fault and the previous ones
     const struct fault *also[MAX_ALSO]; // faults that draw the same pictures
     int also_count;
 };
@@ -25,34 +25,34 @@ struct fault_search {
     lam_reflection reflection;
     struct scene_comparison *scenes;
     int scene_count, size;
-    int light_capacity;   // of the shaders under test
-    unsigned expectation; // distinguishes the scenes' expected looks (render_key)
+    int light_capacity;   // the number of lights in the tested shaders
+    unsigned expectation; // distinguishes the expected appearance of scenes (render_key)
     double tolerance;
-    unsigned needs; // of all scenes together
-    // Some names have no value: only a single fault that explains everything counts.
+    unsigned needs; // the needs of all scenes together
+    // Some names have no value, so only a single fault that explains everything is accepted.
     bool has_unset_names;
-    uint64_t max_pictures; // that it may draw, until it looks for no further sets
+    uint64_t max_pictures; // after this many pictures, no further sets are tried
     double before;         // mean difference without faults, over the scenes that are not spoilt
     // Results: the faults, the one that explains most first, and whether they explain everything.
     struct found_fault found[MAX_FOUND_FAULTS];
     int count;
     bool certain;
-    uint64_t tried; // faults and sets of them
-    bool stopped;   // at max_pictures
-    // Styles of the table that the shader has, which are no mistakes.
+    uint64_t tried; // number of faults and sets
+    bool stopped;   // whether max_pictures was reached
+    // Styles of the table that the shader uses, which are not mistakes.
     const struct fault *styles[MAX_FOUND_FAULTS];
     int style_count;
-    // For each scene, the found fault that explains it alone. NULL: none.
+    // For each scene, the found fault that explains it alone, or NULL.
     const struct fault **scene_faults;
 };
 
-// Searches for the fewest faults that explain every picture, and if there are none, for faults that explain some of
-// them. A name is found only if pictures support it: the fault alone explains at least one scene, and spoils none that
-// passes; or it is needed in a set that explains everything exactly. The caller allocates `scene_faults`. A shader that
-// has only a style is found `certain`, with a count of 0.
+// Searches for the fewest faults that explain every picture and, if there are none, for faults that explain some
+// pictures. A fault is only reported if pictures support it: it alone explains at least one scene and spoils none that
+// passes, or it is needed in a set that explains everything exactly. The caller allocates `scene_faults`. A shader that
+// only differs by a style gives `certain` with a count of 0.
 bool fault_search_run(struct fault_search *search, lam_error *error);
 
-// Draws a scene as a shader of search->styles does. `pixels`: size² × 4 floats.
+// Draws a scene in the styles of search->styles. `pixels` has size² × 4 floats.
 bool fault_search_draw_style(struct fault_search *search, int scene, float *pixels, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// fault_sets.c: the search for several faults that explain the pictures together.
+// fault_sets.c: searches for several faults that explain the pictures together.
 #include "fault_candidate.h"
 
 #include <stdlib.h>
@@ -9,11 +9,12 @@
 enum { BEAM = 6 };
 
 // As fractions of the difference without faults:
-static const double max_score_for_a_third = 0.75; // may remain after two faults for a search of three to be worthwhile
-static const double min_gain = 0.03;              // each fault more must explain
-static const double max_rival = 1.25;             // times as much a rival may leave over all scenes
+// the most that may remain after two faults to make a search for three worthwhile
+static const double max_score_for_a_third = 0.75;
+static const double min_gain = 0.03;  // the least that each further fault must explain
+static const double max_rival = 1.25; // a rival may leave this many times as much over all scenes
 static const double max_exact =
-    2e-4; // the remainder of an exact explanation by rounding, as a mean difference over all scenes
+    2e-4; // the rounding error of an exact explanation, as a mean difference over all scenes
 
 static int count_bits(uint32_t bits)
 {
@@ -25,7 +26,7 @@ static int count_bits(uint32_t bits)
 
 // --- several faults
 
-// Removes unnecessary faults, and checks the rest: each name is supported by a scene that it explains alone, or the
+// Removes unnecessary faults, and checks the others: each is supported by a scene that it explains alone, or the
 // explanation is exact.
 static bool reduce(struct state *t, struct candidate *c, lam_error *error)
 {
@@ -51,7 +52,8 @@ static bool reduce(struct state *t, struct candidate *c, lam_error *error)
     return true;
 }
 
-// Whether a fault is the one that explains some scene: no other explains it and leaves about as little over all scenes.
+// Returns whether a fault is the only explanation of some scene: no other fault explains it and leaves about as little
+// over all scenes.
 static bool is_the_one(struct state *t, const struct outcome *o, lam_error *error, bool *ok)
 {
     for (int k = 0; k < t->m.differ_count; k++) {
@@ -109,10 +111,10 @@ bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_erro
 
 static bool is_better(const struct candidate *a, const struct candidate *b)
 {
-    return a->fits != b->fits ? a->fits : a->score < b->score - 1e-6; // equal candidates keep the table's order
+    return a->fits != b->fits ? a->fits : a->score < b->score - 1e-6; // equal candidates keep the order of the table
 }
 
-// Inserts a candidate into the best BEAM, which are sorted.
+// Inserts a candidate into the best BEAM candidates, which are sorted.
 static void beam_insert(struct candidate beam[BEAM], int *count, const struct candidate *c)
 {
     for (int i = 0; i < *count; i++)
@@ -170,7 +172,7 @@ bool sets_try(struct state *t, struct candidate *best, lam_error *error)
         struct candidate c = {.members = {o->fault}, .count = 1, .mean = o->mean, .score = o->score};
         memcpy(c.parts, o->parts, sizeof c.parts);
         candidate_rebuild(&c);
-        // One that spoils a scene is no part of an explanation, and takes no place of one that may be.
+        // A candidate that spoils a scene is not part of an explanation, and must not displace another.
         bool near = beam_count < BEAM || is_better(&c, &beam[BEAM - 1]);
         if (near && !outcome_find_spoils(t, o, error))
             return false;
@@ -189,7 +191,7 @@ bool sets_try(struct state *t, struct candidate *best, lam_error *error)
             if (next[i].fits)
                 *best = next[i];
         }
-        // One more fault must explain more.
+        // A further fault must explain more.
         if (best->fits || count == 0 || next[0].score > before - min_gain || next[0].score > max_score_for_a_third)
             break;
         memcpy(beam, next, sizeof beam);

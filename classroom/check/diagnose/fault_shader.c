@@ -13,8 +13,8 @@
 
 enum switch_group { GROUP_VECTORS, GROUP_OUTPUT, GROUP_TERMS, GROUP_COUNT };
 
-// The variant of a program: constants in its text, so that it computes only what a picture needs. A software driver
-// computes both sides of every branch.
+// The variant of a program. Its constants are part of the text, so that it computes only the parts that a picture
+// needs; a software driver would compute both sides of every branch.
 struct specialization {
     bool in_vertex, physical, phong, products, ambient_by_light, flat, two_sided;
     int masking, diffuse_share, tone, encoding;
@@ -22,7 +22,7 @@ struct specialization {
     bool encoded_maps, tints_ambient;
     int lamps;
     bool spots;               // a light may have a cone
-    bool groups[GROUP_COUNT]; // switches of these may be on
+    bool groups[GROUP_COUNT]; // whether switches of these groups may be on
 };
 
 struct program {
@@ -35,17 +35,17 @@ enum { MAX_VALUES = 64, MAX_NUMBERS = 512 };
 
 struct fault_shader {
     struct place place;
-    struct program programs[MAX_PROGRAMS]; // the last used first
+    struct program programs[MAX_PROGRAMS]; // most recently used first
     int program_count;
-    const lam_check_program *program; // the one in use
+    const lam_check_program *program; // the current program
     int size, stride;
-    bool rests; // its context is not current
-    // The values of its uniforms in the picture that is drawn.
+    bool rests; // the program's context is not current
+    // The uniform values of the current picture.
     lam_check_value values[MAX_VALUES];
     int value_count;
     float numbers[MAX_NUMBERS];
     int number_count;
-    bool full; // a value found no room
+    bool full; // a value did not fit
 };
 
 static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
@@ -59,7 +59,7 @@ static enum switch_group group_of(int bit)
     return bit <= BIT_MEAN_DISTANCE ? GROUP_VECTORS : bit <= BIT_USE_ACES ? GROUP_OUTPUT : GROUP_TERMS;
 }
 
-// Whether a switch can be on in a program: for a shader with an exponent, or with metalness and roughness.
+// Returns whether a switch can be on in a program: for a shader with an exponent, or with metalness and roughness.
 static bool is_possible(const struct specialization *made_for, int bit)
 {
     if (!made_for->groups[group_of(bit)])
@@ -106,7 +106,7 @@ static size_t write_constants(const struct specialization *s, bool es, char *out
     return at;
 }
 
-// The text of a stage, from malloc.
+// Returns the text of a stage, from malloc.
 static char *write_text(const struct specialization *made_for, bool es, bool fragment, lam_error *error)
 {
     const char *body = fragment ? text_fault_fragment_glsl : text_fault_vertex_glsl;
@@ -179,7 +179,8 @@ static lam_check_program *make_program(struct fault_shader *m, const struct spec
     return NULL;
 }
 
-// Makes the program for these constants the one in use; of more than MAX_PROGRAMS the one that was not used longest goes.
+// Makes the program for these constants current. If there are more than MAX_PROGRAMS, the least recently used one is
+// freed.
 static bool build(struct fault_shader *m, const struct specialization *made_for, lam_error *error)
 {
     int at = 0;
@@ -227,20 +228,20 @@ void fault_shader_close(struct fault_shader *m)
         return;
     lam_error unused;
     if (m->rests)
-        fault_shader_wake(m, &unused); // a place that does not wake is closed at rest
+        fault_shader_wake(m, &unused); // a context that cannot be woken is closed at rest
     for (int i = 0; i < m->program_count; i++)
         forget(m, m->programs[i].built);
     place_close(&m->place);
     free(m);
 }
 
-// Gives a uniform its values, `each` floats for each element, as far as the program reads it.
+// Sets the values of a uniform, `each` floats for each element, as far as the program reads it.
 static void set(struct fault_shader *m, const char *name, int count, int each, const float *numbers)
 {
     int input = place_input(m->program, name, false);
     if (input < 0)
         return;
-    if (count > m->program->inputs[input].elements) // a compiler may shorten a list
+    if (count > m->program->inputs[input].elements) // a compiler may shorten an array
         count = m->program->inputs[input].elements;
     m->full = m->full || m->value_count == MAX_VALUES || m->number_count + count * each > MAX_NUMBERS;
     if (m->full)
@@ -265,7 +266,7 @@ static void set_lamp(struct fault_shader *m, int i, const struct shader_interfac
 {
     const struct reference_light *light = &reference_scene->lights[i];
     lam_light_frame space = interface->space;
-    // A direction comes with unit length, a position whose w is 0 does not.
+    // A direction has unit length, but a position whose w is 0 does not.
     bool unit = light->type == LAM_LIGHT_DIRECTIONAL && !shader_interface_uses(interface, SEMANTIC_LIGHT_POSITION) &&
                 !shader_interface_uses(interface, SEMANTIC_LIGHT_X);
     enum uniform_semantic position = unit ? SEMANTIC_LIGHT_DIRECTION : SEMANTIC_LIGHT_POSITION;
@@ -296,7 +297,7 @@ static void set_color(struct fault_shader *m, const char *name, lam_rgb c, float
     set(m, name, 1, 3, (float[]){c.r * k, c.g * k, c.b * k});
 }
 
-// The factors of a colour, and the texel of its map.
+// Sets the factors of a colour, and the texel of its map.
 static void set_map(struct fault_shader *m, const char *factor, const char *texel, enum map_number number, lam_rgb c,
                     enum uniform_semantic map, const struct reference_scene *s)
 {
@@ -358,7 +359,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     lam_light_frame space = interface->space;
     const struct {
         const char *name;
-        enum uniform_semantic eye, world; // where the lighting is in eye space, and in world space
+        enum uniform_semantic eye, world; // the semantics for lighting in eye space and in world space
     } values[] = {{"to_lighting", SEMANTIC_MODEL_VIEW, SEMANTIC_MODEL},
                   {"to_clip", SEMANTIC_PROJECTION, SEMANTIC_VIEW_PROJECTION},
                   {"to_eye_space", SEMANTIC_NONE, SEMANTIC_VIEW},
@@ -393,7 +394,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_color(m, "bare_ka", reference_scene->ambient, 1);
     set_color(m, "bare_kd", reference_scene->diffuse, 1);
     set_color(m, "bare_ks", reference_scene->specular, 1);
-    // In contracts with separate strengths and colours, shaders confuse one of them; in the others, the products.
+    // In contracts with separate strengths and colours, one of the two is confused; in the others, the products are.
     bool apart = interface->contract->material_strengths;
     set_color(m, "kd_with_ks", apart ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);
     set_color(m, "ks_with_kd", apart ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);
@@ -408,7 +409,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_number(m, "metallic", reference_scene->metallic);
     set_number(m, "roughness", reference_scene->roughness);
     set_maps(m, reference_scene);
-    // Nothing of a closed mesh's inside is seen; upside down, its front faces turn the other way.
+    // The inside of a closed mesh is not visible; upside down, its front faces are reversed.
     bool closed = reference_scene->mesh == MESH_SPHERE || reference_scene->mesh == MESH_COARSE;
     if (m->full)
         return fail(error, LAM_LIMIT, "check: more than %d values for its own shader", MAX_VALUES);

@@ -1,4 +1,4 @@
-// fault_shader.h: draws a reference scene with faults switched on, by a painter.
+// fault_shader.h: draws a reference scene with faults switched on, with a painter.
 #ifndef FAULT_SHADER_H
 #define FAULT_SHADER_H
 
@@ -6,15 +6,15 @@
 
 struct fault_shader;
 
-// Draws every `stride`-th pixel of every `stride`-th row of pictures of size² pixels, from the lower left one, thus
-// pictures of fault_shader_size(size, stride)² pixels.
+// Opens a fault shader for every `stride`-th pixel of every `stride`-th row of pictures of size² pixels, from the lower
+// left one: pictures of fault_shader_size(size, stride)² pixels.
 struct fault_shader *fault_shader_open(const lam_check_painter *painter, int size, int stride, lam_error *error);
-void fault_shader_close(struct fault_shader *shader); // NULL is fine; it may be at rest
+void fault_shader_close(struct fault_shader *shader); // NULL is allowed; it may be at rest
 
-// Whether it draws such pictures.
+// Returns whether it draws such pictures.
 bool fault_shader_draws(const struct fault_shader *shader, int size, int stride);
 
-// An open shader is current on the thread that opened it. One at rest may be woken on another.
+// An open shader is current on the thread that opened it. A resting one may be woken on another thread.
 void fault_shader_rest(struct fault_shader *shader);
 bool fault_shader_wake(struct fault_shader *shader, lam_error *error);
 

@@ -78,14 +78,14 @@ static bool is_wide(const struct line *line, enum uniform_semantic semantic) // 
 
 static bool is_world(const struct line *line) { return line->interface->space == LAM_FRAME_WORLD; }
 
-// The matrix from the model's space to the space of the lighting.
+// Returns the matrix from the model's space to the space of the lighting.
 static const char *to_lighting(const struct line *line)
 {
     const char *name = own_name(line, is_world(line) ? SEMANTIC_MODEL : SEMANTIC_MODEL_VIEW);
     return name ? name : is_world(line) ? "model" : "gl_ModelViewMatrix";
 }
 
-// The matrices from there to clip space.
+// Writes the matrices from there to clip space.
 static void put_to_clip(struct line *line)
 {
     const char *projection = own_name(line, SEMANTIC_PROJECTION), *view = own_name(line, SEMANTIC_VIEW);
@@ -94,7 +94,7 @@ static void put_to_clip(struct line *line)
         put(line, " * %s", view ? view : "view");
 }
 
-// The light in the space of the lighting as a vec3: its position, or the unit direction to it.
+// Writes the light in the space of the lighting as a vec3: its position, or the unit direction to it.
 static void put_light(struct line *line, bool direction)
 {
     const char *name = own_name(line, SEMANTIC_LIGHT_POSITION), *unit = own_name(line, SEMANTIC_LIGHT_DIRECTION),
@@ -114,7 +114,7 @@ static void put_light(struct line *line, bool direction)
         put(line, "%s%s%s%s", open, name ? name : "light", is_wide(line, SEMANTIC_LIGHT_POSITION) ? ".xyz" : "", close);
 }
 
-// From the point P to the eye.
+// Writes the vector from the point P to the eye.
 static void put_to_eye(struct line *line)
 {
     const char *eye = own_name(line, SEMANTIC_EYE_POSITION);
@@ -124,7 +124,7 @@ static void put_to_eye(struct line *line)
         put(line, "-P");
 }
 
-// The space that a normal matrix of the contract leads to.
+// Returns the target space of a normal matrix of the contract.
 static lam_light_frame normal_space(const struct line *line, const char *name)
 {
     const struct contract_name *row = contract_find(line->interface->contract, name, false, NULL);
@@ -143,7 +143,7 @@ static void put_normal_matrix(struct line *line)
         put(line, "transpose(inverse(mat3(%s)))", to_lighting(line));
 }
 
-// The exponent: its name, or the number that the shader has in place of one.
+// Writes the exponent: its name, or the number that the shader has instead.
 static void put_shininess(struct line *line)
 {
     const struct shader_interface *r = line->interface;
@@ -154,7 +154,7 @@ static void put_shininess(struct line *line)
         put(line, "%.1f", r->defaults.shininess.given ? (double)r->defaults.shininess.value : 64.0);
 }
 
-// The name of a material's colour that the shaders declare: the course's for this term, else the colour of the surface.
+// Returns the declared name of a material's colour: the course's name for this term, or else the colour of the surface.
 static const char *term_name(const struct line *line, enum uniform_semantic semantic)
 {
     const struct shader_interface *r = line->interface;
@@ -166,7 +166,7 @@ static const char *term_name(const struct line *line, enum uniform_semantic sema
     return name && !declared && colored ? color : name;
 }
 
-// A map of metalness or roughness: one map for both, or a separate one.
+// Returns a map of metalness or roughness: one map for both, or a separate one.
 static const char *data_map(const struct line *line, enum uniform_semantic alone)
 {
     const char *name =
@@ -174,7 +174,7 @@ static const char *data_map(const struct line *line, enum uniform_semantic alone
     return name ? name : "metallicRoughnessMap";
 }
 
-// The texture coordinate in the fragment shader.
+// Returns the texture coordinate in the fragment shader.
 static const char *texture_coordinate(const struct line *line)
 {
     const struct declarations *d = &line->interface->fragment;

@@ -1,4 +1,4 @@
-// render_cache.c: a hash table of samples in an arena of bounded size, and a list of fault shaders.
+// render_cache.c: a hash table of samples in an arena of limited size, and a list of fault shaders.
 #include "render_cache.h"
 
 #include <pthread.h>
@@ -99,7 +99,7 @@ static const struct cached_render *find(const lam_check_cache *cache, const stru
     return p;
 }
 
-// Entries never change and never go away, so their samples can be read without the lock.
+// Entries are never changed or removed, so their samples can be read without the lock.
 const float *render_cache_find(lam_check_cache *cache, const struct render_key *key)
 {
     if (!cache)

@@ -1,9 +1,9 @@
-// scene_comparison.c: which pixels of two pictures are compared, and how.
+// scene_comparison.c: selects the pixels of two pictures to compare, and compares them.
 #include "scene_comparison.h"
 
 static float clamped(float x) { return x > 0 ? (x < 1 ? x : 1) : 0; } // NaN: 0
 
-// Blending uses alpha before anything clamps it, so values above 1 count.
+// Blending uses alpha before it is clamped, so values above 1 matter.
 static float bounded(float x) { return x > 0 ? (x < 4 ? x : 4) : 0; }
 
 static double cosine(const float *a, const float *b)

@@ -1,22 +1,22 @@
-// scene_comparison.h: the difference between the shader's picture of a scene and another.
+// scene_comparison.h: measures the difference between the shader's picture of a scene and another picture.
 #ifndef SCENE_COMPARISON_H
 #define SCENE_COMPARISON_H
 
 #include "reference_scene.h"
 
-// The comparison of one scene. A pixel is compared where its 3×3 neighbours are all covered in the reference.
+// The comparison of one scene. A pixel is compared if its 3×3 neighbours are all covered in the reference.
 struct scene_comparison {
-    const struct reference_scene *row;      // of the table
-    struct reference_scene reference_scene; // as it is expected to look
+    const struct reference_scene *row;      // the row of the table
+    struct reference_scene reference_scene; // the expected scene
     const float *theirs;                    // straight RGBA
     float *reference;                       // straight alpha
     uint32_t *inside;                       // indices of the compared pixels
     size_t inside_count;
-    float *samples; // of `theirs` (scene_comparison_sample)
+    float *samples; // the samples of `theirs` (scene_comparison_sample)
     bool alpha;     // alpha is compared too
     double mean_difference;
     bool passes;
-    bool spoilt; // by NaN: of no use for a search
+    bool spoilt; // contains NaN and is useless for a search
 };
 
 struct difference {
@@ -28,17 +28,18 @@ struct difference {
 // Finds the pixels to compare. The caller allocates `inside`, of size² elements.
 void scene_comparison_find_inside(struct scene_comparison *scene, int size);
 
-// Leaves out those where the surface turns by more than 26 degrees to a neighbour. `normals`: RGBA of size² pixels.
+// Excludes pixels for which the surface normal differs by more than 26 degrees from a neighbour's. `normals`: RGBA of
+// size² pixels.
 void scene_comparison_leave_out_turns(struct scene_comparison *scene, const float *normals, int size);
 
-// Applies the tone curve of a shader printed by `lambent shader`. AUTO: none.
+// Applies the tone curve of a shader printed by `lambent shader`. AUTO applies none.
 void scene_comparison_apply_tone(lam_tone tone, float *pixels, size_t count);
 
 // Copies the compared pixels of a picture to `out`: red, green, blue (clamped to 0…1), and alpha if it is compared.
 size_t scene_comparison_sample_count(const struct scene_comparison *scene);
 void scene_comparison_sample(const struct scene_comparison *scene, const float *picture, float *out);
 
-// The difference between scene->samples and another picture's.
+// Returns the difference between scene->samples and another picture's samples.
 struct difference scene_comparison_difference(const struct scene_comparison *scene, const float *other,
                                               double tolerance);
 

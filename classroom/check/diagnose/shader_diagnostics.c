@@ -1,4 +1,4 @@
-// shader_diagnostics.c: diagnostics of the compiler's log and of the names that the contract does not know.
+// shader_diagnostics.c: diagnostics from the compiler's log, and about names that the contract does not know.
 #include "shader_diagnostics.h"
 
 #include <ctype.h>
@@ -9,8 +9,8 @@
 
 enum { MAX_LOG_LINES = 8 };
 
-// Parses "0:12(5): error: …" (Mesa), "0(12) : error …" (NVIDIA) or "ERROR: 0:12: …" (others). Returns the line number,
-// 0: none, and the beginning of the message.
+// Parses "0:12(5): error: …" (Mesa), "0(12) : error …" (NVIDIA) or "ERROR: 0:12: …" (others). Returns the line number
+// (0 if there is none) and the start of the message.
 static int line_of(const char *text, const char **words)
 {
     int string = 0, line = 0, used = 0;
@@ -28,21 +28,21 @@ static int line_of(const char *text, const char **words)
     return 0;
 }
 
-// Mesa's errors about the operands of an expression. If its line has an error before, they follow from it.
+// Recognises Mesa's errors about the operands of an expression, which follow from an earlier error in the same line.
 static bool is_about_operands(const char *words)
 {
     return strstr(words, "operands to arithmetic operators") || strstr(words, "type mismatch");
 }
 
-// Lines that do not say why a shader is refused: warnings, the overloads that Mesa lists, and the errors that follow
-// from one reported before.
+// Recognises lines that do not explain the failure: warnings, the overloads that Mesa lists, and errors that follow
+// from an earlier one.
 static bool is_noise(const char *words)
 {
     return strncmp(words, "warning", 7) == 0 || strncmp(words, "error:    ", 10) == 0 || strstr(words, "(error") ||
            strstr(words, ", error") || strstr(words, "of type error");
 }
 
-// The messages of one log, each with the hints that explain it. `d` NULL: the linker's.
+// Adds the messages of one log, each with the hints that explain it. `d` NULL: the linker's log.
 static void add_log(struct diagnostics *diagnostics, const char *text, const struct declarations *d, const char *file)
 {
     char log[sizeof((struct draw_result *)0)->log];
@@ -78,7 +78,7 @@ void diagnostics_add_refusal(struct diagnostics *diagnostics, const struct draw_
         compiler_hints_for_link(diagnostics, interface, params);
         return;
     }
-    // A generated vertex shader is refused only because of the fragment shader's declarations.
+    // A generated vertex shader fails only because of the fragment shader's declarations.
     if (drawn->refused_vertex && (params->vertex || !drawn->refused_fragment)) {
         add_log(diagnostics, drawn->log, &interface->vertex, params->vertex_name);
         compiler_hints_for_text(diagnostics, &interface->vertex, params->vertex_name, true);
@@ -109,7 +109,7 @@ static void report_unknown(struct diagnostics *diagnostics, const struct shader_
                         kind, name, r->contract->name);
 }
 
-// Reports a uniform that is a matrix or vector where the contract has the other.
+// Reports a uniform that is a matrix or vector if the contract has the other type.
 static void report_type_mismatch(struct diagnostics *diagnostics, const struct shader_interface *r,
                                  const struct declaration *d, const char *file)
 {
@@ -122,8 +122,8 @@ static void report_type_mismatch(struct diagnostics *diagnostics, const struct s
                         d->type, d->name, known->type, d->name);
 }
 
-// Whether a declared name is active: the driver reports "lights[].a" as "lights[0].a", and a block's member
-// as "Block.a".
+// Returns whether a declared name is active: the driver reports "lights[].a" as "lights[0].a", and a block's member as
+// "Block.a".
 static bool is_active(const struct draw_result *drawn, const char *declared)
 {
     for (int i = 0; i < drawn->unknown_count; i++) {
@@ -152,13 +152,13 @@ void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_re
             if (d->kind != DECLARED_UNIFORM && !attribute)
                 continue;
             if (!contract_find(r->contract, d->name, attribute, NULL)) {
-                // An unknown name that nothing depends on does no harm.
+                // An unknown name without any effect is harmless.
                 if (drawn->state != DRAWN_PICTURES || is_active(drawn, d->name))
                     report_unknown(diagnostics, r, d->name, attribute ? "attribute" : "uniform", file, d->line);
             } else if (!attribute)
                 report_type_mismatch(diagnostics, r, d, file);
         }
-    for (int i = 0; i < drawn->unknown_count; i++) { // active, but not in the text: made by macros
+    for (int i = 0; i < drawn->unknown_count; i++) { // active, but missing in the text: made by macros
         bool seen = false;
         for (int s = 0; s < 2; s++)
             for (int k = 0; k < sides[s]->count; k++) {

@@ -1,4 +1,5 @@
-// shader_diagnostics.h: diagnostics of shaders that were refused, and of names and types that do not fit the contract.
+// shader_diagnostics.h: diagnostics of shaders that do not compile, and of names and types that do not match the
+// contract.
 #ifndef SHADER_DIAGNOSTICS_H
 #define SHADER_DIAGNOSTICS_H
 
@@ -6,11 +7,11 @@
 #include "draw_request.h"
 #include "shader_interface.h"
 
-// The driver's log of a refused shader, line by line, with hints for the messages that are known.
+// Adds the driver's log of a shader that does not compile, line by line, with hints for known messages.
 void diagnostics_add_refusal(struct diagnostics *diagnostics, const struct draw_result *result,
                              const struct shader_interface *interface, const lam_check_params *params);
 
-// Names that the contract does not know and types that do not fit, whether or not the shaders compile.
+// Reports unknown names and mismatched types, whether or not the shaders compile.
 void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_result *result,
                            const struct shader_interface *interface, const lam_check_params *params);
 

@@ -51,7 +51,7 @@ static void leave(struct visible_names *out, int depth)
 
 void visible_names_at(const struct declarations *d, int at, bool functions, struct visible_names *out)
 {
-    int end = at < d->word_count ? at : d->word_count; // of the last statement that is complete before `at`
+    int end = at < d->word_count ? at : d->word_count; // end of the last complete statement before `at`
     while (end > 0 && !is(d, end - 1, ";") && !is(d, end - 1, "{") && !is(d, end - 1, "}"))
         end--;
     int parentheses = 0;
@@ -68,7 +68,8 @@ void visible_names_at(const struct declarations *d, int at, bool functions, stru
             declares = false;
         if (!is_identifier(d, i) || is_keyword(d, i) || is(d, i, "main"))
             continue;
-        bool instance = is(d, i - 1, "}") && (is(d, i + 1, ";") || is(d, i + 1, "[")); // of a struct or a block
+        // the instance name of a struct or a block
+        bool instance = is(d, i - 1, "}") && (is(d, i + 1, ";") || is(d, i + 1, "["));
         bool typed = instance || (is_identifier(d, i - 1) && !is_keyword(d, i - 1) && !is(d, i - 2, "struct"));
         bool function = typed && is(d, i + 1, "(") && w->depth == 0;
         bool listed = declares && parentheses == 0 && is(d, i - 1, ",");

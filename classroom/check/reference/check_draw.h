@@ -4,7 +4,7 @@
 
 #include <lambent/check.h>
 
-// As lam_check_draw.
+// Implements lam_check_draw.
 bool check_draw(const void *request, size_t size, const lam_check_painter *painter, lam_bytes *out, lam_error *error);
 
 #endif

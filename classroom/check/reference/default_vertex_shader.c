@@ -1,4 +1,4 @@
-// default_vertex_shader.c: generates the vertex shader for a fragment shader that comes alone.
+// default_vertex_shader.c: generates the vertex shader for a fragment shader without one.
 #include "default_vertex_shader.h"
 
 #include <stdio.h>
@@ -7,7 +7,8 @@
 
 #include "fail.h"
 
-// The expression of each varying in each space, a vec3, and its w. Those without a space have the same in all.
+// The expression of each varying in each space, a vec3, and its w. Varyings without a space have the same expression in
+// all.
 static const struct {
     enum varying_semantic semantic;
     lam_light_frame space;

@@ -1,4 +1,4 @@
-// draw.c: compiles the shaders under test, sets their uniforms for each reference scene, and draws.
+// draw.c: compiles the tested shaders, sets their uniforms for each reference scene, and draws.
 #include "check_draw.h"
 #include "draw_request.h"
 #include "place.h"
@@ -13,11 +13,11 @@
 #include "fail.h"
 #include "gl_painter.h"
 
-// An input with a name of the contract, one element of it.
+// One element of an input whose name is in the contract.
 struct uniform_binding {
     const struct contract_name *name;
     int light;
-    int input, element; // of the program
+    int input, element; // indices in the program
 };
 
 struct shader_run {
@@ -26,11 +26,11 @@ struct shader_run {
     struct draw_request request;
     struct draw_result drawn;
     lam_check_program program;
-    int position, normal, tangent; // inputs; -1: none
+    int position, normal, tangent; // indices of inputs, or −1
     struct map_inputs maps;
     struct uniform_binding *bindings; // one for each element of each uniform
-    lam_check_value *values;          // of each binding
-    float (*numbers)[16];             // that they point to
+    lam_check_value *values;          // one per binding
+    float (*numbers)[16];             // the numbers of `values`
     int binding_count;
 };
 
@@ -43,8 +43,8 @@ static void report_unknown(struct draw_result *drawn, const char *name)
         snprintf(drawn->unknown[drawn->unknown_count++], sizeof drawn->unknown[0], "%.63s", name);
 }
 
-// Whether a uniform's type fits the contract's: matrices fit matrices, vectors vectors, scalars scalars. A colour may
-// come as a texture.
+// Returns whether a uniform's type matches the contract's: matrices match matrices, vectors vectors, scalars scalars. A
+// colour may be a texture.
 static bool type_fits(lam_check_type type, const struct contract_name *name)
 {
     const char *contract_type = name->type;
@@ -68,7 +68,7 @@ static const struct contract_name *look_up(const struct contract *contract, cons
     return found || !dot ? found : contract_find(contract, dot + 1, attribute, index); // Block.member
 }
 
-// Whether the program is compiled from desktop GLSL that was rewritten for OpenGL ES (shader_dialect_es).
+// Returns whether the program is compiled from desktop GLSL that was rewritten for OpenGL ES (shader_dialect_es).
 static bool is_rewritten(const struct shader_run *run)
 {
     return run->place.painter.es_only && shader_dialect_language(&run->interface) != LAM_CHECK_LANGUAGE_ES;
@@ -86,7 +86,7 @@ static void add_binding(struct shader_run *run, int index)
         return;
     }
     if (input->type == LAM_CHECK_TYPE_OTHER && known->semantic == SEMANTIC_ZERO)
-        return; // the value of a uniform that nobody sets
+        return; // the default value of a uniform that nobody sets
     if (!type_fits(input->type, known)) {
         if (run->drawn.types_count < MAX_UNKNOWN_NAMES)
             snprintf(run->drawn.types[run->drawn.types_count++], sizeof run->drawn.types[0],
@@ -148,7 +148,7 @@ static bool find_inputs(struct shader_run *run, lam_error *error)
     return true;
 }
 
-// The columns of a value, as a uniform's type has them.
+// Converts a value to the columns of a uniform's type.
 static void convert_value(struct type_shape shape, const struct uniform_value *value, float out[16])
 {
     for (int c = 0; c < shape.columns; c++)
@@ -181,12 +181,12 @@ static bool draw_scene(struct shader_run *run, const struct reference_scene *sce
     return place_draw(&run->place, scene->mesh, &drawing, &run->maps, pixels, error);
 }
 
-// --- endless shaders
+// --- shaders that loop forever
 
-// Software drivers leave an endless loop after some ten thousand iterations and continue with the values so far. Such a
-// shader is recognised by its processor time, over all threads: a correct shader takes a hundredth of the limit. The
-// limit follows the machine's speed: it is a multiple of the time of a sum of dependent terms, measured in intervals so
-// short that at least one of them runs without an interruption.
+// Software drivers leave an endless loop after some ten thousand iterations and continue with the current values. Such
+// a shader is recognised by its processor time, over all threads: a correct shader takes a hundredth of the limit. The
+// limit depends on the machine's speed: it is a multiple of the time for a sum of dependent terms, measured in
+// intervals so short that at least one of them is not interrupted.
 static double seconds(clockid_t clock)
 {
     struct timespec t;
@@ -194,7 +194,7 @@ static double seconds(clockid_t clock)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-#ifdef __wasi__ // has no processor time: the caller stops endless loops there
+#ifdef __wasi__ // WASI has no processor time, so the caller stops endless loops
 static double time_limit_s(int size) { return size > 0 ? DBL_MAX : 0; }
 #else
 enum { PIECES = 16, TERMS = 1 << 16, TERMS_PER_PIXEL = 2000, MIN_PIXELS = 128 * 128 };
@@ -218,7 +218,7 @@ static double time_limit_s(int size)
 }
 #endif
 
-// Compiles and links the texts as the painter's compiler reads them. `program` stays empty if they are refused.
+// Compiles and links the texts for the painter's compiler. `program` stays empty if they do not compile.
 static bool compile(struct shader_run *run, const char *vertex, const char *fragment, lam_check_program *program,
                     lam_error *error)
 {
@@ -238,8 +238,8 @@ static bool compile(struct shader_run *run, const char *vertex, const char *frag
     return ok;
 }
 
-// Errors are recorded in run->drawn. They are the inputs of the unchanged texts; then both are built with full
-// precision, which a correct shader may lack (shader_dialect.h).
+// Builds the program. Errors are recorded in run->drawn and refer to the unchanged texts. Both shaders are then built
+// with full precision, which a correct shader may lack (shader_dialect.h).
 static bool build(struct shader_run *run, lam_error *error)
 {
     const char *vertex = shader_dialect_skip_mark(run->request.vertex),
@@ -284,7 +284,7 @@ static bool draw_scenes(struct shader_run *run, float *pixels, lam_error *error)
             struct reference_scene scene = shader_interface_scene(&run->interface, &reference_scenes[i]);
             double taken = 0;
             for (int turn = 0; turn == 0 || (turn == 1 && taken > limit);
-                 turn++) { // the driver may compile during the first
+                 turn++) { // the driver may compile during the first turn
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
                 if (!draw_scene(run, &scene, pixels + at, error))
                     return false;

@@ -1,5 +1,5 @@
-// draw_request.c: the request and its result as bytes. Both ends are the same program, so structs are copied as they
-// are. The result is validated nevertheless, since the process that sent it has run untrusted shaders.
+// draw_request.c: the request and its result as bytes. Both sides are the same program, so structs are copied as they
+// are. The result is validated nevertheless, because its process has run untrusted shaders.
 #include "draw_request.h"
 
 #include <stdlib.h>
@@ -13,7 +13,8 @@ struct request_header {
     char magic[8];
     int light_frame, size;
     unsigned scenes;
-    size_t text_sizes[3]; // of the contract, the vertex and the fragment shader, with the terminating zeros
+    // the sizes of the contract, the vertex and the fragment shader, including the terminating zeros
+    size_t text_sizes[3];
 };
 
 struct result_header {

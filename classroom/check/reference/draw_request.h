@@ -5,8 +5,8 @@
 #include "contract.h"
 
 struct draw_request {
-    const char *contract; // the file
-    int light_frame;      // lam_light_frame of all lights; WORLD: each has the contract's
+    const char *contract; // text of the file
+    int light_frame;      // lam_light_frame of all lights; WORLD: as in the contract
     int size;
     unsigned scenes; // bit i: reference_scenes[i]
     const char *vertex, *fragment;
@@ -18,25 +18,26 @@ enum { MAX_UNKNOWN_NAMES = 16 };
 
 struct draw_result {
     int state;                          // enum draw_state
-    int group_counts[MAX_LIGHT_GROUPS]; // of each list of lights: how many the driver knows
+    int group_counts[MAX_LIGHT_GROUPS]; // for each list of lights, the number of lights that the driver uses
     char driver[128];
-    bool refused_vertex, refused_fragment; // DRAWN_REFUSED: which do not compile
-    char log[4096];                        // of the vertex shader, or the linker; DRAWN_SLOW: the scene's name
+    bool refused_vertex, refused_fragment; // DRAWN_REFUSED: the ones that do not compile
+    // the log of the vertex shader or the linker; for DRAWN_SLOW the scene's name
+    char log[4096];
     char fragment_log[4096];
     double seconds;                      // DRAWN_SLOW: processor time of that scene
     char unknown[MAX_UNKNOWN_NAMES][64]; // active uniforms and attributes that are not in the contract
     char types[MAX_UNKNOWN_NAMES][96];   // messages about uniforms whose type does not fit
     int unknown_count, types_count;
-    unsigned scenes; // as in the request
+    unsigned scenes; // same as in the request
     // RGBA, rows top-down, one picture after the other; points into the message.
     const float *pixels;
 };
 
 bool draw_request_write(const struct draw_request *request, lam_bytes *out, lam_error *error);
-// The texts point into `bytes`.
+// Reads a request; its texts point into `bytes`.
 bool draw_request_read(const void *bytes, size_t size, struct draw_request *request, lam_error *error);
 
-// `pictures`: size² × 4 floats for each scene of the request; NULL: none.
+// Writes a result. `pictures` has size² × 4 floats for each scene of the request and may be NULL.
 bool draw_result_write(const struct draw_result *result, const float *pictures, size_t count, lam_bytes *out,
                        lam_error *error);
 bool draw_result_read(const lam_bytes *bytes, int size, struct draw_result *result, lam_error *error);

@@ -1,4 +1,5 @@
-// gl_painter.c: an offscreen OpenGL framebuffer of floats, the meshes as buffers, programs and their uniforms.
+// gl_painter.c: draws with OpenGL: an offscreen framebuffer of floats, the meshes as buffers, programs and their
+// uniforms.
 #include "gl_painter.h"
 
 #include <stdio.h>
@@ -24,12 +25,12 @@ struct gl_place {
     bool built_ins; // a compatibility context, with gl_Vertex and gl_Normal
     GLuint framebuffer, color, depth, array;
     struct gl_mesh meshes[MESH_COUNT];
-    GLuint streams[MAX_STREAMS]; // buffers of the picture that is drawn
+    GLuint streams[MAX_STREAMS]; // buffers of the current picture
 };
 
-// The targets of an input's values.
+// The destination of an input's values.
 struct gl_input {
-    GLint location;                             // of the first element; -1: in a block
+    GLint location;                             // the location of the first element, or −1 in a block
     GLint block, offset, stride, matrix_stride; // in the block, of the first element, in bytes
     GLenum type;
 };
@@ -39,10 +40,10 @@ struct gl_program {
     struct gl_input *inputs;
     GLuint blocks[MAX_BLOCKS];
     int block_bytes[MAX_BLOCKS];
-    GLuint textures[MAX_TEXTURES]; // of one texel; by the unit
+    GLuint textures[MAX_TEXTURES]; // textures with one texel, indexed by unit
 };
 
-// --- the place
+// --- the context
 
 static void delete_objects(struct gl_place *t)
 {
@@ -60,7 +61,7 @@ static void delete_objects(struct gl_place *t)
     gl->DeleteRenderbuffers(1, &t->depth);
 }
 
-// At rest another context may be current: the objects go with their own.
+// Frees the context. At rest another context may be current; the objects are freed with their own.
 static void close(void *place)
 {
     struct gl_place *t = place;
@@ -138,7 +139,7 @@ static bool wake(void *place, lam_error *error)
 
 // --- programs
 
-// 0: it does not compile; `log` has the driver's messages.
+// Compiles a shader. Returns 0 if it does not compile; `log` then contains the driver's messages.
 static GLuint compile_text(const struct gl *gl, GLenum kind, const char *text, char log[4096])
 {
     GLuint shader = gl->CreateShader(kind);
@@ -255,9 +256,9 @@ static void forget(void *place, lam_check_program *program)
 {
     struct gl_place *t = place;
     struct gl_program *p = program->program;
-    if (p && !t->rests) { // else they go with the context
+    if (p && !t->rests) { // otherwise they are freed with the context
         t->context.gl.DeleteProgram(p->name);
-        t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // ignores 0, as the next
+        t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // ignores 0, like the next call
         t->context.gl.DeleteTextures(MAX_TEXTURES, p->textures);
     }
     if (p) {
@@ -318,7 +319,7 @@ static void set_integers(const struct gl *gl, GLint location, int count, const f
         int some = count - from < AT_ONCE ? count - from : AT_ONCE;
         for (int i = 0; i < some; i++)
             whole[i] = (GLint)v[from + i];
-        gl->Uniform1iv(location + from, some, whole); // the elements of a list have locations one after the other
+        gl->Uniform1iv(location + from, some, whole); // elements of an array have consecutive locations
     }
 }
 
@@ -490,7 +491,7 @@ static bool draw(void *place, const lam_check_drawing *d, float *pixels, lam_err
                 d->program->inputs[i].name);
     if (wrong)
         return fail(error, LAM_UNSUPPORTED, "%s reports error 0x%04x while drawing", t->context.renderer, wrong);
-    size_t row = 4 * (size_t)t->size; // OpenGL's first row is the bottom one
+    size_t row = 4 * (size_t)t->size; // OpenGL's first row is at the bottom
     for (int y = 0; y < t->size / 2; y++) {
         float *a = pixels + (size_t)y * row, *b = pixels + (size_t)(t->size - 1 - y) * row;
         for (size_t i = 0; i < row; i++) {

@@ -4,7 +4,8 @@
 
 #include <lambent/check.h>
 
-// `device`: as lam_gl_params.device, kept as long as places are opened; NULL: the first usable one.
+// Returns a painter that uses OpenGL. `device` has the syntax of lam_gl_params.device and must stay valid while
+// contexts are opened. NULL selects the first usable device.
 lam_check_painter gl_painter(const char *device);
 
 #endif

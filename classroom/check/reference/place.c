@@ -1,4 +1,4 @@
-// place.c: meshes for a painter, made when they are first drawn.
+// place.c: the meshes for a painter, made on first use.
 #include "place.h"
 #include "contract.h"
 

@@ -1,4 +1,4 @@
-// place.h: where a painter draws the reference meshes, with the meshes that were drawn so far.
+// place.h: a painter's context, with the reference meshes drawn so far.
 #ifndef PLACE_H
 #define PLACE_H
 
@@ -7,39 +7,39 @@
 enum { MAX_TEXTURE_COORDINATES = 2, MAX_FACTORS = 2 };
 
 struct place {
-    lam_check_painter painter; // a copy: the caller's may be gone while a cache keeps the place
-    void *place;               // the painter's; NULL: not open
+    lam_check_painter painter; // a copy, because a cache may keep the context longer than the caller's
+    void *place;               // the painter's context; NULL if not open
     int size;
     char renderer[128];
     struct reference_points points[MESH_COUNT];
-    lam_check_mesh meshes[MESH_COUNT]; // index_count 0: not made yet
-    float *normals[MESH_COUNT];        // four floats each
-    float *factors[MESH_COUNT];        // likewise, made when one is first drawn
+    lam_check_mesh meshes[MESH_COUNT]; // index_count is 0 until the mesh is made
+    float *normals[MESH_COUNT];        // four floats per vertex
+    float *factors[MESH_COUNT];        // four floats per vertex, made on first use
 };
 
 bool place_open(struct place *place, const lam_check_painter *painter, lam_check_language language, int size,
                 lam_error *error);
-void place_close(struct place *place); // a zeroed one is fine
+void place_close(struct place *place); // a zeroed one is allowed
 
-// The inputs of a program for data of maps; -1: none.
+// The indices of a program's inputs for map data, −1 if missing.
 struct map_inputs {
-    int texture_coordinates[MAX_TEXTURE_COORDINATES], tangent, bitangent; // tangent: of four floats
+    int texture_coordinates[MAX_TEXTURE_COORDINATES], tangent, bitangent; // tangent: four floats
     int factors[MAX_FACTORS];                                             // colours that are the same at every vertex
 };
 extern const struct map_inputs no_map_inputs;
 
-// Draws `mesh`, whatever drawing->mesh is. The streams are the ones of `inputs`.
+// Draws `mesh` instead of drawing->mesh. The streams belong to `inputs`.
 bool place_draw(struct place *place, enum reference_mesh mesh, const lam_check_drawing *drawing,
                 const struct map_inputs *inputs, float *pixels, lam_error *error);
 
-// The components of a type: matrices have several columns, vectors one of several rows.
+// The components of a type: matrices have several columns, and vectors one column with several rows.
 struct type_shape {
     const char *name;
     int columns, rows;
 };
 struct type_shape type_shape(lam_check_type type);
 
-// The input with a name, as the painter reports it; -1: the program has none.
+// Returns the input with a name, as the painter reports it, or -1 if the program has none.
 int place_input(const lam_check_program *program, const char *name, bool attribute);
 
 #endif

@@ -52,7 +52,7 @@ const struct reference_scene reference_scenes[] = {
      .shininess = 10, .metallic = 0, .roughness = 0.4f, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_POINT,
                  .position = {0.35, 0.75, 0.3},
-                 .to_light = {0, 0.906, 0.423}, // the plane's normal: all of the plane is in front of the light
+                 .to_light = {0, 0.906, 0.423}, // the plane's normal: the whole plane is in front of the light
                  WHITE,
                  .attenuation = {0.4f, 0.3f, 0.6f}}}},
     {"directional", "a light infinitely far away", NEED_DIRECTIONAL, STRETCHED, MATTER, .ka = 0.1f, .kd = 0.7f,
@@ -184,8 +184,8 @@ static int add_mesh(lam_scene *scene, enum reference_mesh mesh, lam_error *error
     return -1;
 }
 
-// Fills `points`, whose arrays have an element for every corner. `heads`: of each position, its first vertex and −1;
-// `next`: of each vertex, the next one of its position.
+// Fills `points`, whose arrays have an element for every corner. `heads` has the first vertex of each position, or −1.
+// `next` has, for each vertex, the next one at its position.
 static void share_vertices(const lam_mesh *m, struct reference_points *points, int32_t *heads, int32_t *next)
 {
     for (uint32_t p = 0; p < m->vertex_count; p++)
@@ -219,7 +219,7 @@ static void put(float *out, lam_vec3 v)
     out[2] = (float)v.z;
 }
 
-// Texture coordinates and their axes. On a patch, whose normal is y, the texture is turned by 30 degrees.
+// Computes texture coordinates and their axes. On a patch, whose normal is y, the texture is rotated by 30 degrees.
 static void lay_texture(enum reference_mesh mesh, struct reference_points *points)
 {
     const lam_vec3 up = v3(0, 1, 0), across = v3(math_cos(PI / 6), 0, -math_sin(PI / 6)), along = v3_cross(up, across);

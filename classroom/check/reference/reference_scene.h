@@ -1,4 +1,4 @@
-// reference_scene.h: the reference scenes, each of which tests one thing: as scenes for the CPU device and as values
+// reference_scene.h: the reference scenes, each of which tests one feature, as scenes for the CPU device and as values
 // for a shader's uniforms.
 #ifndef REFERENCE_SCENE_H
 #define REFERENCE_SCENE_H
@@ -8,7 +8,7 @@
 
 enum { MAX_SCENE_LIGHTS = 4, MESH_COUNT = 9 };
 
-// A patch is the plane with a texture that is turned on it. There are four: u mirrored, v downward, both.
+// A patch is the plane with a rotated texture. There are four: as is, with u mirrored, with v downward, and with both.
 enum reference_mesh {
     MESH_TEAPOT,
     MESH_SPHERE,
@@ -27,27 +27,27 @@ enum reference_need {
     NEED_ATTENUATION = 2,
     NEED_DIRECTIONAL = 4,
     NEED_POINT = 8,
-    NEED_LIGHTS = 16, // several
+    NEED_LIGHTS = 16, // several lights
     NEED_SPOT = 32,
     NEED_ALPHA = 64,
     NEED_FLAT = 128,
     NEED_TWO_SIDES = 256,
-    NEED_SHININESS = 512, // variable
+    NEED_SHININESS = 512, // variable shininess
     NEED_VERTEX_LIT = 1024,
     NEED_NORMAL_MAP = 2048,
     NEED_TANGENT_SIGN = 4096, // the sign of the bitangent is among the inputs
     NEED_EMISSION_MAP = 8192,
 };
 
-// Restrictions that the shader's text imposes, in the same word: the kind of each light and whether it is attenuated;
-// no specular term; flat shading.
+// Restrictions from the shader's text, in the same word: the kind of each light and whether it is attenuated; no
+// specular term; flat shading.
 enum reference_rule {
     RULE_POINT = 1,
     RULE_DIRECTIONAL = 2,
-    RULE_SPOT = 3, // with a cutoff
+    RULE_SPOT = 3, // a light with a cutoff
     RULE_KIND = 3,
     RULE_UNATTENUATED = 4,
-    RULE_BITS = 3, // for each light, the first at bit RULE_FIRST
+    RULE_BITS = 3, // bits for each light, the first at bit RULE_FIRST
     RULE_FIRST = 16,
     RULE_NO_SPECULAR = 1 << 28,
     RULE_FLAT = 1 << 29,
@@ -57,8 +57,8 @@ enum reference_rule {
 struct reference_light {
     lam_light_type type; // point, directional, spot
     lam_vec3 position;
-    // Directional: the direction to it; spot: opposite to its axis; point: likewise, for shaders that read an axis
-    // (zero: from the camera's target).
+    // Directional: the direction to the light; spot: opposite to its axis; point: as for a spot, for shaders that read
+    // an axis (zero: from the camera's target).
     lam_vec3 to_light;
     lam_rgb color;        // Ld
     lam_rgb specular;     // Ls
@@ -75,24 +75,24 @@ struct reference_scene {
     double turn_deg;
     lam_vec3 eye, target;
     lam_rgb ambient, diffuse, specular; // colours of the material
-    float ka, kd, ks;                   // their strengths
-    float alpha;                        // of the diffuse colour
+    float ka, kd, ks;                   // the strengths of the terms
+    float alpha;                        // the alpha of the diffuse colour
     float shininess;
-    // Of shaders with metalness and roughness: `diffuse` is then the base colour, and kd and ks are 1.
+    // For shaders with metalness and roughness: `diffuse` is then the base colour, and kd and ks are 1.
     float metallic, roughness;
     bool physical;
-    bool is_radiance;          // the shader divides by pi: the lights that it gets are pi times as bright
-    bool dims_ambient;         // OpenGL 1: the lights' own ambient light is attenuated, and there is no other
-    float roughness_angle_rad; // of shaders of rough matt surfaces (Oren–Nayar)
+    bool is_radiance;          // the shader divides by pi, so its lights are pi times as bright
+    bool dims_ambient;         // as in OpenGL 1, the lights' own ambient light is attenuated, and there is no other
+    float roughness_angle_rad; // used by shaders of rough matt surfaces (Oren–Nayar)
     bool flat;
-    // The normal in a normal map, along tangent, bitangent and normal. 0: it is flat. Not quite unit, as filtered maps
-    // are not.
+    // The normal in a normal map, along tangent, bitangent and normal. A zero vector means a flat surface. It is not
+    // exactly a unit vector, as in filtered maps.
     lam_vec3 bump;
-    lam_rgb emission; // of an emission map
-    // Of shaders that read maps: which (map_bit), and of these those whose factor they have a name for. Factor times texel is
-    // the number above.
+    lam_rgb emission; // the colour of an emission map
+    // For shaders that read maps: the maps (map_bit), and the ones with a separate factor. Factor times texel is the
+    // number above.
     unsigned maps, factors;
-    float occlusion;    // of an occlusion map
+    float occlusion;    // the value of an occlusion map
     bool encoded_maps;  // contract.maps
     bool tints_ambient; // the base colour map multiplies the ambient colour too
     int light_count;
@@ -102,17 +102,18 @@ struct reference_scene {
 extern const struct reference_scene reference_scenes[];
 extern const int reference_scene_count;
 
-int reference_scene_find(const char *name); // −1: none
+int reference_scene_find(const char *name); // returns −1 if not found
 
-// Positions, normals and tangents of vertices, three floats each, no two vertices equal, and three indices of them for
-// each triangle: few enough for OpenGL ES 2, whose indices have 16 bits. From malloc.
+// Positions, normals and tangents of vertices, three floats each, without duplicate vertices, and three indices for
+// each triangle: few enough for OpenGL ES 2 with its 16-bit indices. From malloc.
 struct reference_points {
     float *positions, *normals, *tangents;
-    // For maps: two floats, linear in the position, so that their derivatives vanish nowhere; and four: the tangent, and the
-    // sign of the bitangent. On a patch this is the direction in which u increases.
+    // For maps: texture coordinates with two floats, linear in the position, so that their derivatives are nowhere
+    // zero, and tangents with four: the tangent and the sign of the bitangent. On a patch the tangent is the direction
+    // in which u increases.
     float *texture_coordinates, *surface_tangents, *bitangents;
     uint16_t *indices;
-    int vertex_count, count; // `count`: of indices
+    int vertex_count, count; // `count` is the number of indices
 };
 bool reference_points(enum reference_mesh mesh, struct reference_points *points, lam_error *error);
 void reference_points_free(struct reference_points *points);
@@ -121,11 +122,11 @@ void reference_points_free(struct reference_points *points);
 struct reference_matrices {
     lam_mat4 model, view, model_view, projection, model_view_projection;
     double normal[3][3]; // inverse transpose of the model-view's 3×3
-    lam_mat4 normal4;    // inverse transpose of the whole model-view matrix, as some programs pass it
+    lam_mat4 normal4;    // inverse transpose of the whole model-view matrix, which some programs pass
 };
 void reference_matrices(const struct reference_scene *reference_scene, struct reference_matrices *out);
 
-// The scene and camera that the CPU device draws.
+// Makes the scene and camera for the CPU device.
 lam_scene *reference_to_scene(const struct reference_scene *reference_scene, lam_camera *camera, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// shader_dialect.c: the context for a pair of shaders, and precision qualifiers.
+// shader_dialect.c: determines the language of a pair of shaders, and replaces precision qualifiers.
 #include "shader_dialect.h"
 
 #include <ctype.h>
@@ -46,7 +46,7 @@ lam_check_language shader_dialect_language(const struct shader_interface *r)
     return LAM_CHECK_LANGUAGE_CORE;
 }
 
-// The next `mediump` or `lowp` that is a word of its own, and its length. NULL: none.
+// Finds the next `mediump` or `lowp` that is a separate word, and its length. Returns NULL if there is none.
 static const char *find_qualifier(const char *text, size_t *length)
 {
     for (const char *c = text; *c;) {
@@ -64,7 +64,8 @@ static const char *find_qualifier(const char *text, size_t *length)
     return NULL;
 }
 
-// The end of the text's first `precision … float;`, after which another statement may follow. NULL: it has none.
+// Returns the end of the text's first `precision … float;`, after which another statement may follow, or NULL if there
+// is none.
 static const char *after_precision(const char *text)
 {
     static const char word[] = "precision";
@@ -76,7 +77,7 @@ static const char *after_precision(const char *text)
     return NULL;
 }
 
-// Whether textures are read with the precision that ES gives to their samplers where nothing is said, lowp.
+// Returns whether textures are read with the default precision of samplers in ES, lowp.
 static bool reads_low(const char *text) { return strstr(text, "sampler2D") && after_precision(text); }
 
 bool shader_dialect_lowers_precision(const char *text)
@@ -85,7 +86,7 @@ bool shader_dialect_lowers_precision(const char *text)
     return find_qualifier(text, &length) != NULL || reads_low(text);
 }
 
-// Adds some letters at a place of a text; returns the place after them.
+// Appends letters to a text; returns the position after them.
 static size_t copy(char *out, size_t at, const char *letters, size_t count)
 {
     memcpy(out + at, letters, count);
@@ -97,7 +98,7 @@ char *shader_dialect_highp(const char *text)
     static const char of_samplers[] = " precision highp sampler2D;";
     size_t at = 0, length = 0;
     const char *place = reads_low(text) ? after_precision(text) : NULL;
-    char *out = malloc(2 * strlen(text) + sizeof of_samplers); // `lowp` grows by one letter
+    char *out = malloc(2 * strlen(text) + sizeof of_samplers); // `lowp` becomes one letter longer
     for (const char *word; out && (word = find_qualifier(text, &length)); text = word + length) {
         if (place && place <= word) {
             at = copy(out, at, text, (size_t)(place - text));

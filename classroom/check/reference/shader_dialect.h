@@ -1,31 +1,31 @@
-// shader_dialect.h: which language a pair of shaders is written in, and the text as it is compiled there.
+// shader_dialect.h: determines the language of a pair of shaders, and converts the text for its compiler.
 #ifndef SHADER_DIALECT_H
 #define SHADER_DIALECT_H
 
 #include "shader_interface.h"
 
-// The compiler of the shaders. Without a version line they are WebGL's, thus for OpenGL ES, if they have a precision
-// statement or qualifier and no name that only desktop OpenGL has built in.
+// Returns the compiler for the shaders. Without a version line they are for WebGL, that is OpenGL ES, if they have a
+// precision statement or qualifier and use no built-in name of desktop OpenGL.
 lam_check_language shader_dialect_language(const struct shader_interface *interface);
 
-// Whether the text contains `mediump` or `lowp`, or reads textures with the precision that samplers have in OpenGL ES where
-// nothing is said: lowp.
+// Returns whether the text contains `mediump` or `lowp`, or reads textures with the default precision of samplers in
+// OpenGL ES, lowp.
 bool shader_dialect_lowers_precision(const char *text);
 
-// A copy of the text, from malloc, with `highp` for every `mediump` and `lowp`, and for samplers, on the same lines.
-// Drivers may compute those with 16 bits, which is visible in a picture although the shader is correct. NULL: out of
-// memory.
+// Returns a copy of the text, from malloc, with `highp` for every `mediump` and `lowp`, and for samplers, on the same
+// lines. Drivers may compute these with 16 bits, which is visible in a picture although the shader is correct. Returns
+// NULL if memory runs out.
 char *shader_dialect_highp(const char *text);
 
-// The text after a byte order mark, which some editors write and no compiler accepts.
+// Returns the text after a byte order mark, which some editors write and compilers reject.
 const char *shader_dialect_skip_mark(const char *text);
 
-// A copy of a text in desktop GLSL, from malloc, in GLSL ES 3.00 on the same lines: another version line, a precision,
-// ES 3.00's words for older ones, and other names for OpenGL's built-in inputs. Differences that remain, such as
-// implicit conversion to floats, are left for the compiler to refuse. NULL: see `error`.
+// Returns a copy of a text in desktop GLSL, from malloc, converted to GLSL ES 3.00 on the same lines: another version
+// line, a precision, ES 3.00's words for older ones, and other names for OpenGL's built-in inputs. The compiler reports
+// remaining differences, such as implicit conversion to floats. Returns NULL and fills `error` on failure.
 char *shader_dialect_es(const char *text, bool is_vertex, lam_error *error);
 
-// The built-in input behind a name of such a text, a static row. NULL: none does.
+// Returns the built-in input for a name of such a text, as a static row, or NULL if there is none.
 const struct contract_name *shader_dialect_built_in(const char *name);
 
 // Restores the author's names in messages about such a text, in place.

@@ -1,4 +1,4 @@
-// shader_es.c: desktop GLSL as GLSL ES 3.00, on the same lines.
+// shader_es.c: converts desktop GLSL to GLSL ES 3.00, line by line.
 #include "shader_dialect.h"
 
 #include <ctype.h>
@@ -7,7 +7,7 @@
 
 #include "fail.h"
 
-// OpenGL's built-in inputs; in the text each gets `fixed_` in place of `gl_`, and this declaration.
+// OpenGL's built-in inputs. In the text, `gl_` becomes `fixed_`, and this declaration is added.
 static const struct built_in {
     struct contract_name row;
     const char *declaration;
@@ -46,8 +46,8 @@ const struct contract_name *shader_dialect_built_in(const char *name)
     return NULL;
 }
 
-// Words of older versions, and their replacements in the two stages of ES 3.00. `declaration` is added where the word
-// occurs; NULL: none.
+// Words of older versions, and their replacements in the two stages of ES 3.00. If the word occurs, `declaration` is
+// added (may be NULL).
 static const struct old_word {
     const char *old, *vertex, *fragment, *declaration;
 } words[] = {
@@ -102,10 +102,10 @@ static void put_word(struct rewriting *r, const char *word, size_t length)
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-// The text without its version line, with the words of ES 3.00.
+// Writes the text without its version line, with the words of ES 3.00.
 static void put_body(struct rewriting *r, const char *text)
 {
-    bool begins = true; // a line
+    bool begins = true; // at the start of a line
     for (const char *c = text; *c;) {
         const char *hash = c + strspn(c, " \t");
         if (begins && *hash == '#' && strncmp(hash + 1 + strspn(hash + 1, " \t"), "version", 7) == 0) {
@@ -124,7 +124,7 @@ static void put_body(struct rewriting *r, const char *text)
     }
 }
 
-// The attributes are the vertex shader's; both stages may read the matrices.
+// Attributes are declared in the vertex shader; both stages may read the matrices.
 static void put_declarations(struct rewriting *r)
 {
     static const int of_transform[] = {0, 4}; // fixed_Vertex, fixed_ModelViewProjectionMatrix
@@ -155,7 +155,7 @@ static void put_all(struct rewriting *r, const char *text)
 char *shader_dialect_es(const char *text, bool is_vertex, lam_error *error)
 {
     struct rewriting r = {.vertex = is_vertex};
-    put_body(&r, text); // finds which declarations the text needs
+    put_body(&r, text); // determines the necessary declarations
     put_all(&r, text);
     r.capacity = r.at + 1;
     r.out = malloc(r.capacity);

@@ -43,14 +43,14 @@ static bool take(struct reader *r, const char *text)
     return there;
 }
 
-// Skips past the bracket that closes one already taken.
+// Skips past the bracket that closes the previous one.
 static void skip_to(struct reader *r, const char *open, const char *close)
 {
     for (int depth = 1; r->at < r->d->word_count && depth > 0; r->at++)
         depth += next_is(r, open) - next_is(r, close);
 }
 
-// Parses [N], [] or nothing. A size that is a name is looked up as `const int NAME = N`.
+// Parses [N], [] or nothing. If the size is a name, `const int NAME = N` is looked up.
 static int read_count(struct reader *r)
 {
     int count = 0;
@@ -94,7 +94,7 @@ static bool add_declaration(struct declarations *d, const struct declaration *it
     return true;
 }
 
-// Adds a declared name; if its type is a struct of the source, each of its members.
+// Adds a declared name; if its type is a struct of the source, adds each of its members.
 static bool add_expanded(struct reader *r, const struct declaration *item)
 {
     for (int s = 0; s < r->struct_type_count; s++)
@@ -138,7 +138,7 @@ static bool read_names(struct reader *r, struct declaration item, bool as_member
     return true;
 }
 
-// Parses a struct after the keyword, and stores its name; one without a name gets a unique one.
+// Parses a struct after the keyword, and stores its name; an unnamed struct gets a unique name.
 static void read_struct(struct reader *r, char name[32])
 {
     struct struct_type shape = {.first = r->member_count};
@@ -218,7 +218,7 @@ static bool read_statement(struct reader *r)
         r->at++;
         return read_names(r, item, false);
     }
-    // Anything else: a function, a constant, a precision statement.
+    // Other statements: a function, a constant, a precision statement.
     while (r->at < r->d->word_count && !next_is(r, ";") && !next_is(r, "{"))
         r->at++;
     if (take(r, "{"))
@@ -228,7 +228,7 @@ static bool read_statement(struct reader *r)
     return true;
 }
 
-// The slot of a word: its own, or the empty one for it.
+// Returns the slot of a word, or the empty slot for it.
 static int *slot_of(const struct declarations *d, const char *text)
 {
     uint32_t hash = 2166136261u; // FNV-1a
@@ -241,14 +241,14 @@ static int *slot_of(const struct declarations *d, const char *text)
     }
 }
 
-// The first of the words that equal a text. NULL: there is none.
+// Returns the first of the words that equal a text, or NULL if there is none.
 static struct word *first_of(const struct declarations *d, const char *text)
 {
     int index = *slot_of(d, text);
     return index ? &d->words[index - 1] : NULL;
 }
 
-// Counts equal words, so that a text with many names takes no time that grows with their square.
+// Counts equal words, so that a text with many names does not take quadratic time.
 static bool count_words(struct declarations *d)
 {
     d->slot_count = 16;

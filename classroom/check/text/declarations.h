@@ -1,7 +1,7 @@
 // declarations.h: the declarations of a GLSL source: uniforms, attributes, varyings.
 //
-// They are parsed from the text, not queried from the compiled program: names and lines are needed of shaders that do
-// not compile, and of uniforms that a compiler optimises away. The words come from the preprocessor.
+// They are parsed from the text and not queried from the compiled program, because names and lines are also needed for
+// shaders that do not compile, and for uniforms that the compiler removes. The words come from the preprocessor.
 #ifndef DECLARATIONS_H
 #define DECLARATIONS_H
 
@@ -9,12 +9,12 @@
 
 enum declared { DECLARED_UNIFORM, DECLARED_INPUT, DECLARED_OUTPUT };
 
-// Each member of a uniform struct has an entry of its own: "lights[].position".
+// A declared name. Each member of a uniform struct has its own entry: "lights[].position".
 struct declaration {
     enum declared kind;
     char type[32];
     char name[96];
-    int count; // of the outermost array; 0: no array; −1: the size is not a literal number
+    int count; // the size of the outermost array; 0 if there is no array, −1 if the size is not a literal number
     int line;
     bool flat;     // interpolation qualifier
     bool in_block; // member of an interface block
@@ -23,28 +23,30 @@ struct declaration {
 struct word {
     char text[64]; // an identifier, a number, or one punctuation character
     int line;
-    int depth;      // of braces
+    int depth;      // nesting of braces
     bool is_member; // follows a '.'
-    // Of the first of equal words, for declarations_uses: how often it occurs, and how often as the name of a declaration.
+    // For declarations_uses, in the first of equal words: the number of occurrences, and of occurrences as a declared
+    // name.
     int times, declared;
 };
 
 struct declarations {
-    int version;      // of #version; 0: none
+    int version;      // the value of #version, or 0
     char profile[16]; // "core", "compatibility", "es", or ""
     struct declaration *items;
     int count;
-    struct word *words; // of the whole text (preprocess.h)
+    struct word *words; // the tokens of the whole text (preprocess.h)
     int word_count;
-    int *slots;     // a hash table: the first of equal words + 1; 0: empty
+    int *slots;     // a hash table that stores 1 + the index of the first equal word, or 0 if empty
     int slot_count; // a power of 2
 };
 
-// Varyings are outputs of a vertex shader (`vertex`) and inputs of a fragment shader. False: out of memory.
+// Parses a text. Varyings are outputs of a vertex shader (`vertex`) and inputs of a fragment shader. Returns false if
+// memory runs out.
 bool declarations_read(struct declarations *d, const char *text, bool vertex, lam_error *error);
 void declarations_free(struct declarations *d);
 
-// Whether an identifier occurs anywhere apart from its own declaration.
+// Returns whether an identifier occurs outside its own declaration.
 bool declarations_uses(const struct declarations *d, const char *name);
 
 const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name);

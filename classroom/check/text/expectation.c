@@ -19,13 +19,13 @@ static bool names(const struct shader_interface *r, enum uniform_semantic semant
     return false;
 }
 
-// The contract has the name, and the shaders do not declare it.
+// Returns whether the contract has the name, and the shaders do not declare it.
 static bool lacks(const struct shader_interface *r, enum uniform_semantic semantic)
 {
     return names(r, semantic) && !declares(r, semantic);
 }
 
-// The contract fixes the colour of undeclared names.
+// Returns whether the contract fixes the colour of undeclared names.
 static bool is_fixed(const struct default_color *color) { return color->source != COLOR_OF_SCENE; }
 
 static bool has_number(const struct shader_interface *r, enum uniform_semantic semantic)
@@ -33,7 +33,7 @@ static bool has_number(const struct shader_interface *r, enum uniform_semantic s
     return r->constants >> semantic & 1;
 }
 
-// --- the possible expectations of each term, most complete first
+// --- the possible expectations for each term, most complete first
 
 enum { MAX_CHOICES = 4 };
 
@@ -71,7 +71,7 @@ static int diffuse_choices(const struct shader_interface *r, unsigned terms, uns
     int count = 0;
     if (!terms || terms & LAM_CHECK_TERM_DIFFUSE)
         out[count++] = complete;
-    // The colour of the light alone may serve a highlight.
+    // The light's colour alone may be used for a highlight.
     if (terms ? !count : !declared || (!surface && !declares(r, SEMANTIC_LIGHT_SPECULAR)))
         out[count++] = EXPECT_NO_DIFFUSE;
     return count;
@@ -97,7 +97,7 @@ static int specular_choices(const struct shader_interface *r, unsigned terms, un
         if (light_open && declares(r, SEMANTIC_LIGHT_COLOR))
             out[count++] = white | EXPECT_SPECULAR_LIGHT_AS_DIFFUSE;
         out[count++] = white | (light_open ? EXPECT_WHITE_SPECULAR_LIGHT : 0);
-        if (!surface && d->specular_color.source == COLOR_OF_DIFFUSE) { // tinted or not, both are right
+        if (!surface && d->specular_color.source == COLOR_OF_DIFFUSE) { // both are correct, tinted or not
             out[count] = out[count - 1] | EXPECT_WHITE_SPECULAR;
             count++;
         }

@@ -1,20 +1,20 @@
-// expectation.h: the result expected from a pair of shaders: the terms that the exercise demands, and the value of
-// colours that the shaders do not declare.
+// expectation.h: the result expected from a pair of shaders: the terms that the exercise requires, and the values of
+// undeclared colours.
 //
-// A term of whose names none is declared is not asked for. A colour that is not declared is white. Where the
-// declarations leave it open whether a term is asked for, several expectations are right.
+// A term is not expected if none of its names is declared. An undeclared colour is white. If the declarations do not
+// determine whether a term is expected, several expectations are valid.
 #ifndef EXPECTATION_H
 #define EXPECTATION_H
 
 #include "shader_interface.h"
 
-// How the expected scene departs from the reference scene.
+// The differences of the expected scene from the reference scene.
 enum expectation {
     EXPECT_NO_AMBIENT = 1,
     EXPECT_NO_DIFFUSE = 2,
     EXPECT_NO_SPECULAR = 4,
-    EXPECT_WHITE_DIFFUSE = 8,               // of the surface
-    EXPECT_WHITE_SPECULAR = 16,             // of the surface
+    EXPECT_WHITE_DIFFUSE = 8,               // the surface's diffuse colour is white
+    EXPECT_WHITE_SPECULAR = 16,             // the surface's specular colour is white
     EXPECT_WHITE_LIGHT = 32,                // Ld
     EXPECT_WHITE_SPECULAR_LIGHT = 64,       // Ls
     EXPECT_SPECULAR_LIGHT_AS_DIFFUSE = 128, // Ls is Ld
@@ -25,18 +25,19 @@ enum expectation {
 
 enum { MAX_EXPECTATIONS = 16 };
 
-// Stores the possible expectations, bits of enum expectation, those with most terms first. `terms`: demanded bits of
-// lam_check_term; 0: the terms that the declarations show. Returns their count, at least 1.
+// Stores the possible expectations, bits of enum expectation, starting with the largest number of terms. `terms` has
+// the required bits of lam_check_term; 0 means the terms that the declarations show. Returns the number of
+// expectations, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
-// Whether a fault of the table only makes a choice that the declarations leave open, so that it is none: some of the
+// Returns whether a fault of the table is not a mistake because the declarations leave its choice open: some of the
 // possible expectations include the change, and others do not.
 bool expectation_permits(const struct shader_interface *interface, unsigned terms, const char *fault);
 
-// Changes a scene from shader_interface_scene to the expected one.
+// Changes a scene from shader_interface_scene to the expected scene.
 void expectation_apply(unsigned expectation, struct reference_scene *scene);
 
-// A sentence about terms that are not expected or taken as white; "" if there is nothing to say.
+// Writes a sentence about terms that are not expected or count as white; "" if there are none.
 void expectation_describe(unsigned expectation, const struct shader_interface *interface, unsigned terms, char *out,
                           size_t capacity);
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Lists have as many elements as the reference scenes have lights.
+// Arrays have as many elements as the reference scenes have lights.
 static const struct {
     const char *name, *elements;
     const char *members[13]; // each with its type; ends with NULL
@@ -27,7 +27,7 @@ static bool is_name(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-// The state whose name is at `at`. −1: none.
+// Returns the state whose name is at `at`, or −1 if there is none.
 static int state_at(const char *text, const char *at)
 {
     for (int i = 0; i < STATES; i++) {
@@ -38,7 +38,7 @@ static int state_at(const char *text, const char *at)
     return -1;
 }
 
-// Whether a text has a word.
+// Returns whether a text contains a word.
 static bool has_word(const char *text, const char *word)
 {
     size_t length = strlen(word);
@@ -48,7 +48,8 @@ static bool has_word(const char *text, const char *word)
     return false;
 }
 
-// Declares a state with the members that one of the texts uses, the same in both: undeclared members are not expected.
+// Declares a state with the members that one of the texts uses, identically in both: undeclared members are not
+// expected.
 static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
 {
     size_t at = strlen(out);
@@ -75,7 +76,7 @@ char *fixed_state_rewrite(const char *text, const char *other, bool *ok)
         int state = state_at(text, at);
         names += state >= 0;
         if (state >= 0 && !(used >> state & 1))
-            declare(state, text, other, declarations); // all of them have room
+            declare(state, text, other, declarations); // large enough for all of them
         used |= state >= 0 ? 1u << state : 0;
     }
     if (!names)

@@ -1,4 +1,4 @@
-// infer.c: gives each input of two shaders a role.
+// infer.c: infers the role of each input of two shaders.
 #include "infer.h"
 
 #include <ctype.h>
@@ -11,20 +11,20 @@
 #include "number.h"
 
 enum { MAX_CHAIN = 8, MAX_DEPTH = 8, MAX_SPACES = 4 };
-// The time grows with their product; real shaders are far below.
+// The time grows with their product; real shaders are far below these limits.
 enum { MAX_WORDS = 30000, MAX_DECLARED = 500, MAX_STEPS = 100000 };
 
 struct inference {
     const struct declarations *vertex, *fragment;
-    const char *chain[MAX_CHAIN]; // the matrices from the position to gl_Position, the last one first
+    const char *chain[MAX_CHAIN]; // matrices applied to the position on its way to gl_Position, the last one first
     int chain_count, steps;
-    const char *position; // the attribute that reaches gl_Position
+    const char *position; // the attribute that determines gl_Position
     bool has_model, has_model_view, has_eye, has_light, has_normal_matrix;
     json_t *attributes, *uniforms, *undeclared;
     const char *space, *light_space; // eye, world, object
-    bool guessed;                    // a role by exclusion
-    bool engine;                     // its names are given their values by an engine
-    bool all;                        // an input whose role is not found is `zero`
+    bool guessed;                    // a role was found by exclusion
+    bool engine;                     // an engine sets the values of its names
+    bool all;                        // inputs with unknown roles get the role `zero`
     char *reason;
     size_t capacity;
 };
@@ -36,7 +36,7 @@ static bool is(const struct declarations *d, int i, const char *text)
     return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
 }
 
-// Whether a name contains one of the words, whatever its case and underscores. `words`: separated by blanks.
+// Returns whether a name contains one of the words, ignoring case and underscores. Blanks separate `words`.
 static bool has(const char *name, const char *words)
 {
     char plain[128];
@@ -62,7 +62,7 @@ static const char *last_part(const char *name)
     return dot ? dot + 1 : name;
 }
 
-// A name without parts that mean nothing: u_, a leading u before a capital, Matrix, Mat.
+// Removes parts without meaning from a name: u_, a leading u before a capital, Matrix, Mat.
 static void core_of(const char *name, char out[64])
 {
     size_t length = 0;
@@ -77,14 +77,14 @@ static void core_of(const char *name, char out[64])
         *matrix = 0;
 }
 
-// --- the way to gl_Position
+// --- the computation of gl_Position
 
 static const struct declaration *uniform_of(const struct declarations *d, const char *name)
 {
     return declarations_find(d, DECLARED_UNIFORM, name);
 }
 
-// The word after `name =`, the last assignment before word `before`. −1: none.
+// Returns the word after `name =` in the last assignment before word `before`, or −1 if there is none.
 static int assignment_of(const struct declarations *d, const char *name, int before)
 {
     for (int i = before - 2; i >= 0; i--)
@@ -94,7 +94,7 @@ static int assignment_of(const struct declarations *d, const char *name, int bef
     return -1;
 }
 
-// Collects matrices and the attribute of the expression at word `at`, through local variables.
+// Collects the matrices and the attribute of the expression at word `at`, following local variables.
 static void follow(struct inference *f, int at, int depth)
 {
     const struct declarations *d = f->vertex;
@@ -140,7 +140,7 @@ static bool in_chain(const struct inference *f, const char *name, int *index)
     return false;
 }
 
-// The role of a matrix on the way to gl_Position.
+// Returns the role of a matrix in the computation of gl_Position.
 static const char *role_in_chain(const struct inference *f, int index)
 {
     const char *first = f->chain[0];
@@ -193,7 +193,7 @@ static bool find_matrix(struct inference *f, const struct declaration *item)
     return true;
 }
 
-// How a text uses a vector: it is subtracted or subtracted from (a point), or normalized alone (a direction).
+// The use of a vector in a text: in a difference (a point), or normalized alone (a direction).
 enum { USED_IN_DIFFERENCE = 1, USED_ALONE = 2 };
 static unsigned uses_of(const struct declarations *d, const char *name)
 {
@@ -241,7 +241,7 @@ static bool reads_w(const struct inference *f, const char *name)
     return false;
 }
 
-// `-name`: a direction away from the light.
+// Returns whether `-name` occurs, so that it is a direction away from the light.
 static bool is_negated(const struct inference *f, const char *name)
 {
     const struct declarations *sides[] = {f->vertex, f->fragment};
@@ -290,7 +290,7 @@ static bool find_vector(struct inference *f, const struct declaration *item)
     return true;
 }
 
-// Whether a name is within the second argument of pow().
+// Returns whether a name is inside the second argument of pow().
 static bool is_exponent(const struct declarations *d, const char *name)
 {
     for (int i = 0; i + 1 < d->word_count; i++) {
@@ -360,7 +360,7 @@ static bool find_role(struct inference *f, const struct declaration *item)
     }
     if (json_object_get(f->uniforms, item->name))
         return true;
-    if (!used || strcmp(item->type, "uint") == 0) { // a driver may know it nevertheless
+    if (!used || strcmp(item->type, "uint") == 0) { // but a driver may know it
         give(f->uniforms, item->name, "zero", strcmp(item->type, "uint") == 0 ? "int" : item->type, NULL);
         return true;
     }
@@ -427,7 +427,8 @@ static bool read_number(const struct declarations *d, int *at, double *out)
     return true;
 }
 
-// The `number`-th variable of a light's place or direction that the text gives three numbers. False: none.
+// Finds the `number`-th variable for a light's position or direction that the text sets to three numbers. Returns false
+// if there is none.
 static bool find_vector_of_light(const struct declarations *d, int number, const char **name, double v[3])
 {
     for (int i = 0; i + 2 < d->word_count; i++) {
@@ -449,7 +450,7 @@ static bool find_vector_of_light(const struct declarations *d, int number, const
     return false;
 }
 
-// A light whose place or direction is a number. `guess` counts them; the spaces' guess remains.
+// Adds a light whose position or direction is a constant. `guess` selects it, and the remainder selects the spaces.
 static bool find_light_in_text(struct inference *f, int guess, int *left)
 {
     double v[3];
@@ -472,15 +473,15 @@ static bool find_light_in_text(struct inference *f, int guess, int *left)
     return true;
 }
 
-// --- the whole
+// --- complete contracts
 
-// The spaces of the lighting and of the light that are possible, the likeliest first.
+// Lists the possible spaces of the lighting and of the light, the likeliest first.
 static int find_spaces(const struct inference *f, const char *out[MAX_SPACES][2])
 {
     int count = 0;
     const bool built_in = !f->chain_count;
 #define SPACES(lit, light) (out[count][0] = (lit), out[count++][1] = (light))
-    if (f->has_eye && (f->has_model || f->engine)) { // in eye space the eye is at 0: nobody passes that
+    if (f->has_eye && (f->has_model || f->engine)) { // in eye space the eye is at 0, so nobody passes its position
         SPACES("world", "world");
         SPACES("world", "object");
     } else if (f->has_eye) {

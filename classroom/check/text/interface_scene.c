@@ -1,5 +1,5 @@
-// interface_scene.c: a reference scene as a pair of shaders can express it. Undeclared inputs get the contract's value
-// for them; a term that the contract does not have is switched off.
+// interface_scene.c: converts a reference scene to one that a pair of shaders can express. Undeclared inputs get the
+// contract's values, and terms that the contract does not have are switched off.
 #include "maps.h"
 #include "shader_interface.h"
 
@@ -29,7 +29,8 @@ static lam_rgb color_of(const struct default_color *color, lam_rgb scene, lam_rg
     return scene;
 }
 
-// Whether the shader has a name for the product of a term's colour and strength, or the light's colour too.
+// Returns whether the shader has a name for the product of a term's colour and strength, with or without the light's
+// colour.
 static bool has_product(const struct shader_interface *r, enum uniform_semantic term)
 {
     return declares(r, term) ||
@@ -43,9 +44,9 @@ static lam_rgb *light_color(struct reference_light *light, enum light_term term)
     return term == LIGHT_DIFFUSE ? &light->color : term == LIGHT_SPECULAR ? &light->specular : &light->ambient;
 }
 
-// Gives a term the strength that is fixed where the shader has no name for it. A scene that switches the term off does
-// so by its strength: then the term's colour becomes black, otherwise the lights'. `color` NULL, `lit` false: the
-// shader has no such colour of its own.
+// Sets the strength of a term to the fixed value if the shader has no name for it. A scene switches a term off by its
+// strength; in that case the term's colour becomes black, or else the lights' colours. `color` NULL, `lit` false: the
+// shader has no such colour.
 static void fix_strength(struct reference_scene *s, const struct default_number *fixed, float *strength, lam_rgb *color,
                          bool lit, enum light_term term)
 {
@@ -68,13 +69,14 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
     bool own_diffuse = diffuse || declares(r, SEMANTIC_COLOR);
     bool lit_specular = declares(r, SEMANTIC_LIGHT_SPECULAR);
     bool lit_ambient = declares(r, SEMANTIC_LIGHT_AMBIENT) || declares(r, SEMANTIC_AMBIENT_LIGHT);
-    // The highlight has the light's colour if the material has no colour for it.
+    // The highlight has the light's colour if the material has none for it.
     if (!own_specular && lit_specular && d->specular_color.source != COLOR_OF_SCENE)
         for (int i = 0; i < s->light_count; i++)
             s->lights[i].specular = times(s->lights[i].specular, s->specular);
     if (!own_diffuse)
         s->diffuse = color_of(&d->diffuse_color, s->diffuse, s->diffuse, s->diffuse);
-    // A name for the product of the diffuse colour and its strength serves the other terms with both.
+    // If there is a name for the product of the diffuse colour and its strength, the product is also used for the other
+    // terms.
     lam_rgb own_color =
         diffuse ? (lam_rgb){s->diffuse.r * s->kd, s->diffuse.g * s->kd, s->diffuse.b * s->kd} : s->diffuse;
     if (!ambient)
@@ -85,7 +87,7 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
     bool shared = (!ambient && d->ambient_color.source == COLOR_OF_DIFFUSE) ||
                   (!own_specular && d->specular_color.source == COLOR_OF_DIFFUSE);
     bool lit_diffuse = declares(r, SEMANTIC_LIGHT_COLOR) && lit_specular;
-    // If the light has an ambient colour, it states its strength.
+    // An ambient colour of the light includes its strength.
     struct default_number ambient_strength = d->ambient_strength;
     if (lit_ambient && !(r->constants >> SEMANTIC_KA & 1))
         ambient_strength.value = 1;
@@ -99,7 +101,8 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
                      LIGHT_SPECULAR);
 }
 
-// Metalness and roughness leave no strength apart: a scene that shows the ambient term alone has dark lights instead.
+// With metalness and roughness there is no separate strength: a scene that shows only the ambient term has dark lights
+// instead.
 static void adapt_physical(const struct shader_interface *r, struct reference_scene *s)
 {
     const struct contract_defaults *d = &r->defaults;
@@ -122,13 +125,13 @@ static void adapt_physical(const struct shader_interface *r, struct reference_sc
         struct reference_light *light = &s->lights[i];
         light->color = dark ? black : light->color;
         light->specular = dark ? black : light->specular;
-        if (sum && i > 0) // the ambient light is one number
+        if (sum && i > 0) // the ambient light is a single number
             light->ambient = black;
     }
 }
 
-// Makes a light with another attenuation as bright as before at the scene's middle: the inverse square alone would leave
-// little of it.
+// Makes a light with changed attenuation as bright as before at the scene's centre; the inverse square alone would be
+// too dark.
 static void keep_brightness(const struct reference_scene *s, const float before[3], struct reference_light *light)
 {
     const float *now = light->attenuation, d = (float)v3_length(v3_sub(light->position, s->target));
@@ -137,8 +140,8 @@ static void keep_brightness(const struct reference_scene *s, const float before[
     light->specular = (lam_rgb){light->specular.r * k, light->specular.g * k, light->specular.b * k};
 }
 
-// A point light has an axis too, which shaders of spots normalize: towards the model, so that every lit point is in
-// front of it.
+// A point light also gets an axis, since shaders of spots normalize it: it points towards the model, so that every lit
+// point is in front of the light.
 static void set_axis(struct reference_light *light, lam_vec3 target)
 {
     lam_vec3 to_light = light->to_light;
@@ -212,7 +215,7 @@ static unsigned kind_bit(lam_light_type type)
     return type == LAM_LIGHT_DIRECTIONAL ? NEED_DIRECTIONAL : type == LAM_LIGHT_SPOT ? NEED_SPOT : NEED_POINT;
 }
 
-// A group that fits a light and has room for it. `taken`: the elements in use. −1: none.
+// Returns a group that can have a light and has space for it, or −1. `taken` contains the used elements.
 static int find_group(const struct shader_interface *r, lam_light_type type, const int taken[MAX_LIGHT_GROUPS])
 {
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
@@ -234,8 +237,8 @@ int shader_interface_light(const struct shader_interface *r, const struct refere
     return -1;
 }
 
-// Leaves out the lights that have no place, and adds a black one where a place stays free: a shader that reads only the
-// last light then draws black.
+// Removes the lights for which there is no element, and adds a black light if an element is free, so that a shader that
+// reads only the last light draws black.
 static void place_lights(const struct shader_interface *r, struct reference_scene *s)
 {
     int taken[MAX_LIGHT_GROUPS] = {0}, kept = 0;
@@ -247,9 +250,9 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
         s->lights[kept++] = s->lights[i];
     }
     s->light_count = kept;
-    const int capacity = shader_interface_light_count(r), lit = 3; // the most lights that a scene has
+    const int capacity = shader_interface_light_count(r), lit = 3; // the most lights in a scene
     int room = lit;
-    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // a list alone may be longer
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // only an array may have more
         room = r->groups[g].count == capacity && !r->contract->printed ? MAX_SCENE_LIGHTS : room;
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
         for (; r->groups[g].count > taken[g] && s->light_count < room; taken[g]++) {
@@ -265,7 +268,8 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
             if (kept && black->type != LAM_LIGHT_DIRECTIONAL && s->lights[0].type != LAM_LIGHT_DIRECTIONAL)
                 memcpy(black->attenuation, s->lights[0].attenuation, sizeof black->attenuation);
         }
-    // In a list with room for more, the last light is lit, so that a shader can miss it. In printed shaders each place has its kind.
+    // In an array with more elements, the last element is lit, so that a shader that omits it is detected. In printed
+    // shaders each element has its own kind.
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
         if (kept > 1 && r->groups[g].count == s->light_count && capacity == s->light_count && !r->contract->printed) {
             struct reference_light last = s->lights[kept - 1];
@@ -274,10 +278,11 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
         }
 }
 
-// The contents of maps. The numbers of the scene stay as they are: factor and texel share them.
+// Sets the contents of maps. The numbers of the scene do not change: they are the products of factor and texel.
 static void adapt_maps(const struct shader_interface *r, struct reference_scene *s)
 {
-    s->maps = r->vertex_lit ? r->maps & ~r->factors : r->maps; // of light from the vertices, maps beside a factor are 1
+    // for lighting in the vertex shader, maps with a factor are 1
+    s->maps = r->vertex_lit ? r->maps & ~r->factors : r->maps;
     s->factors = r->factors;
     s->encoded_maps = r->contract->maps.encoded;
     s->tints_ambient = s->physical && s->maps & map_bit(SEMANTIC_BASE_COLOR_MAP) &&
@@ -287,8 +292,8 @@ static void adapt_maps(const struct shader_interface *r, struct reference_scene 
         s->mesh += MESH_PATCH_DOWN - MESH_PATCH;
 }
 
-// If the strengths and colours are the shader's own, each term has a channel: red ambient, green diffuse, blue
-// specular. The fit finds their factors.
+// If the shader has its own strengths and colours, each term gets a channel: red ambient, green diffuse, blue specular.
+// The fit finds their factors.
 static void separate_terms(struct reference_scene *s)
 {
     const lam_rgb white = {1, 1, 1}, black = {0, 0, 0};

@@ -1,4 +1,4 @@
-// lecture_style.c: reads the lecture style's loop over the lights.
+// lecture_style.c: parses the lecture style's loop over the lights.
 #include "lecture_style.h"
 
 #include "reference_scene.h"
@@ -12,10 +12,11 @@ static bool is(const struct declarations *d, int at, const char *text)
 }
 
 struct range {
-    int first, end; // of the lights that a condition on `i` selects
+    int first, end; // range of the lights that a condition on `i` selects
 };
 
-// Reads "i >= 1 && i < 3" or one half of it; no condition selects all lights. Returns the place after it.
+// Parses "i >= 1 && i < 3" or one half of it; without a condition all lights are selected. Returns the position after
+// it.
 static int read_condition(const struct declarations *d, int at, struct range *range)
 {
     *range = (struct range){0, MAX_SCENE_LIGHTS};
@@ -31,7 +32,7 @@ static int read_condition(const struct declarations *d, int at, struct range *ra
     return at;
 }
 
-// The condition of the statement at `at`: "if (i >= 3) spot = …".
+// Returns the condition of the statement at `at`: "if (i >= 3) spot = …".
 static struct range condition_before(const struct declarations *d, int at)
 {
     struct range range = {0, MAX_SCENE_LIGHTS};
@@ -43,7 +44,7 @@ static struct range condition_before(const struct declarations *d, int at)
     return range;
 }
 
-// Whether a statement names one of two words before its end.
+// Returns whether a statement contains one of two words before its end.
 static bool names(const struct declarations *d, int at, const char *a, const char *b)
 {
     for (; at < d->word_count && !is(d, at, ";"); at++)

@@ -7,13 +7,13 @@
 
 #include "declarations.h"
 
-// The restrictions on the kinds of lights (reference_rule). 0: it is not in the lecture style.
+// Returns the restrictions on the kinds of lights (reference_rule), or 0 if the shader is not in the lecture style.
 unsigned lecture_light_rules(const struct declarations *lit);
 
-// The reflection model of a shader in the lecture style; AUTO: Lambert's.
+// Returns the reflection model of a shader in the lecture style; AUTO: Lambert's.
 lam_reflection lecture_model(const struct declarations *lit);
 
-// Whether its viewer is infinitely far: the vector to the eye is a constant.
+// Returns whether its viewer is infinitely far: the vector to the eye is a constant.
 bool lecture_viewer_is_infinite(const struct declarations *lit);
 
 #endif

@@ -1,4 +1,4 @@
-// own_texts.c: mends line ends, and declares the fixed state.
+// own_texts.c: normalises line ends, and declares the fixed state.
 #include "own_texts.h"
 
 #include <stdlib.h>
@@ -7,8 +7,8 @@
 #include "fail.h"
 #include "fixed_state.h"
 
-// A copy in which a single carriage return, which ends lines on old Macs, is a line feed. NULL: there is none, or, with
-// `ok` false, no memory.
+// Returns a copy in which single carriage returns, the line ends of old Macs, are line feeds. Returns NULL if there are
+// none or, with `ok` false, if memory runs out.
 static char *mend_lines(const char *text, bool *ok)
 {
     const char *lone = text ? strchr(text, '\r') : NULL;

@@ -1,15 +1,17 @@
-// own_texts.h: the texts that a check works with: lines end as everywhere, and the fixed state of GLSL 110 and 120 is an input.
+// own_texts.h: the texts that a check uses: line ends are normalised, and the fixed state of GLSL 110 and 120 is an
+// input.
 #ifndef OWN_TEXTS_H
 #define OWN_TEXTS_H
 
 #include <lambent/base.h>
 
 struct own_texts {
-    const char *vertex, *fragment; // as given, or one of those below; NULL as given
-    char *lines[2], *rewritten[2]; // from malloc; NULL: not needed
+    const char *vertex, *fragment; // the given text, or one of the copies below; may be NULL
+    char *lines[2], *rewritten[2]; // allocated with malloc; NULL if not needed
 };
 
-// Makes them from the texts of a program, which must outlive them. False: LAM_LIMIT. They are freed in any case.
+// Makes them from the texts of a program, which must outlive them. Returns false on failure: LAM_LIMIT. The caller
+// frees them in any case.
 bool own_texts_make(const char *vertex, const char *fragment, struct own_texts *out, lam_error *error);
 void own_texts_free(struct own_texts *texts);
 

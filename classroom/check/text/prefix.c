@@ -16,7 +16,7 @@ static bool shares_a_name(const struct declarations *a, const struct declaration
     return false;
 }
 
-// Whether a text is one that the engine completes.
+// Returns whether the engine completes this text.
 static bool lacks_prefix(const char *prefix, const struct declarations *own, bool vertex, bool *lacks, lam_error *error)
 {
     struct declarations before = {0};
@@ -52,21 +52,21 @@ static int count_lines(const char *text)
     return count;
 }
 
-// The prefix, a line that restores the text's own numbering, and the text, from malloc.
+// Returns the prefix, a line that restores the text's own line numbers, and the text, from malloc.
 static char *join(const char *prefix, const char *text)
 {
     size_t size = strlen(prefix) + strlen(text) + 20;
     char *out = malloc(size);
-    if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark is allowed only at the beginning
+    if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark is only allowed at the beginning
         text += 3;
-    // The number of the next line, which in older versions of GLSL is the one after.
+    // The #line directive takes the number of the next line; in older versions of GLSL, of the line after that.
     bool modern = strncmp(prefix, "#version 3", 10) == 0;
     if (out)
         snprintf(out, size, "%s\n#line %d\n%s", prefix, modern ? 1 : 0, text);
     return out;
 }
 
-// Whether a text reads a name that it does not declare.
+// Returns whether a text reads a name that it does not declare.
 static bool lacks(const char *text, bool vertex, const char *name)
 {
     static const char *const types[] = {"vec2", "vec3", "vec4", "float",     "int",
@@ -88,7 +88,7 @@ bool prefix_add(const struct contract *contract, const char *vertex, const char 
     out->fragment = out->owned[1] = join(contract->prefix_fragment, fragment);
     out->lines[1] = count_lines(contract->prefix_fragment) + 1;
     if (vertex) {
-        // three.js declares the colours of vertices for materials that have them.
+        // three.js declares vertex colours for materials that use them.
         char prefix[4096];
         snprintf(prefix, sizeof prefix, "%s%s", contract->prefix_vertex,
                  lacks(vertex, true, "color") ? "\nattribute vec3 color;" : "");

@@ -1,4 +1,4 @@
-// preprocess.c: splits a GLSL text into words, and runs the preprocessor's directives.
+// preprocess.c: splits a GLSL text into words, and executes the preprocessor's directives.
 #include "preprocess.h"
 
 #include <ctype.h>
@@ -9,10 +9,10 @@
 enum { MAX_WORDS = 1 << 19, MAX_PARAMETERS = 16, MAX_NESTING = 32, MAX_EXPANSION_DEPTH = 64 };
 
 struct token {
-    char text[64]; // as struct word; "\n" ends a directive, which begins with "#"
+    char text[64]; // a token, or "\n", which ends a directive; "#" starts one
     int line;
-    bool directive; // the '#' that begins one
-    bool glued;     // no blank before it: #define F(x) has a parameter, #define F (x) has none
+    bool directive; // the '#' of a directive
+    bool glued;     // no space before it: #define F(x) has a parameter, #define F (x) has none
 };
 
 struct tokens {
@@ -22,7 +22,7 @@ struct tokens {
 
 struct macro {
     char name[64];
-    bool function, disabled; // disabled: while its own expansion is under way
+    bool function, disabled; // disabled: during its own expansion
     int parameter_count;
     char parameters[MAX_PARAMETERS][64];
     const struct token *body;
@@ -34,10 +34,10 @@ struct preprocessor {
     struct tokens tokens;
     struct macro *macros;
     int macro_count;
-    int depth;   // of braces
-    int steps;   // of expansion, which end at MAX_WORDS
+    int depth;   // nesting of braces
+    int steps;   // the number of expansion steps, limited to MAX_WORDS
     bool failed; // out of memory
-    int nesting; // of #if
+    int nesting; // nesting of #if
     struct {
         bool active, taken, outer;
     } branches[MAX_NESTING];
@@ -49,7 +49,7 @@ static bool starts_name(const char *text) { return isalpha((unsigned char)text[0
 
 static bool is(const struct token *t, const char *text) { return strcmp(t->text, text) == 0; }
 
-// Room for one more element: the capacity doubles at each power of two. NULL: out of memory.
+// Makes space for one more element: the capacity doubles at each power of two. Returns NULL if memory runs out.
 static void *grown(void *items, int count, size_t size)
 {
     if (count & (count - 1))
@@ -71,7 +71,7 @@ static bool add_token(struct tokens *t, const char *from, size_t length, int lin
     return true;
 }
 
-// The length of a backslash and the end of the line behind it. 0: none here.
+// Returns the length of a backslash and the line end after it, or 0 if there is none here.
 static size_t continuation(const char *c)
 {
     return c[0] != '\\' ? 0 : c[1] == '\n' ? 2 : c[1] == '\r' && c[2] == '\n' ? 3 : 0;
@@ -134,7 +134,7 @@ static bool split(struct tokens *t, const char *c)
 
 // --- macros
 
-// Adds a word of the result.
+// Adds a word to the result.
 static void emit_word(struct preprocessor *p, const struct token *t, int line)
 {
     struct declarations *d = p->d;
@@ -156,7 +156,7 @@ static void emit_word(struct preprocessor *p, const struct token *t, int line)
     d->word_count++;
 }
 
-// Adds a token to `out`; NULL: to the result.
+// Adds a token to `out`, or to the result if `out` is NULL.
 static void emit(struct preprocessor *p, struct tokens *out, const struct token *t, int line)
 {
     if (!out)
@@ -178,8 +178,8 @@ struct argument {
     int count;
 };
 
-// Reads the arguments behind a function-like macro's name. Returns the number of tokens up to the closing bracket; 0: it
-// is not called.
+// Parses the arguments after a function-like macro's name. Returns the number of tokens up to the closing bracket, or 0
+// if it is not called.
 static int read_arguments(const struct token *t, int count, struct argument arguments[MAX_PARAMETERS], int *found)
 {
     int depth = 0;
@@ -206,7 +206,7 @@ static int read_arguments(const struct token *t, int count, struct argument argu
 
 static void expand(struct preprocessor *p, const struct token *t, int count, int line, int level, struct tokens *out);
 
-// Adds the body of a macro to `out`, with its arguments, themselves expanded, in place.
+// Adds the body of a macro to `out`, with its parameters replaced by the expanded arguments.
 static void substitute(struct preprocessor *p, const struct macro *m, const struct argument *arguments,
                        int argument_count, int level, struct tokens *out)
 {
@@ -221,7 +221,8 @@ static void substitute(struct preprocessor *p, const struct macro *m, const stru
     }
 }
 
-// The name of a number, such as LIGHT_SPOT, is kept unless it is the size of an array: it says more than the number.
+// The name of a number, such as LIGHT_SPOT, is kept unless it is the size of an array, because it is more meaningful
+// than the number.
 static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 {
     const struct declarations *d = p->d;
@@ -229,7 +230,8 @@ static bool is_named_number(const struct preprocessor *p, const struct macro *m)
            !(d->word_count && strcmp(d->words[d->word_count - 1].text, "[") == 0);
 }
 
-// Adds tokens to `out` (emit) with their macros expanded. `line`: of every word; 0: the tokens' own.
+// Adds tokens to `out` (see emit) with macros expanded. `line` is the line number of every word; 0 keeps the tokens'
+// own lines.
 static void expand(struct preprocessor *p, const struct token *t, int count, int line, int level, struct tokens *out)
 {
     for (int i = 0; i < count && !p->failed; i++) {
@@ -399,7 +401,7 @@ static long value_of(struct condition *c, int precedence)
         if (operators[i].precedence <= precedence || !next(c, operators[i].text))
             continue;
         value = apply(i, value, value_of(c, operators[i].precedence));
-        i = -1; // and once more
+        i = -1; // restarts the loop
     }
     c->level--;
     return value;
@@ -436,7 +438,7 @@ static void other_branch(struct preprocessor *p, bool holds)
     p->branches[p->nesting - 1].taken |= p->branches[p->nesting - 1].active;
 }
 
-// Runs a directive: the tokens behind its '#'.
+// Executes a directive: the tokens after its '#'.
 static void run_directive(struct preprocessor *p, const struct token *t, int count)
 {
     if (count == 0)
@@ -477,7 +479,7 @@ bool preprocess(struct declarations *d, const char *text)
                 end++;
             run_directive(&p, &t->items[i + 1], end - i - 1);
             i = end + 1;
-        } else { // up to the next directive: a macro's arguments may be on several lines
+        } else { // up to the next directive, because a macro's arguments may be on several lines
             while (end < t->count && !t->items[end].directive)
                 end++;
             if (is_active(&p))

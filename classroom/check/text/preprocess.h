@@ -1,11 +1,11 @@
-// preprocess.h: the words of a GLSL text as the preprocessor leaves them: macros are expanded, excluded branches left out.
+// preprocess.h: the words of a GLSL text after preprocessing: macros are expanded, excluded branches removed.
 #ifndef PREPROCESS_H
 #define PREPROCESS_H
 
 #include "declarations.h"
 
-// Stores the words of the text, and the version of its #version line, in `d`. Never fails for a wrong text: unknown
-// parts do not change, and a text that expands to more than half a million words ends there. False: out of memory.
+// Stores the words of the text, and the version of its #version line, in `d`. It accepts wrong texts: unknown parts are
+// unchanged, and a text that expands to more than half a million words ends there. Returns false if memory runs out.
 bool preprocess(struct declarations *d, const char *text);
 
 #endif

@@ -7,7 +7,8 @@
 
 #include "name_similarity.h"
 
-// How well a declared name fits: its own name of the contract more than another accepted one, another type a little less.
+// Returns points for a declared name: a name of the contract counts more than an accepted synonym, and another type a
+// little less.
 static int points_of(const struct contract *contract, const struct declaration *item, bool attribute)
 {
     const struct contract_name *n = contract_find(contract, item->name, attribute, NULL);
@@ -36,7 +37,7 @@ static int score(const struct contract *contract, const struct declarations *d, 
     return points;
 }
 
-// The score of texts that the contract's engine completes.
+// Computes the score of texts that the contract's engine completes.
 static bool score_completed(const struct contract *contract, const char *vertex, const char *fragment, int *points,
                             lam_error *error)
 {
@@ -65,7 +66,7 @@ bool contract_recognise(lam_check_contract *const *contracts, int count, const c
         bool completed = false;
         ok = prefix_applies(contract, vertex ? &sides[0] : NULL, &sides[1], &completed, error) &&
              (!completed || score_completed(contract, vertex, fragment, &points, error));
-        // The roles of shaders whose strengths are any are found by their use, in more spaces than a contract has.
+        // Shaders with any strengths get roles by their use, in more spaces than a contract has.
         if (points > best && !contract->any_strengths) {
             best = points;
             *out = contract;
@@ -76,7 +77,7 @@ bool contract_recognise(lam_check_contract *const *contracts, int count, const c
     return ok;
 }
 
-// --- names that do not fit
+// --- names that do not match
 
 static const struct declaration *find_uniform_or_attribute(const struct declarations *d, const char *name, bool vertex)
 {
@@ -108,8 +109,8 @@ static const struct declaration *find_either(const struct declarations *vertex, 
     return item ? item : find_uniform_or_attribute(fragment, name, false);
 }
 
-// The name of the contract that an unknown one probably means: of the same kind and a similar type, and not declared
-// under its own name. NULL: none.
+// Returns the name of the contract that an unknown one probably means: it has the same kind and a similar type, and is
+// not declared itself. Returns NULL if there is none.
 static const struct contract_name *meant_by(const struct contract *contract, const struct declarations *vertex,
                                             const struct declarations *fragment, const struct declaration *item)
 {

@@ -11,7 +11,7 @@ static bool is(const struct declarations *d, int i, const char *text)
     return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
 }
 
-// Reads a number with its sign and moves past it. False: there is none.
+// Parses a number with its sign and moves past it. Returns false if there is none.
 static bool read_number(const struct declarations *d, int *at, double *out)
 {
     bool minus = is(d, *at, "-");
@@ -26,7 +26,7 @@ static bool read_number(const struct declarations *d, int *at, double *out)
     return true;
 }
 
-// Reads vec3(a) or vec3(a, b, c) and moves past it.
+// Parses vec3(a) or vec3(a, b, c) and moves past it.
 static bool read_vector(const struct declarations *d, int *at, double out[3])
 {
     if (!is(d, *at, "vec3") || !is(d, *at + 1, "("))
@@ -44,7 +44,7 @@ static bool read_vector(const struct declarations *d, int *at, double out[3])
     return true;
 }
 
-// Reads a number, vec3(a), vec3(a, b, c), or normalize() of one of these, up to `;` or the next name.
+// Parses a number, vec3(a), vec3(a, b, c), or normalize() of one of these, up to `;` or the next name.
 static bool read_value(const struct declarations *d, int at, double out[3])
 {
     bool unit = is(d, at, "normalize") && is(d, at + 1, "(");
@@ -60,7 +60,7 @@ static bool read_value(const struct declarations *d, int at, double out[3])
     return (is(d, at + unit, ";") || is(d, at + unit, ",")) && (!unit || is(d, at, ")"));
 }
 
-// The number in pow(x, number): the second argument, alone.
+// Parses the number in pow(x, number), if the second argument is only a number.
 static bool read_exponent(const struct declarations *d, int at, double *out)
 {
     int depth = 0;
@@ -76,7 +76,8 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
     return false;
 }
 
-// The exponent of a highlight from all pow(x, number): the largest. Squares and the like are something else.
+// Finds the exponent of a highlight among all pow(x, number): the largest. Squares and similar powers have other
+// meanings.
 static bool find_exponent(const struct declarations *d, double *out)
 {
     bool found = false;
@@ -164,7 +165,7 @@ void shader_constants_find(struct shader_interface *r)
 
 // --- numbers without a name
 
-// The colours and strengths that are found by trying; directions and exponents have other names.
+// Colours and strengths are found by trying; directions and exponents have other names.
 static bool is_vector(enum uniform_semantic semantic)
 {
     return semantic == SEMANTIC_LIGHT_AMBIENT || semantic == SEMANTIC_LIGHT_COLOR ||

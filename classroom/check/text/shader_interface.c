@@ -12,7 +12,7 @@
 #include "maps.h"
 #include "shader_constants.h"
 
-// Whether a declared uniform is read: a member of a struct after a dot, another name anywhere.
+// Returns whether a declared uniform is read: a member of a struct after a dot, another name anywhere.
 static bool is_used(const struct declarations *d, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -39,7 +39,7 @@ static void find_declared(struct shader_interface *r)
         }
 }
 
-// Maps replace numbers of the material: a number with a map is declared.
+// Finds the maps. They replace numbers of the material: a number with a map counts as declared.
 static void find_maps(struct shader_interface *r)
 {
     static const struct {
@@ -93,8 +93,8 @@ static bool is_material(enum uniform_semantic semantic)
            (is_map(semantic) && semantic != SEMANTIC_BASE_COLOR_MAP);
 }
 
-// Whether a shader computes lighting: it declares a uniform of a material or light. The colour of the surface alone may
-// be multiplied with a light that comes from the vertex shader; in printed shaders, any map.
+// Returns whether a shader computes lighting: it declares a uniform of a material or light. A shader that only has the
+// colour of the surface may multiply it with light from the vertex shader; for printed shaders this is true of any map.
 static bool is_lit(const struct shader_interface *r, const struct declarations *d)
 {
     bool colored = false;
@@ -112,7 +112,7 @@ static bool is_lit(const struct shader_interface *r, const struct declarations *
            (declarations_uses(d, "dot") || declarations_uses(d, "normalize") || declarations_uses(d, "reflect"));
 }
 
-// Whether the words at `at` match `text`, a list separated by blanks in which "?" matches any word.
+// Returns whether the words at `at` match `text`, a list separated by blanks in which "?" matches any word.
 static bool words_match(const struct declarations *d, int at, const char *text)
 {
     for (; *text; at++) {
@@ -126,7 +126,7 @@ static bool words_match(const struct declarations *d, int at, const char *text)
 }
 
 // A shader printed by `lambent shader` has one loop for each kind of light, with the kind as a constant. Returns the
-// restrictions that these loops impose (reference_rule); 0: another shader.
+// restrictions that these loops impose (reference_rule), or 0 for other shaders.
 static unsigned lambent_light_rules(const struct declarations *lit)
 {
     unsigned rules = 0;
@@ -149,7 +149,7 @@ static unsigned lambent_light_rules(const struct declarations *lit)
     return rules;
 }
 
-// False for printed shaders that need inputs which the check cannot provide.
+// Returns false for printed shaders with inputs that the check cannot provide.
 static bool can_be_checked(const struct shader_interface *r, lam_error *error)
 {
     static const struct {
@@ -176,8 +176,8 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
-// The lighting of a shader printed by `lambent shader`, by the functions in it. Lambert's lobe does not count: the
-// others call it, and alone it is the contract's own model without a highlight. The last row wins, since a coat has
+// Finds the lighting of a shader printed by `lambent shader` from its functions. Lambert's lobe is ignored: the other
+// lobes call it, and alone it is the contract's own model without a highlight. The last row wins, since a coat has
 // GGX's lobe over another base.
 static void find_printed(struct shader_interface *r)
 {
@@ -234,17 +234,17 @@ static void apply_lambent_rules(struct shader_interface *r)
                                              : NEED_POINT;
     if (!lecture && !declarations_uses(&r->fragment, "gl_FrontFacing")) // a mistake in the lecture style
         r->supports &= ~(unsigned)NEED_TWO_SIDES;
-    for (int i = 0; i < r->fragment.word_count && r->maps; i++) // of an opaque material, whatever its map's alpha
+    for (int i = 0; i < r->fragment.word_count && r->maps; i++) // an opaque material ignores the alpha of its map
         if (words_match(&r->fragment, i, "light . a = 1.0 ;"))
             r->supports &= ~(unsigned)NEED_ALPHA;
     r->supports |= rules;
     r->supports |= lam_reflection_describe(r->printed_model)->base ? 0 : RULE_NO_SPECULAR;
     r->supports |= is_flat(&r->fragment) ? RULE_FLAT : 0;
-    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // the rules tell the kind of each
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // the rules determine the kind of each
         r->groups[g].kinds |= NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
 }
 
-// The kinds of light that a shader with Lambent's names can have, by the members that it reads: lights[i].cone.
+// Returns the possible kinds of light of a shader with Lambent's names, by the members that it reads: lights[i].cone.
 static unsigned lambent_light_kinds(const struct shader_interface *r)
 {
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
@@ -258,25 +258,25 @@ static unsigned lambent_light_kinds(const struct shader_interface *r)
     return cone ? NEED_SPOT | NEED_POINT : attenuation || position ? NEED_POINT : NEED_DIRECTIONAL;
 }
 
-// The kind of light that a name belongs to; 0: it does not tell.
+// Returns the kinds of light that a name implies, or 0 if it implies none.
 static unsigned kind_of(enum uniform_semantic semantic, const char *type)
 {
     switch (semantic) {
-    case SEMANTIC_LIGHT_POSITION: // of four numbers: a direction where w is 0
+    case SEMANTIC_LIGHT_POSITION: // a vector with four components is a direction if w is 0
         return strcmp(type, "vec4") == 0 ? NEED_POINT | NEED_DIRECTIONAL : NEED_POINT;
     case SEMANTIC_LIGHT_X:
         return NEED_POINT;
     case SEMANTIC_CONE:
     case SEMANTIC_CUTOFF:
         return NEED_SPOT;
-    case SEMANTIC_LIGHT_KIND: // the number tells
+    case SEMANTIC_LIGHT_KIND: // the number states the kind
         return NEED_DIRECTIONAL;
     default:
         return 0;
     }
 }
 
-// The number of elements of a list that the texts read, if they use only numbers as indices; `count` otherwise.
+// Returns the number of elements of an array that the texts read, if all indices are constants; otherwise `count`.
 static int read_elements(const struct shader_interface *r, const char *name, int count)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
@@ -304,13 +304,13 @@ static void add_light_name(struct shader_interface *r, const struct declarations
         return;
     struct light_group *group = &r->groups[n->group];
     int count = item->count > 0 ? item->count : 1;
-    if (r->contract->any_strengths) // which light is meant to be read is not known
+    if (r->contract->any_strengths) // the intended light is unknown
         count = read_elements(r, item->name, count);
     group->list = group->list || item->count != 0;
     group->count = count > group->count ? count : group->count;
     if (is_used(d, item->name))
         group->kinds |= kind_of(n->semantic, r->contract->any_strengths ? n->type : item->type);
-    // A direction alone makes the light directional; beside a position it is the axis of a spot.
+    // A direction alone makes the light directional; with a position it is the axis of a spot.
     bool direction = n->semantic == SEMANTIC_LIGHT_DIRECTION || n->semantic == SEMANTIC_LIGHT_TRAVEL;
     if (direction && is_used(d, item->name))
         group->has_direction = true;
@@ -330,19 +330,19 @@ static void find_lights(struct shader_interface *r)
             group->kinds = lambent_light_kinds(r);
         else if (!group->kinds && group->has_direction)
             group->kinds = NEED_DIRECTIONAL;
-        if (!group->kinds && group->count) { // colours without a place
+        if (!group->kinds && group->count) { // colours without a position
             placeless = placeless < 0 ? g : placeless;
             group->count = 0;
         }
         all |= group->count ? group->kinds : 0;
     }
-    if (!all) // the place is in a generated vertex shader, or a number of the exercise
+    if (!all) // the position is in a generated vertex shader, or a constant of the exercise
         r->groups[placeless < 0 ? 0 : placeless] = (struct light_group){
             .count = 1, .kinds = r->contract->supports & (NEED_POINT | NEED_DIRECTIONAL), .list = false};
 }
 
-// The space in which the shaders light. If the course lights in world space, shaders may use eye space as well: they
-// have the model-view matrix, and neither the model's own nor the eye's position.
+// Returns the space in which the shaders compute lighting. If the course uses world space, shaders may also use eye
+// space: they then have the model-view matrix, but neither the model's own matrix nor the eye's position.
 static lam_light_frame find_space(const struct shader_interface *r)
 {
     bool eye = r->contract->space == LAM_FRAME_WORLD && shader_interface_uses(r, SEMANTIC_MODEL_VIEW) &&
@@ -364,7 +364,7 @@ static lam_light_frame find_light_frame(const struct shader_interface *r)
     return r->contract->light_frame;
 }
 
-// Consequences of the kinds and counts of the lights.
+// Computes members that follow from the kinds and counts of the lights.
 static void summarize_lights(struct shader_interface *r)
 {
     r->supports &= ~(unsigned)(NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT | NEED_LIGHTS);
@@ -397,14 +397,14 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
     find_declared(r);
     find_maps(r);
     shader_constants_find(r);
-    // A printed shader declares every member of a material, whatever it reads.
+    // A printed shader declares every member of a material, even if it does not read it.
     uint64_t named = contract->printed ? r->used : r->declared;
     r->physical =
         contract->reflection == LAM_REFLECTION_GGX || named >> SEMANTIC_METALLIC & 1 || named >> SEMANTIC_ROUGHNESS & 1;
     r->space = find_space(r);
     r->light_frame = find_light_frame(r);
     r->vertex_lit = texts->vertex && !is_lit(r, &r->fragment);
-    if (contract->any_strengths) // names of factors tell nothing
+    if (contract->any_strengths) // names of factors have no meaning
         r->vertex_lit =
             texts->vertex && !declarations_uses(&r->fragment, "dot") && !declarations_uses(&r->fragment, "reflect");
     find_lights(r);

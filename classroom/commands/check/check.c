@@ -14,10 +14,10 @@
 #include "suggest.h"
 
 enum { MAX_SCENES = 32 };
-static const size_t max_cache_bytes = (size_t)384 << 20; // of pictures cached for several shaders
+static const size_t max_cache_bytes = (size_t)384 << 20; // the cache of pictures, shared by the shaders of one command
 
-// Loads the contract given on the command line, by name or from a file. *contract stays NULL if the check must
-// recognise it.
+// Loads the contract that the command line gives by name or as a file. Leaves *contract NULL if the check must detect
+// the contract.
 static bool read_contract(const char *name, lam_check_contract **contract, lam_error *error)
 {
     if (!name || strcmp(name, "auto") == 0)
@@ -48,7 +48,7 @@ struct check_command {
     struct check_batch batch;
     struct check_submission *submissions;
     lam_check_contract *contract;
-    int code; // of an output that cannot be written; 0: none
+    int code; // the exit code if an output cannot be written, otherwise 0
     char *scene_list;
     const char *scenes[MAX_SCENES];
 };
@@ -67,7 +67,7 @@ static bool split_scenes(struct check_command *c, lam_error *error)
     return true;
 }
 
-// Finds the submissions: of a folder, or the operands.
+// Finds the submissions in a folder, or among the operands.
 static bool find_submissions(struct check_command *c, int operand_count, char **operands, lam_error *error)
 {
     const struct options *o = c->options;
@@ -94,14 +94,14 @@ static bool find_submissions(struct check_command *c, int operand_count, char **
     return true;
 }
 
-// Checks the formats of output files before the work. Writing them may still fail later.
+// Checks the formats of the output files before the work starts. Writing them may still fail later.
 static bool check_outputs(const struct check_command *c, lam_error *error)
 {
     const struct options *o = c->options;
     if (o->picture.has_size && o->picture.width != o->picture.height)
         return complain(error, LAM_BAD_ARGUMENT, "check: pictures are square, found %dx%d", o->picture.width,
                         o->picture.height);
-    if (c->batch.in_class) // -o always names a folder
+    if (c->batch.in_class) // -o always names a folder here
         return true;
     if (o->picture.output && output_is_named(o->picture.output) && c->batch.count > 1)
         return complain(error, LAM_BAD_ARGUMENT,
@@ -142,7 +142,7 @@ static bool open_tables(struct check_command *c, lam_error *error)
     return true;
 }
 
-// Creates the folder of the page and the sheets. If this fails, the verdicts are still printed.
+// Creates the folder of the page and the sheets. The verdicts are printed even if this fails.
 static bool prepare_page(struct check_command *c, lam_error *error)
 {
     char *page = check_page_path(c->options->picture.output, error);
@@ -172,7 +172,7 @@ static bool prepare(struct check_command *c, int operand_count, char **operands,
     return c->batch.count == 1 || (c->batch.cache = lam_check_cache_make(max_cache_bytes, error));
 }
 
-// Writes files that need all results at the end. A failure is reported; the verdicts are out already.
+// Writes the files that need all results. Only reports failures, because the verdicts are already printed.
 static int finish(struct check_command *c)
 {
     const struct options *o = c->options;
@@ -216,7 +216,7 @@ int run_check(int operand_count, char **operands, const struct options *o)
         code = finished > code ? finished : code;
     }
     for (int i = 0; i < CHECK_TABLES; i++)
-        if (c.batch.tables[i].file) // not reached
+        if (c.batch.tables[i].file)
             fclose(c.batch.tables[i].file);
     check_page_free(c.batch.page);
     lam_check_cache_free(c.batch.cache);

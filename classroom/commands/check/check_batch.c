@@ -1,7 +1,7 @@
-// check_batch.c: checks many shaders, several at once, and prints the results in their order.
+// check_batch.c: checks many shaders in parallel and prints the results in order.
 //
-// Each thread takes the next submission, draws it in a separate process, and compares. The thread that completes the
-// next result in order prints it, and all following results that are ready.
+// Each thread takes the next submission, draws it in a separate process and compares the pictures. The thread that
+// completes the next result in order prints it and all following results that are ready.
 #include "check.h"
 
 #include <errno.h>
@@ -53,15 +53,15 @@ struct work {
     struct check_batch *b;
     pthread_mutex_t lock;
     pthread_cond_t printed_one;
-    struct check_result **results; // of each submission; NULL: not ready, or printed
+    struct check_result **results; // for each submission; NULL until it is ready and after it is printed
     int next, printed, passed, code;
     lam_error *first;
 };
 
 // --- one submission
 
-// Writes the contract of a pair of shaders, which costs no verdict if it fails. Without a verdict, the earlier findings
-// are still useful. A file that exists is kept: it may have been corrected by hand.
+// Writes the contract of a pair of shaders. A failure does not affect the verdict. Without a verdict, the findings up
+// to then are still useful. An existing file is kept, since it may have been corrected by hand.
 static void write_contract(const char *path, const lam_check_params *params, struct check_result *result)
 {
     lam_bytes text = {0};
@@ -122,7 +122,7 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
     free(vertex);
 }
 
-// Writes the sheet, and frees the pictures. If the sheet cannot be written, the verdict is still reported.
+// Writes the sheet and frees the pictures. The verdict is reported even if the sheet cannot be written.
 static void write_sheet(struct check_batch *b, struct check_result *result)
 {
     const struct options *o = b->options;
@@ -182,7 +182,7 @@ static void print_report(const struct check_batch *b, const struct check_result 
         check_report_line(file, result);
     else if (!o->report.json && !o->report.quiet && !result->error.code)
         check_report_text(file, &result->report, result->submission->fragment, b->tolerance);
-    fflush(file); // each shader's report appears as soon as it is done
+    fflush(file); // shows each report immediately
 }
 
 static void print_result(struct work *w, const struct check_result *result)
@@ -190,7 +190,7 @@ static void print_result(struct work *w, const struct check_result *result)
     struct check_batch *b = w->b;
     bool alone = b->count == 1 && !b->in_class;
     if (result->error.code && alone)
-        *w->first = result->error; // reported by the command
+        *w->first = result->error; // the caller reports this error
     else if (result->error.code)
         say_error(result->error.text);
     print_report(b, result);
@@ -211,7 +211,7 @@ static void print_result(struct work *w, const struct check_result *result)
 
 // --- the threads
 
-// Returns the next submission to check, or −1 if there is none. Waits where many results wait for one that is slow.
+// Returns the next submission to check, or −1 if there is none. Waits if too many results wait for a slow submission.
 static int take_next(struct work *w)
 {
     pthread_mutex_lock(&w->lock);

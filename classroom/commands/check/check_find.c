@@ -1,9 +1,9 @@
 // check_find.c: finds the submissions of a class in a folder.
 //
-// A folder with one fragment shader is one submission, named after the folder, with the one vertex shader in it if
-// there is one. In other folders, and in the class's own, each fragment shader is a submission, named after the file;
-// its vertex shader is the one of the same name beside it, else the only one beside it without a fragment shader of its
-// name. Hidden files and links are ignored. Folders below MAX_DEPTH are reported as a problem.
+// A folder with one fragment shader is one submission, named after the folder. If the folder has a single vertex shader,
+// the submission uses it. In other folders, and in the class's folder, each fragment shader is a submission named after
+// the file. It uses the vertex shader with the same name in the same folder, or the folder's only vertex shader without
+// a matching fragment shader. Hidden files and links are ignored. Folders below MAX_DEPTH are reported as a problem.
 #include "check.h"
 
 #include <dirent.h>
@@ -56,7 +56,7 @@ static void free_paths(char **paths, int count)
 
 static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
-// Returns the paths of a folder's entries in alphabetical order, without hidden ones. −1: see `error`.
+// Returns the paths of a folder's entries in alphabetical order, without hidden entries. Returns −1 on failure.
 static int list_folder(const char *folder, char ***paths, lam_error *error)
 {
     DIR *open = opendir(folder);
@@ -88,7 +88,7 @@ static int list_folder(const char *folder, char ***paths, lam_error *error)
     return count;
 }
 
-// Returns a path below the class's folder, without the ending of a shader.
+// Returns a path relative to the class's folder, without the extension of a shader.
 static char *name_of(const char *top, const char *path, bool is_file)
 {
     const char *name = path + strlen(top);
@@ -97,7 +97,7 @@ static char *name_of(const char *top, const char *path, bool is_file)
     return strndup(name, is_file ? check_stem_length(name) : strlen(name));
 }
 
-// Returns the vertex shader for a fragment shader, from the same folder. Returns NULL if there is none.
+// Returns the vertex shader for a fragment shader in the same folder, or NULL if there is none.
 static const char *vertex_for(const char *fragment, char **fragments, int fragment_count, char **vertices,
                               int vertex_count)
 {
@@ -165,7 +165,7 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
         }
         int before = f->count;
         ok = search(f, top, paths[i], depth + 1, error);
-        // Lists folders without shaders too, so that no submission is overlooked.
+        // Also lists folders without shaders, so that no submission is overlooked.
         if (ok && depth == 0 && f->count == before &&
             !add(f, name_of(top, paths[i], false), NULL, NULL,
                  "there is no shader in this folder: expected a file that ends in .frag, .fs, .fsh or .fragment"))

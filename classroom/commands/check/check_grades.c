@@ -1,5 +1,5 @@
-// check_grades.c: writes results in the formats that learning platforms import: Moodle's grading worksheet,
-// Gradescope's results.json, Submitty's validation_results.json.
+// check_grades.c: writes results in formats that learning platforms import: Moodle's grading worksheet, Gradescope's
+// results.json and Submitty's validation_results.json.
 #include "check.h"
 
 #include <ctype.h>
@@ -14,7 +14,8 @@ static double share_of(const struct check_result *result)
     return !result->error.code && points.possible > 0 ? points.earned / points.possible : 0;
 }
 
-// Moodle downloads submissions as "Full Name_1234567_assignsubmission_file": 1234567 is the participant's number.
+// Parses Moodle's names of downloaded submissions, such as "Full Name_1234567_assignsubmission_file", where 1234567 is
+// the participant's number.
 static bool read_participant(const char *name, char full[128], char number[24])
 {
     const char *end = strstr(name, "_assignsubmission");
@@ -34,7 +35,7 @@ int check_moodle_head(FILE *file)
     return fflush(file) == 0 ? 0 : errno;
 }
 
-// Why there is no verdict, without the folders of the teacher's machine.
+// Returns the reason for a missing verdict without the folders of the teacher's computer.
 static const char *reason_of(const struct check_result *result)
 {
     const char *text = result->error.text, *path = result->submission->fragment;
@@ -44,7 +45,7 @@ static const char *reason_of(const struct check_result *result)
     return text + (slash ? slash + 1 - path : 0);
 }
 
-// For a submission without a verdict, the grade is empty, and Moodle keeps the present grade.
+// Leaves the grade empty for a submission without a verdict, so that Moodle keeps the current grade.
 int check_moodle_row(FILE *file, const struct check_result *result)
 {
     char full[128], number[24];
@@ -65,7 +66,7 @@ int check_moodle_row(FILE *file, const struct check_result *result)
     return fflush(file) == 0 ? 0 : errno;
 }
 
-// Why a scene fails, or "".
+// Returns why a scene fails, or "".
 static const char *scene_says(const lam_check_report *r, const lam_check_scene *scene)
 {
     for (int i = 0; i < r->finding_count && !scene->passes && scene->looks_like; i++)
@@ -112,7 +113,7 @@ int check_submitty(FILE *file, const struct check_result *result)
     bool passes = !result->error.code && r->verdict == LAM_CHECK_PASSES;
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
-    json_text(&json, "status", "success"); // of the check itself
+    json_text(&json, "status", "success"); // the status of the check itself
     json_open(&json, "data", '{');
     json_number(&json, "score", share);
     json_text(&json, "message",

@@ -1,4 +1,5 @@
-// check_page.c: writes the page of a class: one HTML file without scripts, whose pictures are the sheets beside it.
+// check_page.c: writes the page of a class: one HTML file without scripts. Its pictures are the sheets in the same
+// folder.
 #include "check.h"
 
 #include <stdlib.h>
@@ -17,7 +18,7 @@ struct counted {
 };
 
 struct check_page {
-    FILE *rows; // the table's rows
+    FILE *rows; // the rows of the table
     char *text;
     size_t size;
     int count;
@@ -52,7 +53,7 @@ static void put_address(FILE *file, const char *path)
     html_address(file, slash ? slash + 1 : path);
 }
 
-// Names are static: verdicts and ids of mistakes.
+// Counts a name. Names of verdicts and mistakes are static.
 static void count(struct counted *list, size_t capacity, const char *name)
 {
     for (size_t i = 0; i < capacity; i++) {

@@ -1,4 +1,4 @@
-// check_pairs.c: recognises shader files by extension, pairs the files of a command line, and names their sheets.
+// check_pairs.c: recognises shader files by their extension, pairs the files of a command line and names their sheets.
 #include "check.h"
 
 #include <stdlib.h>
@@ -94,7 +94,7 @@ int check_pair(int count, char **files, const char *vertex, struct check_submiss
     return made;
 }
 
-// "ann/phong.frag" as "ann-phong".
+// Converts "ann/phong.frag" to "ann-phong".
 static char *flat_name(const struct check_submission *s, bool in_class)
 {
     const char *name = s->name;
@@ -113,7 +113,7 @@ char *check_sheet_path(const char *output, const struct check_submission *submis
     if (!in_class && output_is_named(output))
         return strdup(output);
     char *path = NULL, *name = flat_name(&submissions[index], in_class);
-    int same = 1; // of "a-b" and "a/b" the second is "a-b-2"
+    int same = 1; // the second of "a-b" and "a/b" becomes "a-b-2"
     for (int i = 0; name && i < index; i++) {
         char *other = flat_name(&submissions[i], in_class);
         same += other && strcmp(other, name) == 0;

@@ -1,4 +1,4 @@
-// check_points.c: computes the points of a report, and formats its verdict.
+// check_points.c: computes the points of a report and formats its verdict.
 #include "check.h"
 
 const char *check_verdict_text(lam_check_verdict verdict)
@@ -25,7 +25,7 @@ const char *check_verdict_text(lam_check_verdict verdict)
 const char *check_scene_word(const lam_check_scene *scene)
 {
     if (!scene->passes && scene->maximum == 0 && !scene->not_numbers)
-        return "black, no points"; // equal, but a black picture proves nothing
+        return "black, no points"; // a black picture earns nothing, even if it is equal
     return scene->passes ? "same" : "differs";
 }
 

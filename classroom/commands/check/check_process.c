@@ -1,8 +1,9 @@
-// check_process.c: runs the shaders under test in a separate process, a second instance of this program. The process is
-// stopped at its limits of time and memory; a crash is a verdict.
+// check_process.c: runs the tested shaders in a separate process, another instance of this program. The process is
+// stopped when it exceeds its time or memory limit; a crash counts as a verdict.
 //
-// The limit is processor time over all threads, so that other load on the machine makes no shader endless. While a
-// graphics card works, the processor may be idle: therefore elapsed time is limited too, to WALL_TIMES as much.
+// The time limit applies to the processor time of all threads, so that other load on the machine does not make a shader
+// appear endless. The processor may be idle while a graphics card works, so the elapsed time is limited too, to
+// WALL_TIMES as much.
 #include "check.h"
 
 #include <errno.h>
@@ -23,7 +24,7 @@
 #include "interrupt.h"
 
 enum { MAX_BYTES = 1 << 30, WALL_TIMES = 20 };
-// Exit codes of the drawing process besides lam_code's: it used up its memory; the driver called exit().
+// Exit codes of the drawing process in addition to lam_code: it ran out of memory, or the driver called exit().
 enum { EXIT_MEMORY = 200, EXIT_DRIVER = 201 };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -69,7 +70,8 @@ static bool write_all(int to, const void *data, size_t size)
     return true;
 }
 
-// Whether the process has used up its memory: not even half of the limit can be had. Called if the driver aborts.
+// Returns whether the process has run out of memory: it cannot even allocate half of the limit. Called if the driver
+// aborts.
 static rlim_t memory_limit;
 static bool is_out_of_memory(void)
 {
@@ -95,7 +97,7 @@ static void on_crash(int number)
 }
 #endif
 
-// The worker ends by _exit(), so only the driver can call exit().
+// The worker ends with _exit(), so only the driver can have called exit().
 static void on_exit_of_driver(void) { _exit(is_out_of_memory() ? EXIT_MEMORY : EXIT_DRIVER); }
 
 static uint64_t max_resident_bytes(void)
@@ -104,8 +106,8 @@ static uint64_t max_resident_bytes(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
 }
 
-// Ends the process as soon as it uses more than its limit. The system's maximum counts from before exec(), when the
-// process still was a copy of its parent: a parent that is larger than the limit raises it.
+// Ends the process as soon as it exceeds its memory limit. The system's peak value also covers the time before exec(),
+// when the process was a copy of its parent, so a parent larger than the limit raises the limit.
 static void *watch_memory(void *unused)
 {
     const struct timespec pause = {.tv_nsec = 2000000};
@@ -116,12 +118,12 @@ static void *watch_memory(void *unused)
     return unused;
 }
 
-// Two limits: the used memory is watched, and requests are bounded, with a margin for the stacks of the driver's
-// threads, which request more than they use.
+// Sets two limits. The used memory is watched, and allocations are bounded with a margin for the stacks of the driver's
+// threads, which allocate more than they use.
 static void bound_memory(const char *bytes)
 {
     memory_limit = (rlim_t)strtoull(bytes, NULL, 10);
-#ifndef SANITIZED // sanitizers ask for more than any limit
+#ifndef SANITIZED // sanitizers allocate more than any limit
     const rlim_t margin = (rlim_t)512 << 20;
     setrlimit(RLIMIT_DATA, &(struct rlimit){memory_limit + margin, memory_limit + margin});
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGILL, SIGTRAP};
@@ -140,7 +142,7 @@ void check_worker(const char *memory)
     bound_memory(memory);
     int answer = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY);
     if (answer < 0 || nowhere < 0 || dup2(nowhere, STDOUT_FILENO) < 0 || dup2(nowhere, STDERR_FILENO) < 0)
-        _exit(LAM_LIMIT); // drivers print to both
+        _exit(LAM_LIMIT); // drivers print to both streams
     lam_bytes request = {0}, drawn = {0};
     lam_error error = {0};
     bool ok = read_all(STDIN_FILENO, &request) || complain(&error, LAM_LIMIT, "out of memory");
@@ -148,7 +150,7 @@ void check_worker(const char *memory)
     int code = ok ? 0 : (int)error.code;
     if (!write_all(answer, ok ? drawn.data : error.text, ok ? drawn.size : strlen(error.text)))
         code = LAM_CANNOT_WRITE;
-    // The result has been sent; crashes of the driver during exit are ignored.
+    // The result has been sent, so crashes of the driver during exit do not matter.
     _exit(code);
 }
 
@@ -163,17 +165,17 @@ static double now_s(void)
 
 struct child {
     pid_t pid;
-    int to, from; // −1: closed
+    int to, from; // −1 if closed
 };
 
-// A limit enforced by the system, in case the parent dies first.
+// Sets a limit that the system enforces in case the parent dies first.
 static void bound_time(double limit_s)
 {
     rlim_t seconds = (rlim_t)limit_s + 2;
     setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds + 1});
 }
 
-// Over all threads. 0: unknown.
+// Returns the processor time of all threads, or 0 if it is unknown.
 static double processor_time_s(pid_t pid)
 {
     clockid_t clock;
@@ -183,7 +185,7 @@ static double processor_time_s(pid_t pid)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// Starts this program anew. If /proc is missing, by the path that started it.
+// Starts this program again, by its path if /proc is missing.
 static void become_worker(const char *memory, const char *path)
 {
     execl("/proc/self/exe", "lambent", CHECK_WORKER, memory, (char *)NULL);
@@ -193,7 +195,7 @@ static void become_worker(const char *memory, const char *path)
 static bool start(struct child *child, const struct check_process *how, lam_error *error)
 {
     const char *path = (const char *)getauxval(AT_EXECFN);
-    char memory[32]; // written before the fork: other threads may have locked any lock
+    char memory[32]; // written before fork(), since other threads may hold locks
     snprintf(memory, sizeof memory, "%llu", (unsigned long long)how->memory_limit_bytes);
     int in[2] = {-1, -1}, out[2] = {-1, -1};
     *child = (struct child){-1, -1, -1};
@@ -201,7 +203,7 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     pid_t parent = getpid();
     child->pid = piped ? fork() : -1;
     if (child->pid == 0) {
-        interrupt_with_parent(parent); // the worker's program inherits it
+        interrupt_with_parent(parent); // the worker inherits it
         bound_time(how->time_limit_s);
         if (dup2(in[0], STDIN_FILENO) >= 0 && dup2(out[1], STDOUT_FILENO) >= 0)
             become_worker(memory, path ? path : "lambent");
@@ -222,7 +224,7 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     return true;
 }
 
-// Sends as much as the pipe accepts. If the other end is closed, the process has died; its exit status follows later.
+// Sends as much as the pipe accepts. If the other end is closed, the process has died, and its exit status will follow.
 static void send_some(struct child *child, const lam_bytes *request, size_t *sent)
 {
     ssize_t n = write(child->to, (const char *)request->data + *sent, request->size - *sent);
@@ -234,7 +236,7 @@ static void send_some(struct child *child, const lam_bytes *request, size_t *sen
     }
 }
 
-// Reads the available bytes; false at the end.
+// Reads the available bytes. Returns false at the end of the stream.
 static bool receive_some(struct child *child, lam_bytes *drawn, size_t *capacity)
 {
     if (drawn->size == *capacity) {

@@ -1,4 +1,4 @@
-// check_sheet.c: draws the sheet: the shader's picture, the reference and the difference of each scene, on one page.
+// check_sheet.c: draws the sheet with the shader's picture, the reference and the difference for each scene.
 #include "check.h"
 
 #include <stdlib.h>
@@ -8,8 +8,8 @@
 
 enum { INK = 0x222222, GREY = 0x777777, GOOD = 0x0a7d33, BAD = 0xb3261e, GAP = 12, HEAD = 96, SIDE = 196 };
 
-// Converts floats to bytes without an encoding, as a screen shows a shader's output. Clear pixels become white, so that
-// the model is visible.
+// Converts floats to bytes without encoding, as a screen shows a shader's output. Transparent pixels become white, so
+// that the model is visible.
 static bool to_bytes(const lam_image *from, lam_image *bytes, lam_error *error)
 {
     if (!lam_image_make(bytes, from->width, from->height, LAM_RGBA8, error))

@@ -1,4 +1,4 @@
-// plot.c: the command `plot`: plots attenuation, spot and highlight as curves, and prints their numbers.
+// plot.c: the command `plot`: plots attenuation, spot and highlight as curves and prints their numbers.
 #include "plot.h"
 
 #include <stdlib.h>
@@ -17,7 +17,7 @@
 
 enum { TABLE_STEPS = 100 };
 
-// Colours that people with any colour vision distinguish (Okabe and Ito, 2008), without yellow, which is hard to see on
+// Colours that remain distinct for colour-blind readers (Okabe and Ito, 2008), without yellow, which is hard to see on
 // white.
 static const uint32_t palette[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x222222};
 
@@ -33,11 +33,11 @@ static double highlight_value(const struct curve *c, double x)
     return (double)lam_highlight_at(c->reflection, c->shininess, radians(x));
 }
 
-// Returns the smallest x from which the curve stays below a level; all curves fall monotonically. Bisects an interval
-// whose left end is not below, down to neighbouring floats.
+// Returns the smallest x from which the curve stays below a level. All curves decrease monotonically. Bisects an
+// interval until its ends are neighbouring floats.
 static double find_below(const struct curve *curve, double level, double farthest)
 {
-    // An inverse square evaluates to 0 at the light itself; the search starts beside it.
+    // An inverse square evaluates to 0 at the light itself, so the search starts next to it.
     double low = curve->value(curve, 0) == 0 ? 1e-3 : 0, high = farthest < 1 ? farthest : 1;
     if (curve->value(curve, low) < level)
         return 0;
@@ -76,14 +76,14 @@ static bool wrong(lam_error *error, const char *kind, const char *word, const ch
     return complain(error, LAM_BAD_ARGUMENT, "plot %s: found '%.100s', expected %s", kind, word, expected);
 }
 
-// Adds the curve of a light, labelled with `name` (NULL: none) and its numbers.
+// Adds the curve of a light, labelled with `name` (may be NULL) and its numbers.
 static bool add_faded(struct plot *plot, const lam_light *light, const char *name, lam_error *error)
 {
     struct curve *curve = add_curve(plot, attenuation_value, error);
     if (!curve)
         return false;
     curve->light = *light;
-    curve->light.name = NULL; // the owner of the name is freed before the plot
+    curve->light.name = NULL; // the name's owner is freed before the plot
     curve->light.object = NULL;
     curve->marked = true;
     lam_attenuation a = light->attenuation;
@@ -98,13 +98,13 @@ static bool add_faded(struct plot *plot, const lam_light *light, const char *nam
 
 static bool fades(const lam_light *light) { return light->type == LAM_LIGHT_POINT || light->type == LAM_LIGHT_SPOT; }
 
-// Adds the curve of a light in words, with `add`.
+// Parses a light and adds its curve with `add`.
 static bool add_words(struct plot *plot, const char *kind, const char *word, const char *light,
                       bool add(struct plot *plot, const lam_light *light, const char *word, lam_error *error),
                       lam_error *error)
 {
     lam_error reason;
-    lam_scene *scene = lam_scene_make(&reason); // without triangles: lengths in r are refused
+    lam_scene *scene = lam_scene_make(&reason); // has no triangles, so lengths in r are rejected
     bool read = scene && lam_scene_add_light_text(scene, light, NULL, &reason) == 0;
     bool ok = read ? add(plot, lam_scene_light(scene, 0), word, error)
                    : complain(error, reason.code, "plot %s: '%.60s': %.300s", kind, word, reason.text);
@@ -112,7 +112,7 @@ static bool add_words(struct plot *plot, const char *kind, const char *word, con
     return ok;
 }
 
-// Adds a light in the syntax of --light: "point:attenuation=1/0.5/0.2,name=lamp".
+// Adds a light in the syntax of --light, such as "point:attenuation=1/0.5/0.2,name=lamp".
 static bool add_fading(struct plot *plot, const lam_light *light, const char *word, lam_error *error)
 {
     if (!fades(light))
@@ -154,7 +154,7 @@ static bool is_light(const char *word)
     return false;
 }
 
-// Adds "a/b/c" or "a/b/c/range", a light, or the lights of a file.
+// Adds "a/b/c", "a/b/c/range", a light, or the lights of a file.
 static bool add_attenuation(struct plot *plot, const char *word, lam_error *error)
 {
     double part[4] = {0};
@@ -183,7 +183,7 @@ static bool add_attenuation(struct plot *plot, const char *word, lam_error *erro
     return add_faded(plot, &light, NULL, error);
 }
 
-// Adds "cutoff=30,exponent=8" or "inner=20,outer=35", as in a light.
+// Adds "cutoff=30,exponent=8" or "inner=20,outer=35", with the keys of a light.
 static bool add_spot_light(struct plot *plot, const lam_light *light, const char *word, lam_error *error)
 {
     const double degrees = 180 / 3.14159265358979323846;
@@ -193,7 +193,7 @@ static bool add_spot_light(struct plot *plot, const lam_light *light, const char
     if (!curve)
         return false;
     curve->light = *light;
-    curve->light.name = curve->light.object = NULL; // they belong to the scene
+    curve->light.name = curve->light.object = NULL; // owned by the scene
     if (light->outer_rad > 0)
         snprintf(curve->label, sizeof curve->label, "inner %.5g°, outer %.5g°", (double)light->inner_rad * degrees,
                  (double)light->outer_rad * degrees);
@@ -205,7 +205,7 @@ static bool add_spot_light(struct plot *plot, const lam_light *light, const char
     return true;
 }
 
-// Parses the cone of a spot light, in the keys of --light.
+// Parses the cone of a spot light with the keys of --light.
 static bool add_spot(struct plot *plot, const char *word, lam_error *error)
 {
     char light[200];
@@ -237,9 +237,9 @@ static bool add_highlight(struct plot *plot, const char *word, lam_error *error)
 struct kind {
     const char *name, *title, *x_label, *y_label;
     bool (*add)(struct plot *plot, const char *word, lam_error *error);
-    const char *standard[5]; // the curves if the command line names none
-    double x_max, farthest;  // 0: fitted to the curves
-    int per_color;           // this many curves share a colour
+    const char *standard[5]; // the default curves
+    double x_max, farthest;  // 0 means fitted to the curves
+    int per_color;           // the number of curves with the same colour
 };
 
 static const struct kind kinds[] = {
@@ -290,8 +290,9 @@ static const struct kind *find_kind(const char *name, lam_error *error)
     return NULL;
 }
 
-// Returns the length of the axis: up to where the last curve has fallen to a twentieth, so that the curves fill the
-// plot; 10 if none does. The point at which they fall below 1/255 is beyond the axis, so the legend states it.
+// Returns the length of the axis, which extends to where the last curve has fallen to a twentieth, so that the curves
+// fill the plot. Returns 10 if no curve does. The point where a curve falls below 1/255 is outside the axis, so the
+// legend states it.
 static double length_of(const struct plot *plot, double farthest)
 {
     double most = 0;
@@ -326,7 +327,7 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
         curve->below = find_below(curve, 1.0 / 255, kind->farthest);
     }
     plot->x_max = o->plot.to > 0 ? o->plot.to : kind->x_max > 0 ? kind->x_max : length_of(plot, kind->farthest);
-    // Attenuations may start above 1; values above 2 are cut off.
+    // Attenuations may start above 1. Clips values above 2.
     for (int i = 0; i < plot->count; i++)
         for (int k = 0; k <= TABLE_STEPS; k++)
             if (plot->curves[i].value(&plot->curves[i], plot->x_max * k / TABLE_STEPS) > 1)
@@ -340,7 +341,7 @@ static void print_text(FILE *file, const struct plot *plot)
 {
     for (int i = 0; i < plot->count; i++) {
         const struct curve *c = &plot->curves[i];
-        // Pads by letters, not bytes.
+        // Pads by characters, not bytes.
         int letters = 0;
         for (const char *s = c->label; *s; s++)
             letters += (*s & 0xC0) != 0x80;

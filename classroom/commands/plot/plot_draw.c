@@ -1,4 +1,4 @@
-// plot_draw.c: draws a plot: axes with round numbers, a grid, the curves, their names, the marks.
+// plot_draw.c: draws a plot: axes with round numbers, a grid, the curves with their names, and the marks.
 #include "plot.h"
 
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 enum { INK = 0x222222, GREY = 0x707070, GRID = 0xe4e4e4, LEGEND_SIZE = 200 };
 
-// The position of the axes on the page, and the scale of the type.
+// The position of the axes on the page, and the scale of the text.
 struct layout {
     double left, top, right, bottom; // pixels
     double unit;                     // 1 on a page of 800×500
@@ -21,7 +21,7 @@ static struct point place(const struct plot *plot, const struct layout *at, doub
                           at->bottom - (at->bottom - at->top) * y / plot->y_max};
 }
 
-// Returns the spacing of the grid: 1, 2 or 5 times a power of ten, giving at most `max_steps` steps.
+// Returns the spacing of the grid: 1, 2 or 5 times a power of ten, with at most `max_steps` steps.
 static double step_of(double length, int max_steps)
 {
     double power = 1;
@@ -100,7 +100,7 @@ static bool path_refine(struct path *path, const struct plot *plot, const struct
     return path_add(path, x1, y1, error);
 }
 
-// Draws the parts of the path below the plot's upper edge.
+// Draws the parts of the path below the plot's top edge.
 static bool draw_path(const struct plot *plot, const struct layout *at, const struct curve *curve,
                       const struct path *path, struct drawing *d, lam_error *error)
 {
@@ -133,7 +133,7 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
     enum { STEPS = 400 };
     struct path path = {0};
     double x = 0, y = curve->value(curve, 0);
-    // An inverse square is 0 at the light itself and unbounded next to it: the curve starts next to it.
+    // An inverse square is 0 at the light itself and unbounded next to it, so the curve starts next to it.
     double beside = plot->x_max * 1e-4;
     if (y == 0 && curve->value(curve, beside) > plot->y_max)
         y = curve->value(curve, x = beside);
@@ -149,15 +149,15 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
     return ok;
 }
 
-// Draws dots where curves fall below the level, with their numbers above, in several rows if they would overlap.
+// Draws dots where curves fall below the level, and numbers above them, in several rows if they would overlap.
 static bool draw_marks(const struct plot *plot, const struct layout *at, struct drawing *d, lam_error *error)
 {
-    double u = at->unit, taken[CURVES_MAX] = {0}; // right end of each row of numbers
+    double u = at->unit, taken[CURVES_MAX] = {0}; // the right end of each row of numbers
     for (int k = 0; k < CURVES_MAX; k++)
         taken[k] = -1e9;
     double last = -1;
     for (int n = 0; n < plot->count; n++) {
-        // The next mark from the left.
+        // The next mark to the right.
         const struct curve *curve = NULL;
         int at_once = 0;
         for (int i = 0; i < plot->count; i++) {
@@ -188,8 +188,8 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
     return true;
 }
 
-// Draws a curve in the legend. If a curve falls below 1/255 beyond the axis, it shows no dot, and the legend states the
-// point.
+// Draws a curve's line in the legend. If the curve falls below 1/255 outside the axis, the plot has no dot for it, and
+// the legend states the point.
 static const char *legend_of(const struct plot *plot, const struct curve *curve, char text[LEGEND_SIZE])
 {
     snprintf(text, LEGEND_SIZE, "%s", curve->label);
@@ -200,7 +200,7 @@ static const char *legend_of(const struct plot *plot, const struct curve *curve,
     return text;
 }
 
-// Draws the legend: in the upper right corner of the plot if no curve passes there, otherwise beside the plot.
+// The legend: in the top right corner of the plot if no curve passes there, otherwise next to the plot.
 struct names {
     double left, top, width, height; // pixels
 };

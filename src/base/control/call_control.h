@@ -5,23 +5,26 @@
 #include <lambent/base.h>
 
 struct call_control {
-    lam_control control; // a copy; zero: no bounds
+    lam_control control; // a copy; all zero: no limits
     uint64_t start_ns;
     uint64_t memory_used; // accessed atomically
-    int over_memory;      // set once a request was refused by the budget
-    int over_expansion;   // the same, by the budget that follows from the size of the files
-    uint64_t input_bytes; // of the files that were read; accessed atomically. 0: none, and no limit follows from them
-    bool unknown_field;   // the control has a field that this version does not know
+    int over_memory;      // set once the memory budget refused a request
+    int over_expansion;   // set once the budget derived from the file sizes refused a request
+    // The number of bytes in all files read so far, accessed atomically. 0 means that no files were read, and that no
+    // limit is derived from them.
+    uint64_t input_bytes;
+    bool unknown_field; // the control has a field that this version does not know
     double last_share;
-    // The number of formula operations in a scene file, and its limit; 0: no limit.
+    // The number of formula operations in a scene file, and its limit; 0 means no limit.
     uint64_t operations, operation_limit;
 };
 
 // Starts a call. `control` may be NULL.
 void call_start(struct call_control *call, const lam_control *control);
 
-// Returns false when the call must end: cancelled, over its time, or with a control that this version does not know.
-// Cheap enough for every few thousand items (about 25 ns); any thread. `call` may be NULL.
+// Returns false if the call must end: it was cancelled, it exceeded its time, or its control sets a field that this
+// version does not know. Cheap enough for every few thousand items (about 25 ns); any thread may call it. `call` may be
+// NULL.
 bool call_should_continue(struct call_control *call);
 
 // Fills the error with the reason why call_should_continue returned false, and returns false.
@@ -41,7 +44,7 @@ bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error
 void call_add_input(struct call_control *call, uint64_t bytes);
 uint64_t call_input_bytes(const struct call_control *call);
 
-// Returns the limits of lam_control, or their defaults. `call` may be NULL. UINT64_MAX: none.
+// Return the limits of lam_control, or their defaults. UINT64_MAX means no limit. `call` may be NULL.
 uint64_t call_triangle_limit(const struct call_control *call);
 uint64_t call_expansion_limit(const struct call_control *call);
 uint64_t call_pixel_limit(const struct call_control *call);
@@ -49,25 +52,25 @@ uint64_t call_file_limit(const struct call_control *call);
 unsigned call_json_depth_limit(const struct call_control *call);
 uint64_t call_layer_limit(const struct call_control *call);
 
-// Returns whether a model, or a drawn scene, may have this many triangles; false: LAM_LIMIT. `items` is their name:
-// "triangles", "lines".
+// Returns whether a model or a drawn scene may have this many triangles; false: LAM_LIMIT. `items` names them in the
+// message: "triangles", "lines".
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);
 
 // Returns whether a model may have this many objects; false: LAM_LIMIT.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
-// Returns whether the unpacked parts of a compressed file may have this many bytes: at most the memory that reading it
-// may use; false: LAM_LIMIT.
+// Returns whether the unpacked data of a compressed file may have this many bytes, which is the memory that reading the
+// file may use; false: LAM_LIMIT.
 bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
 // Returns whether a file of this size may be read; false: LAM_LIMIT.
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
-// Calls the progress callback; from the calling thread only. Reported shares never decrease.
+// Calls the progress callback. It must run in the calling thread only. Reported shares never decrease.
 void call_progress(struct call_control *call, double share, const char *step);
 
-// Monotonic time.
+// Returns the monotonic time.
 uint64_t now_ns(void);
 
 #endif

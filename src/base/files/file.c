@@ -82,34 +82,35 @@ bool file_copy(const void *bytes, size_t size, struct call_control *call, struct
     return true;
 }
 
-// One piece of a parallel read.
-enum { PIECE = 1 << 20 };
-struct reading {
+// The size of one chunk of a parallel read.
+enum { CHUNK = 1 << 20 };
+struct parallel_read {
     int file;
     uint8_t *to;
     size_t size;
     struct call_control *call;
-    int failed;     // an errno; −1: the file ended early
-    size_t reached; // offset at which it ended
+    int failed;     // an errno, or −1 if the file ended early
+    size_t reached; // offset of the failure
 };
 
-static void read_piece(void *user, size_t index, int thread)
+static void read_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
-    struct reading *reading = user;
-    size_t at = index * (size_t)PIECE;
-    size_t end = at + PIECE < reading->size ? at + PIECE : reading->size;
-    if (!call_should_continue(reading->call))
+    struct parallel_read *read_state = user;
+    size_t at = index * (size_t)CHUNK;
+    size_t end = at + CHUNK < read_state->size ? at + CHUNK : read_state->size;
+    if (!call_should_continue(read_state->call))
         return;
-    while (at < end && !__atomic_load_n(&reading->failed, __ATOMIC_RELAXED)) {
-        ssize_t got = pread(reading->file, reading->to + at, end - at, (off_t)at);
+    while (at < end && !__atomic_load_n(&read_state->failed, __ATOMIC_RELAXED)) {
+        ssize_t got = pread(read_state->file, read_state->to + at, end - at, (off_t)at);
         if (got > 0) {
             at += (size_t)got;
         } else if (got == 0 || errno != EINTR) {
-            // If several pieces fail, the first failure is reported.
+            // If several chunks fail, the first failure is reported.
             int none = 0, reason = got == 0 ? -1 : errno;
-            if (__atomic_compare_exchange_n(&reading->failed, &none, reason, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
-                reading->reached = at;
+            if (__atomic_compare_exchange_n(&read_state->failed, &none, reason, false, __ATOMIC_RELAXED,
+                                            __ATOMIC_RELAXED))
+                read_state->reached = at;
         }
     }
 }
@@ -122,16 +123,16 @@ static bool read_sized(int file, const char *path, size_t size, bool fresh, stru
     call_add_input(call, fresh ? size : 0);
     if (!file_hold(size, call, out, error))
         return false;
-    struct reading reading = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .call = call};
-    pool_run(pool, (size + PIECE - 1) / PIECE, read_piece, &reading);
+    struct parallel_read read_state = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .call = call};
+    pool_run(pool, (size + CHUNK - 1) / CHUNK, read_chunk, &read_state);
     bool ok = true;
     if (!call_should_continue(call)) {
         ok = call_error(call, error);
-    } else if (reading.failed == -1) {
+    } else if (read_state.failed == -1) {
         ok = fail(error, LAM_CANNOT_READ, "%s: became shorter while it was read: ended at byte %zu of %zu", path,
-                  reading.reached, size);
-    } else if (reading.failed) {
-        errno = reading.failed;
+                  read_state.reached, size);
+    } else if (read_state.failed) {
+        errno = read_state.failed;
         ok = fail_system(error, LAM_CANNOT_READ, path, "read");
     }
     if (!ok)
@@ -151,7 +152,7 @@ static bool wait_readable(int file, struct call_control *call)
     return false;
 }
 
-// Doubles the capacity and keeps the bytes read so far.
+// Doubles the capacity and keeps the bytes that were read.
 static bool grow(struct file_bytes *bytes, size_t used, struct call_control *call, lam_error *error)
 {
     struct file_bytes larger;
@@ -163,7 +164,7 @@ static bool grow(struct file_bytes *bytes, size_t used, struct call_control *cal
     return true;
 }
 
-// Reads a pipe, a terminal or a device until its end, which some devices never reach (/dev/zero).
+// Reads a pipe, a terminal or a device to its end. Some devices have none (/dev/zero).
 static bool read_stream(int file, const char *path, bool fresh, struct call_control *call, struct file_bytes *out,
                         lam_error *error)
 {
@@ -191,7 +192,7 @@ static bool read_stream(int file, const char *path, bool fresh, struct call_cont
         file_release(out);
         return false;
     }
-    // Bytes after the last one stay zero; their charge is refunded.
+    // The bytes after the end stay zero, and their charge is refunded.
     if (call)
         call_refund(call, out->size - used);
     call_add_input(call, fresh ? used : 0);
@@ -220,7 +221,8 @@ bool file_check_regular(const char *path, lam_error *error)
 enum { OPEN_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
 
 // Opens a path below the folder given by its first `folder` bytes, so that a link created after the check of the path
-// cannot lead out of the folder. Kernels before 5.6 do not support this call; there the checked path is opened.
+// cannot lead out of the folder. Kernels before 5.6 do not support openat2; on them the checked path is opened
+// directly.
 static int open_beneath(const char *path, size_t folder)
 {
 #ifdef SYS_openat2
@@ -243,7 +245,7 @@ static int open_beneath(const char *path, size_t folder)
     return open(path, OPEN_FLAGS | O_NOFOLLOW);
 }
 
-// Opens a regular file. Returns −1 on error, without opening paths of another kind. `shown` NULL: the path comes from
+// Opens a regular file and never opens other kinds of paths. Returns −1 on error. If `shown` is NULL, the path is from
 // the user.
 static int open_regular(const char *path, size_t folder, const char *shown, struct stat *about, lam_error *error)
 {

@@ -6,40 +6,41 @@
 #include "call_control.h"
 #include "pool.h"
 
-// Files are read into memory in parallel pieces, not mapped: a mapped file that another program shrinks kills the
-// reader with SIGBUS, and copying from the page cache into huge pages costs no more than the page faults of a mapping.
-// At least FILE_PADDING zero bytes follow the last byte, so a parser may read past the end.
+// Files are read into memory in parallel chunks. They are not mapped: a mapped file that another program shrinks kills
+// the reader with SIGBUS, and copying from the page cache into huge pages costs no more than the page faults of a
+// mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may read past the end.
 enum { FILE_PADDING = 64 };
 
 struct file_bytes {
     const uint8_t *data;
     size_t size;
-    size_t held;               // bytes of address space at `data`; 0: not owned
-    struct call_control *call; // charged for them, refunded at release; may be NULL
+    size_t held;               // size of the address range at `data`; 0 if not owned
+    struct call_control *call; // charged for the bytes, refunded on release; may be NULL
 };
 
-// Reads a regular file, or standard input for "-". Folders, pipes, devices and sockets are not opened: opening one can
-// wait forever, or have side effects. `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such file, not a
-// regular one, a read error, the file was shortened meanwhile), LAM_LIMIT, LAM_CANCELLED.
+// Reads a regular file, or standard input for "-". Folders, pipes, devices and sockets are never opened, because
+// opening one can block forever or have side effects. `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such
+// file, not a regular file, a read error, the file was shortened meanwhile), LAM_LIMIT, LAM_CANCELLED.
 bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out,
                lam_error *error);
 
-// The same for a regular file that another file names: messages use `shown` for its path (NULL: the path), and "-" is a
-// file's name. `folder`: the length of the folder's part of the path, as path_within returns it. The rest is opened
-// below that folder without following a link, even if one was created meanwhile. 0: the path is opened as it is.
-// `fresh`: the call has not read this file before, so that its bytes count as input (call_add_input).
+// Reads a regular file that another file names. Messages use `shown` as the path (NULL means the path itself), and "-"
+// is an ordinary name. `folder` is the length of the folder's part of the path, as returned by path_within. The rest is
+// opened below that folder without following links, even links created meanwhile. If `folder` is 0, the path is opened
+// directly. `fresh` means that the call has not read this file before, so its bytes count as input (call_add_input).
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error);
 
 // Returns whether a path that another library opens leads to a regular file; false: LAM_CANNOT_READ.
 bool file_check_regular(const char *path, lam_error *error);
 
-// The path after every link and ".." is followed, from malloc, if it lies in the folder ("": the current one) or below,
-// or is the same. Returns NULL if it does not (*outside is then true), or cannot be followed (errno). *length: of the
-// folder's part, with its '/'; 0 if the two are the same.
+// Resolves every link and ".." of a path. If the result is the folder or inside it, returns it, allocated with malloc.
+// A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is then true) or cannot be
+// resolved (errno). Sets *length to the length of the folder's part with its '/', or to 0 if the path is the folder
+// itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
-// A large file, which any thread may read in parts.
+// A large file that any thread may read in parts.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
 struct file_parts {
     int file;
@@ -51,29 +52,31 @@ bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], s
 bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes);
 void file_close_parts(struct file_parts *parts);
 
-// Allocates zeroed, padded memory for a file's bytes, as file_read returns it; or a padded copy of memory.
+// Allocates zeroed, padded memory for a file's bytes, in the form that file_read returns, or a padded copy of memory.
 bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
 void file_release(struct file_bytes *bytes);
 
-// Makes the arena the owner of the bytes, without copying them. False: out of memory; `bytes` still owns them.
+// Moves the ownership of the bytes to the arena, without copying them. Returns false if memory runs out; `bytes` then
+// still owns them.
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
-// Writes a file completely or not at all, and leaves no other file in its folder, even if a signal ends the process
-// meanwhile (file_write.c). Keeps the rights to read and write an existing file, and none to execute it; a symbolic
-// link is kept, and its target replaced. A path that is not a regular file (/dev/stdout, a pipe) is written directly.
-// `durable`: it is on the disk when the call returns, and its folder too, so that a loss of power leaves the old file
-// or the new one. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the errors of `call`: LAM_CANCELLED, LAM_LIMIT.
+// Writes a file completely or not at all, and leaves no temporary file, even if a signal ends the process meanwhile
+// (file_write.c). It keeps the read and write permissions of an existing file but removes execute permission. A
+// symbolic link is kept, and its target is replaced. A path that is not a regular file (/dev/stdout, a pipe) is written
+// directly. With `durable`, the file and its folder are on disk when the call returns, so that a power failure leaves
+// the old file or the new one. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the errors of `call`: LAM_CANCELLED,
+// LAM_LIMIT.
 bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
                 lam_error *error);
 
-// Writes a file by a given method, for tests: FILE_NAMED is used on file systems without unnamed files.
-enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // the last one is a bit
+// Writes a file by a given method, for tests. FILE_NAMED is the method for file systems without unnamed files.
+enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // FILE_DURABLE is a flag
 bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);
 
-// Returns the last component of a path, and that component's ending after its last '.' ("" if none).
+// Return the last component of a path, and its extension after the last '.' ("" if there is none).
 const char *path_name(const char *path);
 const char *path_ending(const char *path);
 

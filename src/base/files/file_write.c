@@ -1,13 +1,13 @@
 // file_write.c: writes whole files, so that a reader sees either the old file or the new one, and no temporary file
 // remains.
 //
-// If the file system supports them, the bytes go to a file without a name (O_TMPFILE), which the kernel removes with
-// the process, however it ends. The finished file is linked to its name; if that name exists, beside it, and renamed
-// over it. Between the link and the rename every signal waits; SIGKILL cannot, and leaves a file only in those
-// microseconds.
+// If the file system supports it, the bytes are written to an unnamed file (O_TMPFILE), which the kernel removes when
+// the process ends for any reason. The finished file is linked to its name. If that name exists, the file is linked to
+// a temporary name and renamed over the old file. All signals are blocked between the link and the rename; SIGKILL
+// cannot be blocked, and leaves a temporary file only within those microseconds.
 //
-// Elsewhere (NFS, vfat, some FUSE file systems) the file has a name of its own from the start. Signals wait while it
-// exists, but are checked after each chunk: the file is removed before a fatal signal takes effect.
+// Other file systems (NFS, vfat, some FUSE file systems) need a temporary name from the start. Signals are blocked
+// while it exists, but are checked after each chunk: the file is removed before a fatal signal takes effect.
 #include "file.h"
 
 #include "fail.h"
@@ -22,7 +22,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PIECE = 1 << 20 };
+enum { CHUNK = 1 << 20 };
 
 static bool fail_writing(lam_error *error, const char *path, const char *action)
 {
@@ -34,7 +34,7 @@ static bool fail_writing(lam_error *error, const char *path, const char *action)
 
 // --- signals
 
-// Returns true if a signal that arrives now ends or stops nothing: it is ignored, or ignored by default.
+// Returns whether a signal that arrives now has no effect: it is ignored, explicitly or by default.
 static bool is_ignored(int number, const struct sigaction *action)
 {
     if (action->sa_handler == SIG_IGN)
@@ -44,7 +44,7 @@ static bool is_ignored(int number, const struct sigaction *action)
             number == SIGTTIN || number == SIGTTOU);
 }
 
-// Lets the caller's handlers run for the signals that wait. Returns false if one waits that ends the process.
+// Lets the caller's handlers run for pending signals. Returns false if a fatal signal is pending.
 static bool deliver_handled(const sigset_t *before)
 {
     sigset_t pending;
@@ -78,20 +78,20 @@ static void hold_signals(sigset_t *before)
 // The data to write and their destination.
 struct writing {
     const char *target;
-    const struct stat *existing; // NULL: the target does not exist
+    const struct stat *existing; // NULL if the target does not exist
     const void *data;
     size_t size;
     bool durable;
     struct call_control *call;
 };
 
-// False with errno set; ECANCELED: the call must end; EINTR: a signal waits that ends the process. `before`: the
-// signals blocked before; NULL: they are not held.
+// Returns false and sets errno on failure. ECANCELED means that the call must end, EINTR that a fatal signal is
+// pending. `before` contains the previously blocked signals; if it is NULL, signals are not blocked here.
 static bool write_all(int file, const struct writing *w, const sigset_t *before)
 {
     const uint8_t *at = w->data;
     for (size_t left = w->size; left;) {
-        ssize_t wrote = write(file, at, left < PIECE ? left : PIECE);
+        ssize_t wrote = write(file, at, left < CHUNK ? left : CHUNK);
         if (wrote < 0 && errno != EINTR)
             return false;
         at += wrote > 0 ? wrote : 0;
@@ -115,7 +115,8 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
 {
     if (!write_all(file, w, before))
         return false;
-    // The rights to read and write stay as they were; no file that is written here is a program. EPERM: a file system without rights.
+    // Keeps the read and write permissions; a file written here is never a program. EPERM: the file system has no
+    // permissions.
     if (w->existing && fchmod(file, w->existing->st_mode & 0666) != 0 && errno != EPERM)
         return false;
     if (w->durable && !sync_file(file))
@@ -133,8 +134,8 @@ static char *folder_of(const char *path)
     return name == path ? strdup(".") : strndup(path, (size_t)(name - path));
 }
 
-// Returns a name beside the target that is not in use, so far, from malloc. It is short, and hidden. It contains the
-// host because several may write to one folder, and a process's number is not unique: in containers it is often 1.
+// Returns an unused hidden name beside the target, from malloc. It contains the host name because several hosts may
+// write to one folder, and process numbers are not unique: in containers the number is often 1.
 static char *name_beside(const char *target)
 {
     char *name, host[65] = "";
@@ -147,7 +148,7 @@ static char *name_beside(const char *target)
                : name;
 }
 
-// A file's name is on disk after its folder is flushed.
+// Flushes the folder, which makes the file's name durable.
 static bool sync_folder(const char *target)
 {
     char *name = folder_of(target);
@@ -161,14 +162,14 @@ static bool sync_folder(const char *target)
     return ok;
 }
 
-// --- a file without a name
+// --- an unnamed file
 
 static bool link_file(int file, const char *name)
 {
     char path[64];
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
     return linkat(AT_FDCWD, path, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0 ||
-           (errno != EEXIST && linkat(file, "", AT_FDCWD, name, AT_EMPTY_PATH) == 0); // without /proc
+           (errno != EEXIST && linkat(file, "", AT_FDCWD, name, AT_EMPTY_PATH) == 0); // if /proc is not mounted
 }
 
 // Links the file to a name beside the target and renames it over the target.
@@ -195,7 +196,7 @@ static bool link_over(int file, const char *target)
     return ok;
 }
 
-// `*possible`: the file system can do it; if it cannot, nothing has been written.
+// Sets *possible to whether the file system supports it; if not, nothing has been written.
 static bool write_unnamed(const struct writing *w, bool *possible)
 {
     char *folder = folder_of(w->target);
@@ -215,9 +216,9 @@ static bool write_unnamed(const struct writing *w, bool *possible)
     return linked;
 }
 
-// --- a file with a name
+// --- a named file
 
-// Creates a file beside the target, with the mode that the umask gives.
+// Creates a temporary file beside the target, with the mode that the umask gives.
 static int open_beside(const char *target, char **name)
 {
     for (int attempt = 0; attempt < 100; attempt++) {
@@ -252,12 +253,12 @@ static bool write_named(const struct writing *w)
     if (file >= 0 && !ok)
         unlink(name);
     free(name);
-    pthread_sigmask(SIG_SETMASK, &before, NULL); // here a signal ends the process
+    pthread_sigmask(SIG_SETMASK, &before, NULL); // pending signals are delivered here
     errno = reason;
     return ok;
 }
 
-// --- the file
+// --- writing a file
 
 static bool write_direct(const char *path, const struct writing *w, lam_error *error)
 {

@@ -1,5 +1,5 @@
-// file_write_web.c: writes whole files on WebAssembly, whose files are the host's affair: a page keeps them in memory, and no
-// signal ends a write halfway (file_write.c is for systems where that happens).
+// file_write_web.c: writes whole files on WebAssembly. The host provides the file system: a page keeps files in memory,
+// and no signal can interrupt a write, so the precautions of file_write.c are not needed.
 #include "file.h"
 
 #include "fail.h"
@@ -11,12 +11,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PIECE = 1 << 20 };
+enum { CHUNK = 1 << 20 };
 
 static bool write_all(int file, const uint8_t *at, size_t left, struct call_control *call)
 {
     while (left) {
-        ssize_t wrote = write(file, at, left < PIECE ? left : PIECE);
+        ssize_t wrote = write(file, at, left < CHUNK ? left : CHUNK);
         if (wrote < 0 && errno != EINTR)
             return false;
         at += wrote > 0 ? wrote : 0;

@@ -1,10 +1,12 @@
 // double_lanes.h: vectors of doubles that correspond to the floats of lanes.h.
 //
-//   dnum   DLANES doubles: one register of them, half as many as a num has floats; DPARTS of them cover LANES
-//   dmask  DLANES truths, from comparing
 //
-// As in lanes.h: + − × ÷ and comparisons alone, each correctly rounded, so every width gives the same bits. (Vectors twice as
-// wide as the registers would spare the parts, but compilers take their comparisons apart into single numbers.)
+//  dnum   DLANES doubles in one register, half as many as the floats of a num; DPARTS dnums cover LANES
+//  dmask  DLANES truth values, from comparisons
+//
+//
+// As in lanes.h, only + − × ÷ and comparisons are used, each correctly rounded, so every width gives the same bits.
+// (Vectors twice as wide as the registers would need no parts, but compilers split their comparisons into scalar ones.)
 #ifndef DOUBLE_LANES_H
 #define DOUBLE_LANES_H
 
@@ -51,7 +53,7 @@ LANE_FN dnum dnum_load_float(const float *at)
 }
 LANE_FN void dnum_store(double *at, dnum x) { *(dnum_memory *)at = (dnum_memory)x; }
 LANE_FN dnum dpick(dmask m, dnum a, dnum b) { return (dnum)(((dmask)a & m) | ((dmask)b & ~m)); }
-// √, correctly rounded.
+// Returns √x, correctly rounded.
 LANE_FN dnum dsquare_root(dnum x)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -88,7 +90,7 @@ LANE_FN unsigned dmask_bits(dmask m) // bit i: lane i
 }
 #endif
 
-// Minimum and maximum, with the semantics of min_of and max_of.
+// Minimum and maximum with the semantics of min_of and max_of.
 #if LANES == 4 && defined(__SSE2__)
 LANE_FN dnum dmin_of(dnum a, dnum b) { return (dnum)_mm_min_pd((__m128d)a, (__m128d)b); }
 LANE_FN dnum dmax_of(dnum a, dnum b) { return (dnum)_mm_max_pd((__m128d)a, (__m128d)b); }

@@ -5,12 +5,12 @@
 
 #include <string.h>
 
-#define LN2_HEAD 6.93147180369123816490e-01 // ln 2 in two parts, the first with 33 significant bits
+#define LN2_HEAD 6.93147180369123816490e-01 // ln 2 in two summands, the first with 33 significant bits
 #define LN2_TAIL 1.90821492927058770002e-10
 
 double math_floor(double x)
 {
-    if (!(x > -0x1p52 && x < 0x1p52)) // whole already, infinite or NaN
+    if (!(x > -0x1p52 && x < 0x1p52)) // already integral, infinite or NaN
         return x;
     double whole = (double)(long long)x;
     return whole > x ? whole - 1 : whole;
@@ -67,8 +67,8 @@ static struct two_doubles exact_sum(double a, double b)
     return (struct two_doubles){sum, (a - (sum - part)) + (b - part)};
 }
 
-// ln x for finite x > 0, to ten bits more than a double has: x = 2^n · m with m in [√½, √2), ln m = 2 artanh s with
-// s = (m − 1)/(m + 1), whose rounding error the tail takes up.
+// Computes ln x for finite x > 0 with ten bits more than a double: x = 2^n · m with m in [√½, √2), ln m = 2 artanh s
+// with s = (m − 1)/(m + 1). The tail contains the rounding error of s.
 static struct two_doubles logarithm(double x)
 {
     int n = 0;
@@ -130,7 +130,7 @@ double math_pow(double a, double b)
 
 double math_sinh(double x)
 {
-    if (x > -1 && x < 1) { // its series: the difference of exponentials would cancel
+    if (x > -1 && x < 1) { // Taylor series: the difference of exponentials would cancel
         double z = x * x, sum = 0;
         for (int k = 9; k >= 1; k--)
             sum = (sum + 1) * z / (2 * k * (2 * k + 1));

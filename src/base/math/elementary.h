@@ -1,14 +1,14 @@
 // elementary.h: exponentials, logarithms, powers and their relatives in double, with the same bits on every machine.
 //
-// For formulas that people write (src/shapes/formula.h). As linear.h: one fixed order of operations and no libm. The errors
-// are measured against libm by tests/unit/test_formula.c, relative to the result unless stated. Outside of a function's
-// domain the result is NaN.
+// They evaluate formulas that users write (src/shapes/formula.h). As in linear.h, the order of operations is fixed and
+// libm is not used. tests/unit/test_formula.c measures the errors against libm; they are relative to the result unless
+// stated otherwise. Outside a function's domain the result is NaN.
 #ifndef ELEMENTARY_H
 #define ELEMENTARY_H
 
 double math_exp(double x);           // within 1e-15; 0 below −745, infinite above 710
 double math_log(double x);           // natural; within 1e-15, and 2e-16 absolute
-double math_pow(double a, double b); // within 1e-14; a < 0 for whole b alone; 0⁰ = 1
+double math_pow(double a, double b); // within 1e-14; a < 0 only for whole b; 0⁰ = 1
 double math_sinh(double x);          // within 2e-15
 double math_cosh(double x);          // within 2e-15
 double math_tanh(double x);          // within 2e-15

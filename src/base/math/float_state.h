@@ -1,7 +1,7 @@
 // float_state.h: the floating-point state that every result depends on.
 //
-// A host built with -ffast-math turns denormals off for its threads, and threads inherit it; a host may also have set
-// another rounding. Every public call that computes, and every worker, runs between enter and leave.
+// A host built with -ffast-math disables denormals in its threads, and new threads inherit that; a host may also have
+// set another rounding mode. Every public call that computes, and every worker, runs between enter and leave.
 #ifndef FLOAT_STATE_H
 #define FLOAT_STATE_H
 
@@ -9,7 +9,7 @@
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-// Round to nearest, denormals on, all exceptions masked.
+// Sets rounding to nearest, enables denormals and masks all exceptions. Returns the previous state.
 static inline uint64_t float_state_enter(void)
 {
     unsigned saved = _mm_getcsr();
@@ -28,7 +28,7 @@ static inline uint64_t float_state_enter(void)
 }
 static inline void float_state_leave(uint64_t saved) { __asm__ volatile("msr fpcr, %0" : : "r"(saved)); }
 #else
-// WebAssembly has exactly this state and no other.
+// WebAssembly supports only this state.
 static inline uint64_t float_state_enter(void) { return 0; }
 static inline void float_state_leave(uint64_t saved) { (void)saved; }
 #endif

@@ -1,7 +1,8 @@
 // functions.h: powers, logarithms and inverse roots, many at a time, with the same bits on every machine.
 //
-// On top of lanes.h: + − × and integer work on the bits, no libm, no table, no division. Each function states its range
-// and its error, both measured by tests/lighting/test_functions.c. No argument gives NaN unless stated.
+// They are built on lanes.h from + − × and integer operations on the bits, without libm, tables and divisions. Each
+// function states its range and its error; tests/lighting/test_functions.c measures both. No argument gives NaN unless
+// stated.
 #ifndef FUNCTIONS_H
 #define FUNCTIONS_H
 
@@ -9,7 +10,7 @@
 
 #define SMALLEST_NORMAL 1.17549435e-38f // 2⁻¹²⁶
 
-// x = 2^exponent · (1 + rest) with |rest| ≤ 1/3, exactly, for normal x > 0: the mantissa is cut at 2/3 and 4/3.
+// Splits normal x > 0 exactly into 2^exponent · (1 + rest) with |rest| ≤ 1/3: the mantissa range is 2/3 to 4/3.
 struct binary_parts {
     num exponent, rest;
 };
@@ -17,12 +18,12 @@ struct binary_parts {
 LANE_FN struct binary_parts binary_parts_of(num x)
 {
     inum above = wrap_sub(bits_of(x), inum_of(0x3f2aaaab));  // bits of 2/3
-    inum mantissa = wrap_sub(bits_of(x), above & -0x800000); // the exponent's bits taken off
+    inum mantissa = wrap_sub(bits_of(x), above & -0x800000); // without the bits of the exponent
     return (struct binary_parts){num_of_int(shift_right(above, 23)), num_of_bits(mantissa) - 1.0f};
 }
 
-// log₂(1 + z) − 1.5·z for |z| ≤ 1/3, at most 0.085; best polynomial, error 1.2e-9 before rounding. 1.5·z is exact in a
-// float, so that the two together know the logarithm to some bits more than a float has.
+// Computes log₂(1 + z) − 1.5·z for |z| ≤ 1/3, at most 0.085, by a minimax polynomial with an error of 1.2e-9 before
+// rounding. 1.5·z is exact in a float, so the sum of both has some bits more than a float.
 LANE_FN num log2_remainder(num z)
 {
     num z2 = z * z, z4 = z2 * z2;
@@ -32,7 +33,7 @@ LANE_FN num log2_remainder(num z)
     return z * (a + z4 * (b + z4 * c));
 }
 
-// 2^f for |f| ≤ 0.5005, relative error 1e-7 before rounding, exactly 1 at 0.
+// Computes 2^f for |f| ≤ 0.5005 with a relative error of 1e-7 before rounding; exactly 1 at 0.
 LANE_FN num exp2_fraction(num f)
 {
     num f2 = f * f;
@@ -40,8 +41,8 @@ LANE_FN num exp2_fraction(num f)
            f2 * ((f * 5.5507299e-2f + 2.4022247e-1f) + f2 * (f * 1.3265090e-3f + 9.6713379e-3f));
 }
 
-// A whole number n near y and 2^n. Adding 1.5·2²³ + 127 rounds the fraction away and puts n + 127, the exponent as
-// floats store it, into the lowest bits. Meaningless but harmless where |y| > 126.
+// Computes a whole number n near y, and 2^n. Adding 1.5·2²³ + 127 rounds y to an integer and stores n + 127, the
+// exponent field of a float, in the lowest bits. The result is meaningless but harmless for |y| > 126.
 struct whole_power {
     num whole, power;
 };
@@ -52,14 +53,14 @@ LANE_FN struct whole_power whole_power_of(num y)
     return (struct whole_power){shifted - 12583039.0f, num_of_bits(shift_left(bits_of(shifted), 23))};
 }
 
-// log₂ x within 1.2e-7 absolute and 2e-7 relative. Below the smallest normal number, and for NaN: −126.
+// Computes log₂ x within 1.2e-7 absolute and 2e-7 relative. Below the smallest normal number, and for NaN, it is −126.
 LANE_FN num log2_of(num x)
 {
     struct binary_parts b = binary_parts_of(max_of(x, num_of(SMALLEST_NORMAL)));
     return b.exponent + (1.5f * b.rest + log2_remainder(b.rest));
 }
 
-// 2^y within 2.5e-7 relative. 0 below −126 and for NaN; y above 127.5 counts as 127.5.
+// Computes 2^y within 2.5e-7 relative. It is 0 below −126 and for NaN; y above 127.5 counts as 127.5.
 LANE_FN num exp2_of(num y)
 {
     num x = min_of(y, num_of(127.5f));
@@ -67,10 +68,11 @@ LANE_FN num exp2_of(num y)
     return pick(y >= -126.0f, exp2_fraction(x - w.whole) * w.power, num_of(0.0f));
 }
 
-// y = exponent · log₂ base as head + tail, for normal base > 0 whose parts are given. A power needs y within 2e-6 where
-// y may be 126: two bits more than a float has. The logarithm is therefore split into a head of 12 bits (any nearby
-// value serves; a short guess is used) and a tail, and the exponent likewise. Head · head is then exact, and only small
-// products are rounded. The split of the exponent is the same for every pixel and leaves the loop.
+// Computes y = exponent · log₂ base as head + tail, for a normal base > 0 that is already split. A power needs y within
+// 2e-6 for y up to 126, which is two bits more than a float has. Therefore the logarithm is split into a head of 12
+// bits (any nearby value works; a short estimate is used) and a tail, and so is the exponent. Head · head is then
+// exact, and only small products are rounded. The split of the exponent is the same for every pixel, so the compiler
+// moves it out of the loop.
 struct two_parts {
     num head, tail;
 };
@@ -87,15 +89,16 @@ LANE_FN struct two_parts scaled_log2(struct binary_parts b, num exponent)
     return (struct two_parts){exponent_head * log_head, exponent_tail * log_head + exponent * log_tail};
 }
 
-// Returns the smallest base that does not count as 0. With exponent 0 that is any base, since 0⁰ = 1.
+// Returns the smallest base that does not count as 0. With exponent 0 every base is accepted, since 0⁰ = 1.
 LANE_FN num min_base(num exponent) { return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff())); }
 
-// base^exponent for a base in 0…1 (more counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise 0 if the base is 0,
-// negative or below the smallest normal number; 0 if it is NaN. Results below the smallest normal number are 0:
-// denormals cost two to three times the rest. Relative error at most 2e-6 for exponents up to 128, and 3e-6 for all.
+// Computes base^exponent for a base in 0…1 (a larger base counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise
+// it is 0 if the base is 0, negative, below the smallest normal number, or NaN. Results below the smallest normal
+// number are 0, because denormals cost two to three times as much as the rest. The relative error is at most 2e-6 for
+// exponents up to 128, and 3e-6 for all others.
 //
-// Split into three steps, so that a loop over many powers overlaps their latencies: the base's parts; its logarithm,
-// with a head of −∞ where the result is 0; the power of two.
+// There are three steps, so that a loop over many powers overlaps their latencies: the parts of the base; its
+// logarithm, with a head of −∞ if the result is 0; the power of two.
 LANE_FN struct binary_parts unit_parts_of(num base) { return binary_parts_of(min_of(base, num_of(1.0f))); }
 
 LANE_FN struct two_parts unit_power_logarithm(num base, struct binary_parts parts, num exponent)
@@ -118,7 +121,7 @@ LANE_FN num unit_power(num base, num exponent)
     return unit_power_of(unit_power_logarithm(base, unit_parts_of(base), exponent));
 }
 
-// As unit_power, for any base ≥ 0. Results above 2^127.5 become about 2^127.5.
+// Like unit_power, for any base ≥ 0. Results above 2^127.5 become about 2^127.5.
 LANE_FN num power(num base, num exponent)
 {
     struct two_parts y = scaled_log2(binary_parts_of(base), min_of(exponent, num_of(1.0e30f)));
@@ -129,11 +132,12 @@ LANE_FN num power(num base, num exponent)
     return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }
 
-// 1/√x for normal x > 0 within 9e-8 relative; about 3.6e19 at 0, so that 0 · rsqrt(0) = 0. A start from the bits
-// (the halved, negated exponent), a first step whose constants were fitted to come out a little low, which makes the
-// rounding of x·y² finer, and one step of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
+// Computes 1/√x for normal x > 0 within 9e-8 relative; about 3.6e19 at 0, so that 0 · rsqrt(0) = 0. It starts from the
+// bits (the halved, negated exponent). The constants of the first step are fitted to give a slightly low result, which
+// makes the rounding of x·y² finer. The last step is of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2
+// + 3e²/8 + …).
 //
-// Split into two steps for loops, as above: an approximation, and its refinement.
+// There are two steps for loops, as above: an approximation and its refinement.
 LANE_FN num rsqrt_near(num x)
 {
     num y = num_of_bits(wrap_sub(inum_of(0x5f1ffff9), shift_right(bits_of(x), 1)));

@@ -1,14 +1,16 @@
-// lanes.h: SIMD values of LANES numbers. Include with LANES defined as 1, 4, 8 or 16.
+// lanes.h: SIMD values of LANES numbers. Define LANES as 1, 4, 8 or 16 before including it.
 //
-//   num    LANES floats          inum   LANES 32-bit integers          mask   LANES truths, from comparing
 //
-// With LANES 1 a num is a float and the same text is ordinary C. With more it is a GCC/Clang vector type, which any
-// instruction set can carry (wider than the machine's registers: several of them), so every width runs everywhere and,
-// since only correctly rounded operations occur (+ − × ÷ √, no fused ones), gives the same bits.
-// All intrinsics for lanes live in this file. (Two others hold intrinsics of their own: src/import/obj reads text by the
-// register, byte_masks.h, and float_state.h sets the floating-point unit's control register.)
-// The words below and + − * / < <= > >= == != are the whole language;
-// vectors take a C float on one side of an operator, but a variable that starts from a float needs num_of().
+//  num    LANES floats          inum   LANES 32-bit integers          mask   LANES truth values, from comparisons
+//
+//
+// With LANES 1 a num is a float and the same source is ordinary C. Otherwise it is a GCC/Clang vector type, which
+// compiles for any instruction set (several registers are used if it is wider than one). Every width therefore runs
+// everywhere. It also gives the same bits, since all operations are correctly rounded (+ − × ÷ √, no fused ones). All
+// intrinsics for lanes are in this file. (Two other files have intrinsics of their own: byte_masks.h in src/import/obj,
+// which reads text by the register, and float_state.h, which sets the floating-point control register.) Code on lanes
+// uses only the functions below and + − * / < <= > >= == !=. A vector operator accepts a C float on one side, but a
+// variable initialised with a float needs num_of().
 #ifndef LANES_H
 #define LANES_H
 
@@ -25,8 +27,8 @@
 #include <wasm_simd128.h>
 #endif
 
-// Always inlined, so that lanes stay in registers; but not in code that computes one pixel (src/cpu/kernels.c), in
-// which size counts.
+// Always inlined, so that lanes stay in registers; except in code that computes one pixel (src/cpu/kernels.c), for
+// which size matters more.
 #ifdef RECORDING
 #define LANE_FN static inline __attribute__((unused))
 #else
@@ -42,12 +44,12 @@ typedef float num __attribute__((vector_size(LANES * 4)));
 typedef int32_t inum __attribute__((vector_size(LANES * 4)));
 typedef inum mask; // each lane 0 or −1
 typedef uint32_t unsigned_lanes __attribute__((vector_size(LANES * 4)));
-// The same types for memory aligned to 4 bytes or more: loads and stores go through these.
+// The same types for memory that is aligned to 4 bytes or more. Loads and stores use them.
 typedef float num_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 typedef int32_t inum_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 #endif
 
-// All lanes the same.
+// Sets all lanes to one number.
 LANE_FN num num_of(float x)
 {
 #if LANES == 1
@@ -65,7 +67,7 @@ LANE_FN inum inum_of(int32_t x)
 #endif
 }
 
-// 0, 1, 2, … LANES − 1.
+// Returns 0, 1, 2, … LANES − 1.
 LANE_FN inum lane_numbers(void)
 {
 #if LANES == 1
@@ -96,7 +98,7 @@ LANE_FN num num_of_bits(inum i)
     memcpy(&x, &i, 4);
     return x;
 }
-LANE_FN num pick(mask m, num a, num b) { return m ? a : b; } // selects a where m is set, else b
+LANE_FN num pick(mask m, num a, num b) { return m ? a : b; } // selects a if m is set, else b
 LANE_FN inum ipick(mask m, inum a, inum b) { return m ? a : b; }
 LANE_FN mask both(mask a, mask b) { return a & b; }
 LANE_FN mask either(mask a, mask b) { return a | b; }
@@ -167,7 +169,7 @@ LANE_FN int all_lanes(mask m) { return wasm_i32x4_all_true((v128_t)m); }
 LANE_FN int any_lane(mask m) { return mask_bits(m) != 0; }
 LANE_FN int all_lanes(mask m) { return mask_bits(m) == (1u << LANES) - 1; }
 #endif
-// √, correctly rounded. Clang turns the loop into scalar code for AVX-512, hence the lines.
+// Returns √x, correctly rounded. Clang turns the plain loop into scalar code for AVX-512, so intrinsics are used there.
 LANE_FN num square_root(num x)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -187,7 +189,7 @@ LANE_FN num square_root(num x)
 }
 #endif
 
-// Minimum and maximum; b where either is NaN. −0 and 0 count as equal (b is taken). These are the semantics of x86's
+// Minimum and maximum; the result is b if either is NaN, or if both are zeros. These are the semantics of x86's
 // instructions; a comparison and a selection would take twice as long.
 #if LANES == 16 && defined(__AVX512F__)
 LANE_FN num min_of(num a, num b) { return (num)_mm512_min_ps((__m512)a, (__m512)b); }
@@ -199,7 +201,7 @@ LANE_FN num max_of(num a, num b) { return (num)_mm256_max_ps((__m256)a, (__m256)
 LANE_FN num min_of(num a, num b) { return (num)_mm_min_ps((__m128)a, (__m128)b); }
 LANE_FN num max_of(num a, num b) { return (num)_mm_max_ps((__m128)a, (__m128)b); }
 #elif LANES == 4 && defined(__wasm_simd128__)
-// WebAssembly's pmin(x, y) is y < x ? y : x: the other way round.
+// WebAssembly's pmin(x, y) is y < x ? y : x, with the operands swapped.
 LANE_FN num min_of(num a, num b) { return (num)wasm_f32x4_pmin((v128_t)b, (v128_t)a); }
 LANE_FN num max_of(num a, num b) { return (num)wasm_f32x4_pmax((v128_t)b, (v128_t)a); }
 #else
@@ -208,14 +210,14 @@ LANE_FN num max_of(num a, num b) { return pick(a > b, a, b); }
 #endif
 LANE_FN inum imin_of(inum a, inum b) { return ipick(a < b, a, b); }
 LANE_FN inum imax_of(inum a, inum b) { return ipick(a > b, a, b); }
-// |x|: clears the sign bit; NaN stays NaN.
+// Returns |x| by clearing the sign bit; NaN stays NaN.
 LANE_FN num absolute(num x) { return num_of_bits(bits_of(x) & 0x7fffffff); }
-// Computes max(x, 0); NaN gives 0.
+// Returns max(x, 0); NaN gives 0.
 LANE_FN num positive(num x) { return max_of(x, num_of(0.0f)); }
 // Clamps x to 0…1; NaN gives 0.
 LANE_FN num saturate(num x) { return min_of(positive(x), num_of(1.0f)); }
 
-// Stores x in the lanes of m, and leaves memory unchanged elsewhere.
+// Stores x in the lanes of m; memory in the other lanes is unchanged.
 LANE_FN void num_store_where(float *at, mask m, num x, num old)
 {
 #if LANES == 16 && defined(__AVX512DQ__)
@@ -226,7 +228,7 @@ LANE_FN void num_store_where(float *at, mask m, num x, num old)
 #endif
 }
 
-// The mask of `bits`, the inverse of mask_bits.
+// Converts bits to a mask: the inverse of mask_bits.
 LANE_FN mask mask_of_bits(unsigned bits)
 {
 #if LANES == 1
@@ -295,7 +297,7 @@ LANE_FN void inum_store_8(uint8_t *at, inum x)
 #endif
 }
 
-// Rounds down; |x| < 2³¹, never NaN: clamp first.
+// Rounds down, for |x| < 2³¹ and not NaN (clamp first).
 LANE_FN inum floor_of(num x)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -312,7 +314,7 @@ LANE_FN inum floor_of(num x)
 #endif
 }
 
-// Returns the lanes that are below 0, as bits.
+// Returns the lanes below 0 as bits.
 LANE_FN unsigned negative_bits(inum x)
 {
 #if LANES == 16 && defined(__AVX512DQ__)
@@ -322,7 +324,7 @@ LANE_FN unsigned negative_bits(inum x)
 #endif
 }
 
-// Counts, for each lane, the `bits` of this lane and of the lanes before it.
+// Counts, for each lane, the set `bits` of this and all earlier lanes.
 LANE_FN inum bits_up_to_lane(unsigned bits)
 {
     inum x = inum_of((int32_t)bits) & ((inum_of(2) << lane_numbers()) - 1);
@@ -332,7 +334,7 @@ LANE_FN inum bits_up_to_lane(unsigned bits)
     return (x + (x >> 8)) & 0x1f;
 }
 
-// Permutes lanes: lane i is lane at[i] of x; at: 0 to LANES − 1.
+// Permutes lanes: lane i of the result is lane at[i] of x; at is 0 to LANES − 1.
 LANE_FN num lanes_at(num x, inum at)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -340,7 +342,7 @@ LANE_FN num lanes_at(num x, inum at)
 #elif LANES == 8 && defined(__AVX2__)
     return (num)_mm256_permutevar8x32_ps((__m256)x, (__m256i)at);
 #elif LANES == 4 && defined(__wasm_simd128__)
-    // The numbers of the four bytes of each lane.
+    // The indices of the four bytes of each lane.
     inum bytes = at * 0x04040404 + 0x03020100;
     return (num)wasm_i8x16_swizzle((v128_t)x, (v128_t)bytes);
 #else
@@ -387,7 +389,7 @@ LANE_FN num num_load_halves(const float *low, const float *high)
 }
 
 #if LANES == 8 && defined(__AVX2__)
-// For each set of eight bits, the numbers of its bits in ascending order, a byte each.
+// For each set of eight bits, the indices of its set bits in ascending order, one byte each.
 #define BIT_NUMBER(b, i) ((b) >> (i) & 1 ? (uint64_t)(i) << 8 * __builtin_popcount((b) & ((1u << (i)) - 1)) : 0)
 #define BIT_NUMBERS(b)                                                                                                 \
     (BIT_NUMBER(b, 0) | BIT_NUMBER(b, 1) | BIT_NUMBER(b, 2) | BIT_NUMBER(b, 3) | BIT_NUMBER(b, 4) | BIT_NUMBER(b, 5) | \
@@ -405,7 +407,7 @@ static const uint64_t bit_numbers[256]
 #endif
 
 #if LANES == 4 && defined(__wasm_simd128__)
-// For each set of four lanes, the bytes of its lanes in ascending order; the rest is 0.
+// For each set of four lanes, the indices of its bytes in ascending order; the rest is 0.
 #define LANE_BYTES(i) 4 * (i), 4 * (i) + 1, 4 * (i) + 2, 4 * (i) + 3
 #define NO_LANE       16, 16, 16, 16
 static const uint8_t packed_bytes[16][16] __attribute__((unused)) = {
@@ -471,9 +473,9 @@ LANE_FN inum igather(const int32_t *from, inum at)
 #endif
 }
 
-// Gathers three neighbours from each of LANES places: lane i of out[k] is the 32 bits at from[stride · at[i] + k].
-// Nothing else is read: the array may end with the last of them. On x86 the three are loaded at once and transposed,
-// which is four times as fast as its gather instruction.
+// Gathers three consecutive numbers at each of LANES addresses: lane i of out[k] is the 32 bits at from[stride · at[i]
+// + k]. Nothing else is read, so the array may end with the last of them. On x86 the three are loaded at once and
+// transposed, which is four times as fast as the gather instruction.
 LANE_FN void igather3(const void *from, const uint32_t *at, int stride, inum out[3])
 {
     const char *base = from;
@@ -481,7 +483,7 @@ LANE_FN void igather3(const void *from, const uint32_t *at, int stride, inum out
 #if (LANES == 16 && defined(__AVX512VL__) && defined(__AVX512DQ__)) || (LANES == 8 && defined(__AVX2__))
     enum { QUADS = LANES / 4 };
     __m128i three = _mm_set_epi32(0, -1, -1, -1);
-    inum row[4]; // row[j]: places j, 4 + j …, four numbers for each, the fourth 0
+    inum row[4]; // row[j]: lanes j, 4 + j …, four numbers for each, the fourth 0
     for (int j = 0; j < 4; j++) {
         __m128i v[QUADS];
         for (int q = 0; q < QUADS; q++)

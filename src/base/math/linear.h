@@ -1,5 +1,6 @@
 // linear.h: vectors, matrices and angles in double, in one fixed order of operations, for set-up work: cameras,
-// rotations, transforms. The per-pixel side is lanes.h. No libm: its last bits differ between machines and versions.
+// rotations, transforms. Per-pixel code uses lanes.h. libm is not used, because its last bits differ between machines
+// and versions.
 #ifndef LINEAR_H
 #define LINEAR_H
 
@@ -17,11 +18,11 @@ static inline lam_vec3 v3_cross(lam_vec3 a, lam_vec3 b)
     return v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 double v3_length(lam_vec3 a);
-lam_vec3 v3_unit(lam_vec3 a); // the zero vector stays zero; safe from overflow and underflow
+lam_vec3 v3_unit(lam_vec3 a); // zero stays zero; no overflow or underflow
 bool v3_finite(lam_vec3 a);
 
-// Correctly rounded √ (the processor's instruction), and angle functions within 2 units in the last place for |x| ≤
-// 1e6.
+// Correctly rounded √ (the processor's instruction), and trigonometric functions within 2 units in the last place for
+// |x| ≤ 1e6.
 double math_sqrt(double x);
 double math_sin(double x);
 double math_cos(double x);
@@ -33,18 +34,18 @@ double math_radians(double degrees);
 double math_degrees(double radians);
 bool math_finite(double x);
 
-lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b);    // a·b: b acts first
+lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b);    // a·b, which applies b first
 lam_vec3 mat4_point(const lam_mat4 *m, lam_vec3 p);         // affine: w = 1, last row ignored
 lam_vec3 mat4_vector(const lam_mat4 *m, lam_vec3 v);        // upper 3×3 only
-double mat4_determinant3(const lam_mat4 *m);                // of the upper 3×3
-bool mat4_inverse_affine(const lam_mat4 *m, lam_mat4 *out); // false where the 3×3 is singular
-// Cofactors of the upper 3×3: the inverse transpose times the determinant; a normal goes by it, with the
-// determinant's sign kept apart (a mirror turns the winding, not the normal).
+double mat4_determinant3(const lam_mat4 *m);                // the determinant of the upper 3×3
+bool mat4_inverse_affine(const lam_mat4 *m, lam_mat4 *out); // false if the 3×3 is singular
+// Computes the cofactors of the upper 3×3, which are the inverse transpose times the determinant. They transform
+// normals; the caller handles the sign of the determinant (a mirror reverses the winding, not the normal).
 void mat4_normal_matrix(const lam_mat4 *m, double out[3][3]);
 
 lam_mat4 mat4_translate(double x, double y, double z);
 lam_mat4 mat4_scale(double x, double y, double z);
-lam_mat4 mat4_rotate(double radians, lam_vec3 axis);               // right-handed about the axis, any length but 0
+lam_mat4 mat4_rotate(double radians, lam_vec3 axis);               // right-handed; the axis has any nonzero length
 lam_mat4 mat4_look_at(lam_vec3 eye, lam_vec3 target, lam_vec3 up); // world to eye space
 // OpenGL's projections: z from −1 at the near plane to 1 at the far one, distances positive.
 lam_mat4 mat4_perspective(double fovy_rad, double aspect, double near_plane, double far_plane);

@@ -1,11 +1,11 @@
-// srgb.c: from sRGB-encoded numbers to linear light, with + − × ÷ alone.
+// srgb.c: converts sRGB-encoded numbers to linear light, using only + − × ÷.
 #include "srgb.h"
 
 #include <stdint.h>
 #include <string.h>
 
-// Returns the fifth root by Newton's method. The first guess, from the exponent divided by five, is within 6 %. Five
-// steps, each of which squares the error, reduce it below a double's precision.
+// Returns the fifth root by Newton's method. The first estimate, from the exponent divided by five, is within 6 %. Five
+// steps, each of which squares the error, reduce it below the precision of a double.
 static double fifth_root(double x)
 {
     uint64_t bits;

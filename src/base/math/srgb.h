@@ -1,4 +1,4 @@
-// srgb.h: from sRGB-encoded numbers to linear light.
+// srgb.h: converts sRGB-encoded numbers to linear light.
 #ifndef SRGB_H
 #define SRGB_H
 

@@ -1,14 +1,14 @@
-// triples.h: loads and stores of points, x y z x y z … in memory.
+// triples.h: loads and stores points stored as x y z x y z ….
 //
-// Points are loaded and stored four floats at a time and transposed in registers, several times faster than one float
-// at a time.
+// Points are loaded and stored four floats at a time and transposed in registers, which is several times faster than
+// one float at a time.
 #ifndef TRIPLES_H
 #define TRIPLES_H
 
 #include "lanes.h"
 
-// Three floats from each of LANES places, and to LANES consecutive places. Four floats are moved at a time: one float
-// after each place must be readable, and `store_triples` writes an arbitrary one after the last.
+// Loads three floats from each of LANES addresses, or stores them to LANES consecutive points. Four floats are moved at
+// a time: one float after each point must be readable, and `store_triples` overwrites one float after the last.
 struct triples {
     num x, y, z;
 };
@@ -26,7 +26,7 @@ LANE_FN void store_triples(float *to, struct triples t)
 #else
 typedef float quad __attribute__((vector_size(16)));
 typedef float quad_memory __attribute__((vector_size(16), aligned(4), may_alias));
-// Quads i, i + 4, i + 8 … side by side.
+// Loads the quads i, i + 4, i + 8 … into one vector.
 LANE_FN num quads_apart(const float *const at[LANES], int i)
 {
 #define QUAD(n) ((quad) * (const quad_memory *)at[n])
@@ -44,7 +44,7 @@ LANE_FN num quads_apart(const float *const at[LANES], int i)
 #endif
 #undef QUAD
 }
-// Picks two of four floats of a and two of b (4 … 7), in each quad of them.
+// Selects two of four floats of a and two of b (4 … 7) in each quad.
 #define FROM(i, quad)             ((i) % 4 + 4 * (quad) + ((i) < 4 ? 0 : LANES))
 #define OF_QUAD(i, j, k, l, quad) FROM(i, quad), FROM(j, quad), FROM(k, quad), FROM(l, quad)
 #if LANES == 4
@@ -70,7 +70,7 @@ LANE_FN void store_triples(float *to, struct triples t)
     num zz_low = SHUFFLE(t.z, t.z, 0, 0, 1, 1), zz_high = SHUFFLE(t.z, t.z, 2, 2, 3, 3);
     num of[4] = {SHUFFLE(xy_low, zz_low, 0, 1, 4, 5), SHUFFLE(xy_low, zz_low, 2, 3, 6, 7),
                  SHUFFLE(xy_high, zz_high, 0, 1, 4, 5), SHUFFLE(xy_high, zz_high, 2, 3, 6, 7)};
-    for (int i = 0; i < LANES; i++) { // each overwrites the fourth float of its predecessor
+    for (int i = 0; i < LANES; i++) { // each store overwrites the fourth float of the previous one
         quad q;
         memcpy(&q, (const char *)&of[i & 3] + 16 * (i >> 2), sizeof q);
         *(quad_memory *)(to + 3 * i) = q;

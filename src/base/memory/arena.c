@@ -8,12 +8,12 @@
 #include <string.h>
 
 enum {
-    BLOCK_FIRST = 16 << 10,  // the first block; each next one is twice as large, up to
-    BLOCK_LARGEST = 2 << 20, // a huge page of its own
-    OWN_PAGES = 1 << 20,     // requests from here on get pages of their own
+    BLOCK_FIRST = 16 << 10,  // the first block; each further block is twice as large, up to
+    BLOCK_LARGEST = 2 << 20, // the size of a huge page
+    OWN_PAGES = 1 << 20,     // larger requests get pages of their own
 };
 
-// A block's header. Small blocks are followed by their memory; large ones point at pages.
+// A block's header. The memory of small blocks follows it; large blocks point to pages.
 struct arena_block {
     struct arena_block *next;
     uint8_t *memory;
@@ -74,7 +74,7 @@ void arena_free(struct arena *arena)
 
 static void link_block(struct arena *arena, struct arena_block *block)
 {
-    // The block that serves small requests stays first.
+    // The block that serves small requests stays first in the list.
     if (block->whole && arena->blocks) {
         block->next = arena->blocks->next;
         arena->blocks->next = block;
@@ -159,7 +159,7 @@ void *arena_alloc(struct arena *arena, size_t bytes)
 void *arena_alloc_zeroed(struct arena *arena, size_t bytes)
 {
     void *memory = arena_alloc(arena, bytes);
-    if (memory && bytes < OWN_PAGES) // pages come zeroed
+    if (memory && bytes < OWN_PAGES) // pages are already zeroed
         memset(memory, 0, bytes);
     return memory;
 }

@@ -1,8 +1,8 @@
-// available_memory.c: the memory available to this process: the smallest of the machine's memory and its limits.
+// available_memory.c: the memory available to this process: the smallest of the machine's memory and the limits.
 //
 // Control groups limit memory in a container or under a batch system: cgroup v2 in memory.max, v1 in
-// memory.limit_in_bytes, each for a group and all below it. Within a container, /proc/self/cgroup may contain a path of
-// the host that does not exist. The parent groups up to the root of the mount are read nevertheless.
+// memory.limit_in_bytes, each for a group and its descendants. Within a container, /proc/self/cgroup may contain a path
+// of the host that does not exist; its parent groups up to the root of the mount are read nevertheless.
 // https://docs.kernel.org/admin-guide/cgroup-v2.html, .../cgroup-v1/memory.html
 #include "available_memory.h"
 
@@ -32,7 +32,7 @@ uint64_t lam_memory_available(void) { return UINT64_MAX; }
 
 enum { PATH_BYTES = 4096 };
 
-// The first bytes of a file as text, or false if it cannot be read.
+// Reads the first bytes of a file as text. Returns false if it cannot be read.
 static bool read_head(const char *path, char *text, size_t size)
 {
     int file = open(path, O_RDONLY | O_CLOEXEC);
@@ -48,8 +48,8 @@ static bool read_head(const char *path, char *text, size_t size)
 
 static uint64_t smaller(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
-// Returns the smallest limit of a group and its parents: `path` is the path of the group below `mount`. "max" is no
-// number.
+// Returns the smallest limit of a group and its parents. `path` is the path of the group below `mount`. "max" means no
+// limit.
 static uint64_t limit_of_group(const char *root, const char *mount, const char *path, const char *file)
 {
     char name[PATH_BYTES + 200], text[64];
@@ -68,7 +68,7 @@ static uint64_t limit_of_group(const char *root, const char *mount, const char *
     }
 }
 
-// Returns whether a comma-separated list of controllers names memory's.
+// Returns whether a comma-separated list of controllers contains "memory".
 static bool names_memory(const char *list, size_t length)
 {
     static const char word[] = "memory";
@@ -79,7 +79,8 @@ static bool names_memory(const char *list, size_t length)
     return false;
 }
 
-// A line of /proc/self/cgroup, "number:controllers:path": v2's has the number 0 and no controllers.
+// Returns the limit for a line of /proc/self/cgroup, "number:controllers:path"; cgroup v2 has number 0 and no
+// controllers.
 static uint64_t limit_of_line(const char *root, char *line)
 {
     char *list = strchr(line, ':'), *path = list ? strchr(list + 1, ':') : NULL;

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-// lam_memory_available with the system's files below `root` ("" for the system itself, else a folder of a test) and
-// without the limits of this process. UINT64_MAX: the files name no limit.
+// Works like lam_memory_available, but ignores this process's resource limits and reads the system files below `root`:
+// "", or a folder for tests. Returns UINT64_MAX if the files set no limit.
 uint64_t memory_of_groups(const char *root);
 
 #endif

@@ -1,4 +1,4 @@
-// buffer.c: memory that a device keeps from frame to frame, and that only grows.
+// buffer.c: memory that a device keeps from frame to frame and that only grows.
 #include "buffer.h"
 
 #include "pages.h"
@@ -10,7 +10,7 @@ bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *ca
     if (bytes <= buffer->capacity)
         return true;
     size_t old = buffer->capacity;
-    // Grow by at least a half, so that slowly growing frames do not allocate each time.
+    // Grow by at least a half, so that slowly growing frames do not reallocate each time.
     size_t capacity = bytes > old + old / 2 ? bytes : old + old / 2;
     buffer_release(buffer, call);
     if (call && !call_charge(call, capacity))

@@ -1,4 +1,4 @@
-// buffer.h: memory that a device keeps from frame to frame, and that only grows.
+// buffer.h: memory that a device keeps from frame to frame and that only grows.
 #ifndef BUFFER_H
 #define BUFFER_H
 
@@ -9,12 +9,12 @@ struct buffer {
     size_t capacity;
 };
 
-// Ensures a capacity of `bytes`; the contents are lost when the buffer grows. Charges the growth to the call. False: the
-// error is filled.
+// Ensures a capacity of `bytes`; the contents are lost if the buffer grows. The growth is charged to the call. Returns
+// false and fills the error on failure.
 bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *call, lam_error *error);
 void buffer_free(struct buffer *buffer);
 
-// Frees a buffer that the call does not need any more, and refunds it. `call` may be NULL.
+// Frees a buffer that is no longer needed and refunds its bytes. `call` may be NULL.
 void buffer_release(struct buffer *buffer, struct call_control *call);
 
 #endif

@@ -53,8 +53,8 @@ void *pages_get_sparse(size_t bytes, size_t *held)
 }
 
 // A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first touch,
-// which costs a third of touching the same memory in small pages. The remainder after the last whole huge page also
-// uses a huge page if this enlarges the block only slightly, which is faster than hundreds of small pages.
+// which takes a third of the time of small pages. The remainder after the last whole huge page also gets a huge page if
+// this enlarges the block only slightly, which is faster than hundreds of small pages.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)

@@ -16,11 +16,11 @@ void *pages_get(size_t bytes, size_t *held);
 // Allocates small pages, for sparsely used blocks.
 void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
-// Releases the pages after the first `bytes`, where the system allows that.
+// Releases the pages after the first `bytes`, if the system supports it.
 void pages_trim(void *pages, size_t *held, size_t bytes);
 
-// Returns the size of the machine's memory in bytes, or SIZE_MAX if it is unknown. The system overcommits and kills a
-// process that uses too much: check this before a large allocation.
+// Returns the size of the machine's memory in bytes, or SIZE_MAX if it is unknown. The system overcommits and kills
+// processes that use too much memory, so check this before a large allocation.
 size_t pages_of_machine(void);
 
 #endif

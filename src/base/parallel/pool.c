@@ -10,7 +10,7 @@
 
 enum {
     THREADS_MAX = 1024,
-    WORKER_STACK = 1 << 20, // bytes. The system's default follows `ulimit -s`; drawing uses less than 128 kB of it.
+    WORKER_STACK = 1 << 20, // bytes; drawing uses less than 128 kB. The system's default would follow `ulimit -s`.
 };
 
 struct pool {
@@ -88,7 +88,7 @@ struct pool *pool_make(int threads)
     pthread_cond_init(&pool->work, NULL);
     pthread_cond_init(&pool->done, NULL);
     pool->threads = 1;
-    // Signals are left to the program's own threads.
+    // Workers block all signals, so that the program's own threads handle them.
     sigset_t all, before;
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);

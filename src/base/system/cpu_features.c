@@ -16,9 +16,9 @@ unsigned cpu_features(void)
     if (__builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi2"))
         features |= CPU_AVX512_VBMI;
 #elif defined(__aarch64__)
-    features |= CPU_NEON; // every 64-bit Arm has it
+    features |= CPU_NEON; // part of every 64-bit Arm processor
 #elif defined(__wasm_simd128__)
-    features |= CPU_WASM_SIMD; // a module with SIMD is not even loaded elsewhere
+    features |= CPU_WASM_SIMD; // a module with SIMD cannot be loaded without it
 #endif
     return features;
 }

@@ -7,7 +7,8 @@
 
 #if defined(__wasm__)
 
-// WebAssembly opens no libraries; the page's module has functions that replace some (src/import/gltf/draco/page_decoders.c).
+// WebAssembly cannot open libraries; the page's module contains replacements for some
+// (src/import/gltf/draco/page_decoders.c).
 __attribute__((weak)) void *page_library(const char *name);
 __attribute__((weak)) bool page_library_find(void *library, const char *name, void *function);
 
@@ -32,7 +33,7 @@ bool library_find(void *library, const char *name, void *function)
 
 #include "static_libraries.h"
 
-// A static program has its libraries inside, and no loader for others.
+// A static program contains its libraries and has no loader for others.
 void *library_open(const char *name, bool resident, const char **reason)
 {
     (void)resident;
@@ -75,8 +76,8 @@ void *library_open(const char *name, bool resident, const char **reason)
     return library;
 }
 
-// The folders from the one with this code: a build folder and its folder of tests; the libraries' folder; the programs'
-// folder, beside the libraries'.
+// Folders relative to this code: a build folder and its folder of tests, the folder for libraries, and the folder for
+// programs, which is beside it.
 static const char *const own_folders[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
 
 static void *open_beside(const char *file, const char *name)
@@ -99,7 +100,7 @@ void *library_open_own(const char *name)
 {
     Dl_info here;
     void *library = NULL;
-    // The name of a program's own code is the one that it was called by, perhaps without a folder.
+    // For the program itself, dladdr returns the name that started it, which may lack a folder.
     if (dladdr((const void *)own_folders, &here) && here.dli_fname && strchr(here.dli_fname, '/'))
         library = open_beside(here.dli_fname, name);
     return library ? library : open_beside("/proc/self/exe", name);
@@ -114,7 +115,7 @@ void library_close(void *library)
 bool library_find(void *library, const char *name, void *function)
 {
     void *found = dlsym(library, name);
-    memcpy(function, &found, sizeof found); // POSIX lets a data pointer represent a function pointer here
+    memcpy(function, &found, sizeof found); // POSIX allows storing a function pointer in a data pointer
     return found != NULL;
 }
 

@@ -1,5 +1,5 @@
-// remedy.h: advice in messages about a missing library: on a machine, how to install it; in a page, where nothing can
-// be installed, which program reads the file.
+// remedy.h: advice in messages about a missing library. On a machine it says how to install the library; in a page,
+// where nothing can be installed, it names a program that reads the file.
 #ifndef REMEDY_H
 #define REMEDY_H
 

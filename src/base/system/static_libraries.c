@@ -1,5 +1,5 @@
-// static_libraries.c: the functions of the libraries that a static program (meson -Dstatic_program=true) contains, by
-// name: dynamic_library.c uses them in place of the loader, which a static program lacks.
+// static_libraries.c: the libraries inside a static program (meson -Dstatic_program=true), with their functions by
+// name. dynamic_library.c uses this table, because a static program has no loader.
 #include "static_libraries.h"
 
 #include <stddef.h>
@@ -30,12 +30,12 @@
                                                                                 function(meshopt_decodeFilterQuat)     \
                                                                                     function(meshopt_decodeFilterExp)
 
-// The addresses alone are taken: callers know the types.
+// Only the addresses are used; callers know the types.
 #define IGNORED(name)
 #define DECLARED(name) extern char name[];
 LIBRARIES(IGNORED, DECLARED)
 
-// A row without an address begins a library.
+// A row without an address starts a new library.
 static const struct row {
     const char *name;
     void *address;

@@ -1,10 +1,10 @@
-// static_libraries.h: the libraries inside of a static program.
+// static_libraries.h: the libraries inside a static program.
 #ifndef STATIC_LIBRARIES_H
 #define STATIC_LIBRARIES_H
 
 // Returns a library by its file name, or NULL if the program does not contain it.
 const void *static_library(const char *name);
-// Returns the address of a function of it, or NULL if it has none.
+// Returns the address of a function, or NULL if the library does not contain it.
 void *static_function(const void *library, const char *name);
 
 #endif

@@ -1,17 +1,17 @@
-// number.c: numbers in text, correctly rounded, whatever the locale.
+// number.c: parses numbers in text, correctly rounded, in any locale.
 //
-// Three methods, each used where the previous one cannot guarantee the last bit:
-// 1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers
-//    Accurately", 1990); for floats a product in double, unless it lies near the middle between two floats.
-// 2. One or two 64×64-bit products with a 128-bit power of five (Lemire, "Number Parsing at a Gigabyte per
-//    Second", 2021).
-// 3. Long division of exact big integers.
+// Three methods, each used if the previous one cannot guarantee the last bit:
+//  1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers
+//     Accurately", 1990); for floats a product in double, unless it lies near the midpoint of two floats.
+//  2. One or two 64×64-bit products with a 128-bit power of five (Lemire, "Number Parsing at a Gigabyte per
+//     Second", 2021).
+//  3. Long division of exact big integers.
 #include "number.h"
 
 #include "number_powers.h"
 #include "number_scan.h"
 
-// (−1)^negative · digits · 10^exponent; `truncated`: there were nonzero digits after the first 19.
+// The number (−1)^negative · digits · 10^exponent. `truncated` means that there were nonzero digits after the first 19.
 struct decimal {
     uint64_t digits;
     int64_t exponent;
@@ -19,12 +19,12 @@ struct decimal {
     const uint8_t *first, *stop; // the run of digits and '.'
 };
 
-// A floating-point format to round to.
+// The floating-point format of the result.
 struct format {
     int mantissa_bits;         // stored bits
     int min_exponent_field;    // exponent of field 0, minus one: −bias
     int infinite;              // the exponent field of infinity
-    int even_first, even_last; // powers of ten at which a product can lie in the middle between two
+    int even_first, even_last; // powers of ten for which a product can be a midpoint
     int min_power, max_power;  // below: 0, above: infinity, for any 19 digits
 };
 static const struct format format_double = {52, -1023, 0x7ff, -4, 23, -342, 308};
@@ -49,7 +49,7 @@ static const uint8_t *skip_digits(const uint8_t *at, const uint8_t *end, uint64_
     return at;
 }
 
-// The first 19 significant digits of a longer run.
+// Reads the first 19 significant digits of a longer number.
 static void take_leading(struct decimal *d, int64_t exponent_behind_run, const uint8_t *point)
 {
     const uint8_t *at = d->first;
@@ -64,11 +64,11 @@ static void take_leading(struct decimal *d, int64_t exponent_behind_run, const u
         d->digits = d->digits * 10 + (unsigned)(*at - '0');
         taken++;
     }
-    // Dropped digits: before the point each counts as a power of ten; after the point the count of taken digits
-    // already covers them.
+    // Dropped digits: each digit before the point counts as a power of ten; after the point the count of used digits
+    // already includes them.
     int64_t left = d->stop - at;
     if (point && at <= point)
-        left--; // the point itself
+        left--; // the decimal point
     d->exponent = exponent_behind_run + left;
     for (; at < d->stop; at++) {
         if (*at != '0' && *at != '.')
@@ -76,7 +76,7 @@ static void take_leading(struct decimal *d, int64_t exponent_behind_run, const u
     }
 }
 
-// Reads sign, digits and exponent. Returns the position after them, NULL if there are no digits.
+// Reads sign, digits and exponent. Returns the position after them, or NULL if there are no digits.
 static const uint8_t *scan(const uint8_t *at, const uint8_t *end, struct decimal *d)
 {
     *d = (struct decimal){0};
@@ -104,7 +104,7 @@ static const uint8_t *scan(const uint8_t *at, const uint8_t *end, struct decimal
             minus = *power++ == '-';
         if (power < end && (unsigned)(*power - '0') < 10) {
             for (; power < end && (unsigned)(*power - '0') < 10; power++) {
-                if (written < INT64_C(1) << 48) // beyond any number of digits that fits into memory
+                if (written < INT64_C(1) << 48) // larger than any number of digits that fits into memory
                     written = written * 10 + (*power - '0');
             }
             at = power;
@@ -117,7 +117,7 @@ static const uint8_t *scan(const uint8_t *at, const uint8_t *end, struct decimal
     return at;
 }
 
-// --- the second method
+// --- method 2: 128-bit products
 
 struct wide {
     uint64_t high, low;
@@ -129,7 +129,7 @@ static struct wide multiply(uint64_t a, uint64_t b)
     return (struct wide){(uint64_t)(product >> 64), (uint64_t)product};
 }
 
-// The bits (without sign) nearest to digits · 10^power. Returns false if the last bit is not certain.
+// Computes the bits (without sign) nearest to digits · 10^power. Returns false if the last bit is uncertain.
 static bool round_product(uint64_t digits, int64_t power, const struct format *format, uint64_t *bits)
 {
     const uint64_t infinity = (uint64_t)format->infinite << format->mantissa_bits;
@@ -145,7 +145,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
     digits <<= zeros;
     const uint64_t *five = powers_of_five[power - POWER_FIRST];
     struct wide product = multiply(digits, five[0]);
-    // The low half of the power can only matter if it carries through all the bits that are cut off.
+    // The low half of the power matters only if it carries through all the dropped bits.
     uint64_t cut = UINT64_MAX >> (format->mantissa_bits + 3);
     if ((product.high & cut) == cut) {
         uint64_t more = multiply(digits, five[1]).high;
@@ -158,8 +158,8 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
 
     int top = (int)(product.high >> 63);
     int shift = top + 64 - format->mantissa_bits - 3;
-    uint64_t mantissa = product.high >> shift; // one bit more than is kept
-    // 217706/2^16 is log2(10), exact enough to give the floor for every power in the table.
+    uint64_t mantissa = product.high >> shift; // one bit more than the result has
+    // 217706/2^16 approximates log2(10), accurately enough to give the floor for every power in the table.
     int field = (int)((217706 * power) >> 16) + 63 + top - zeros - format->min_exponent_field;
     uint64_t hidden = UINT64_C(1) << format->mantissa_bits;
     if (field <= 0) { // denormal
@@ -169,10 +169,10 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
         }
         mantissa >>= 1 - field;
         mantissa = (mantissa + (mantissa & 1)) >> 1;
-        *bits = mantissa; // one that became the smallest normal number carries into the exponent
+        *bits = mantissa; // a carry may make it the smallest normal number
         return true;
     }
-    // Exactly in the middle: round to even.
+    // Exactly at the midpoint: round to even.
     if (product.low <= 1 && power >= format->even_first && power <= format->even_last && (mantissa & 3) == 1 &&
         mantissa << shift == product.high)
         mantissa &= ~UINT64_C(1);
@@ -185,10 +185,10 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
     return true;
 }
 
-// --- the third method
+// --- method 3: big integers
 
-// Unsigned big integers, lowest limb first. 770 digits times 10^308, or 10^(342 + 770) and its multiples by
-// 2^64, fit.
+// Unsigned big integers, lowest limb first. They are large enough for 770 digits times 10^308, or 10^(342 + 770) and
+// its multiples by 2^64.
 enum { LIMBS = 160, DIGITS_MAX = 770 };
 struct big {
     uint32_t limb[LIMBS];
@@ -241,7 +241,7 @@ static int big_compare(const struct big *a, const struct big *b)
     return 0;
 }
 
-static void big_subtract(struct big *a, const struct big *b) // a ≥ b
+static void big_subtract(struct big *a, const struct big *b) // requires a ≥ b
 {
     int64_t carry = 0;
     for (int i = 0; i < a->count; i++) {
@@ -253,9 +253,8 @@ static void big_subtract(struct big *a, const struct big *b) // a ≥ b
         a->count--;
 }
 
-// All the digits of the run, up to DIGITS_MAX significant ones: no midpoint between two doubles has more
-// than 767, so later digits matter only by their presence, which one more digit represents. Returns the power of ten to
-// multiply by.
+// Reads up to DIGITS_MAX significant digits. No midpoint of two doubles has more than 767, so any later nonzero digits
+// are represented by one extra digit. Returns the power of ten to multiply by.
 static int64_t big_digits(const struct decimal *d, struct big *a)
 {
     const uint8_t *at = d->first;
@@ -273,7 +272,7 @@ static int64_t big_digits(const struct decimal *d, struct big *a)
             rest |= *at != '0';
         }
     }
-    // d->exponent belongs to the first 19 digits, or to the last if there are fewer.
+    // d->exponent refers to the first 19 digits, or to the last digit if there are fewer.
     int64_t power = taken > 19 ? d->exponent - (taken - 19) : d->exponent;
     if (rest) {
         big_multiply_add(a, 10, 1);
@@ -295,8 +294,10 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
     // Scale so that the quotient's last bit is the last bit of the result.
     int precision = format->mantissa_bits + 1;
     int min_exponent = format->min_exponent_field + 2 - precision; // exponent of a denormal's last bit
-    int exponent = big_bits(&over) - big_bits(&under);             // of the number's first bit, or one more
-    int last = exponent - precision;                               // so the quotient has `precision` bits, or one more
+    // the exponent of the number's first bit, or one higher
+    int exponent = big_bits(&over) - big_bits(&under);
+    // the quotient then has `precision` bits, or one more
+    int last = exponent - precision;
     if (last < min_exponent)
         last = min_exponent;
     if (last > 0)
@@ -315,15 +316,15 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
             quotient |= 1;
         }
         if (i > 0)
-            big_shift_left(&over, 1); // instead of moving the divisor down
+            big_shift_left(&over, 1); // instead of shifting the divisor down
     }
     bool rest = over.count != 0;
-    if (bits < 0) { // less than one last bit: half of it or more?
+    if (bits < 0) { // below the last bit: at least half of it?
         big_shift_left(&over, 1);
         int half = big_compare(&over, &under);
-        return half > 0; // exactly half goes to the even 0
+        return half > 0; // exactly half rounds to the even 0
     }
-    // The remainder has moved up by `bits`; the divisor has too: compare twice the one with the other.
+    // The remainder was shifted up by `bits`, and so was the divisor: compare twice the remainder with the divisor.
     uint64_t hidden = UINT64_C(1) << format->mantissa_bits;
     bool up;
     if (quotient >= 2 * hidden) { // one bit too many
@@ -359,7 +360,7 @@ static uint64_t round_decimal(const struct decimal *d, const struct format *form
 
 // --- the public functions
 
-// "inf", "infinity", "nan", "nan(…)", in any case. `*bits`: the format's, without the sign.
+// Parses "inf", "infinity", "nan", "nan(…)", in upper or lower case. *bits receives the format's bits without the sign.
 static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, const struct format *format, bool *negative,
                                    uint64_t *bits)
 {
@@ -408,8 +409,8 @@ static float float_of(uint64_t bits, bool negative)
     return x;
 }
 
-// Returns the bits, without the sign, of a number to which the quick ways of number_double and number_float do not
-// apply. `after`: as scan returned it for `d`; NULL: only "inf" and "nan" remain.
+// Completes a number to which the fast paths of number_double and number_float do not apply. *bits are its bits without
+// the sign. `after` is the result of scan for `d`; if it is NULL, only "inf" and "nan" are possible.
 static const uint8_t *finish(const uint8_t *at, const uint8_t *end, const uint8_t *after, const struct format *format,
                              struct decimal *d, uint64_t *bits)
 {
@@ -440,7 +441,8 @@ const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out)
 
 const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out)
 {
-    // 10^e for e from −28 to 18, each within half a unit: with 19 digits before it the product stays a normal float.
+    // 10^e for e from −28 to 18, each within half a unit in the last place: multiplied by 19 digits, the product is a
+    // normal float.
     enum { LEAST = -28, MOST = 18 };
     static const double powers[] = {1e-28, 1e-27, 1e-26, 1e-25, 1e-24, 1e-23, 1e-22, 1e-21, 1e-20, 1e-19, 1e-18, 1e-17,
                                     1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9,  1e-8,  1e-7,  1e-6,  1e-5,

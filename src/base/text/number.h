@@ -1,4 +1,4 @@
-// number.h: numbers in text, correctly rounded, whatever the locale.
+// number.h: parses numbers in text, correctly rounded, in any locale.
 #ifndef NUMBER_H
 #define NUMBER_H
 
@@ -7,7 +7,7 @@
 
 // Parses a decimal number (sign, digits, '.', exponent; also inf and nan, as in C) at `at`, without reading at or past
 // `end`. Returns the position after the number, or NULL if there is none. The result is the double nearest to the text,
-// ties to even.
+// with ties to even.
 const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out);
 
 // Parses a decimal number, rounded once to the nearest float (not through double).

@@ -1,5 +1,5 @@
-// number_scan.h: the digits of a number in text, eight at a time, and a fast path for the short numbers that fill model
-// files. Everything else goes to number.c.
+// number_scan.h: parses the digits of numbers eight at a time, with a fast path for the short numbers of model files.
+// number.c handles all others.
 #ifndef NUMBER_SCAN_H
 #define NUMBER_SCAN_H
 
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-// Eight bytes, the first one lowest.
+// Loads eight bytes; the first one is the lowest.
 static inline uint64_t number_load8(const uint8_t *at)
 {
     uint64_t eight;
@@ -18,8 +18,8 @@ static inline uint64_t number_load8(const uint8_t *at)
     return eight;
 }
 
-// Returns how many of eight bytes are digits before the first that is not: 0 … 8. A byte below '0' borrows and one
-// above '9' carries, which affects later bytes only.
+// Returns the number of digits, 0 … 8, before the first non-digit of eight bytes. A byte below '0' borrows and one
+// above '9' carries, which affects only later bytes.
 static inline unsigned number_digit_count(uint64_t eight)
 {
     uint64_t other = ((eight + 0x4646464646464646u) | (eight - 0x3030303030303030u)) & 0x8080808080808080u;
@@ -29,10 +29,10 @@ static inline unsigned number_digit_count(uint64_t eight)
 // Returns the value of the first `count` of eight bytes, all digits.
 static inline uint64_t number_digits_value(uint64_t eight, unsigned count)
 {
-    // Shifted to the end, so that zeros lead; in two steps, since a shift by 64 is undefined.
+    // Shifted to the end, so that zeros lead, in two steps, since a shift by 64 is undefined.
     uint64_t v = (eight - 0x3030303030303030u) << 4 * (8 - count) << 4 * (8 - count);
-    // Neighbours are joined, ten times the first plus the second: 8 digits to 4 pairs to 2 quads to 1 number.
-    // One product does both, since 10 · 2⁸ + 1 puts ten times the lower byte under the upper one.
+    // Neighbours are joined as ten times the first plus the second: 8 digits to 4 pairs to 2 quads to 1 number. One
+    // product does both, since 10 · 2⁸ + 1 adds ten times the lower byte to the upper one.
     v = (v * (10 << 8 | 1) >> 8) & 0x00ff00ff00ff00ffu;
     v = (v * (100 << 16 | 1) >> 16) & 0x0000ffff0000ffffu;
     return v * (UINT64_C(10000) << 32 | 1) >> 32;
@@ -61,13 +61,13 @@ static const uint64_t number_integer_powers[20] = {
     10000000000000000000u,
 };
 
-// Returns whether a double with an error of at most 4 units in its last place rounds to the right float: true unless it
-// lies near the midpoint of two floats. For |x| from 2^-126 to 2^127 only.
+// Returns whether a double with an error of at most 4 units in its last place rounds to the correct float. It is false
+// near the midpoint of two floats. Only valid for |x| from 2^-126 to 2^127.
 static inline bool number_rounds_surely(double x)
 {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
-    // A float drops the low 29 bits; the middle is bit 28 alone.
+    // A float drops the low 29 bits; at a midpoint only bit 28 is set.
     return ((bits & 0x1fffffff) - 0x0ffffffc) > 8;
 }
 
@@ -75,8 +75,8 @@ static inline bool number_rounds_surely(double x)
 static const double number_tenths[16] = {1e0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
                                          1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
 
-// As number_float, fast for [-]ddd.ddd with up to 7 + 15 digits. At least 24 bytes must be readable at `at`, and a byte
-// that is not part of a number must follow the number before `end`.
+// Works like number_float, but is fast for [-]ddd.ddd with up to 7 + 15 digits. At least 24 bytes must be readable at
+// `at`, and a byte that is not part of a number must follow the number before `end`.
 static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t *end, float *out)
 {
     bool negative = *at == '-';
@@ -103,7 +103,7 @@ static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t
         }
     }
     if (__builtin_expect(whole + fraction - 1 < 18 && whole < 8 && fraction < 16 && (*stop | 0x20) != 'e', 1)) {
-        // Three roundings (`value` above 2^53, the power, the product): off by at most 3 units.
+        // Three roundings (`value` above 2^53, the power, the product) give an error of at most 3 units.
         double x = (double)(int64_t)value * number_tenths[fraction];
         if (__builtin_expect(number_rounds_surely(x), 1)) {
             *out = (float)(negative ? -x : x);

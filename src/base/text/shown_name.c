@@ -1,11 +1,11 @@
-// shown_name.c: names from files, as messages show them.
+// shown_name.c: shortens names from files for messages.
 #include "shown_name.h"
 
 #include <lambent/base.h>
 
 #include <string.h>
 
-// The control characters U+0000 … U+001F, U+007F … U+009F: some terminals obey the latter too.
+// Detects the control characters U+0000 … U+001F and U+007F … U+009F; some terminals interpret the latter too.
 static bool is_control(const unsigned char *at, int length)
 {
     return length == 1 ? *at < 0x20 || *at == 0x7f : length == 2 && at[0] == 0xc2 && at[1] < 0xa0;

@@ -1,12 +1,12 @@
-// spelling.c: the nearest of several words.
+// spelling.c: finds the nearest of several words.
 #include "spelling.h"
 
 #include <string.h>
 
-// The distance from which on a word is not near; nothing is near one that is too long to be compared.
+// Returns the smallest distance that is too far. No word is near to one that is too long to be compared.
 static int limit_of(const char *word)
 {
-    enum { COMPARED_MAX = 63 }; // as lam_edit_distance
+    enum { COMPARED_MAX = 63 }; // the limit of lam_edit_distance
     size_t length = strlen(word);
     return length > COMPARED_MAX ? 0 : (int)length / 3 + 2;
 }

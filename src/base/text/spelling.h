@@ -1,14 +1,14 @@
-// spelling.h: words that people mistype.
+// spelling.h: suggestions for mistyped words.
 #ifndef SPELLING_H
 #define SPELLING_H
 
 #include <lambent/base.h>
 
-// A search for the word of the interface that a typed one means, by lam_word_distance.
+// A search for the word of the interface that a typed word means, by lam_word_distance.
 struct spelling {
     const char *word;    // as typed
-    const char *nearest; // of those tried; NULL: none is near
-    int limit;           // a distance below it is nearer than all before
+    const char *nearest; // the nearest word so far, or NULL
+    int limit;           // a nearer word has a distance below this
 };
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
@@ -17,7 +17,7 @@ void spelling_try(struct spelling *spelling, const char *candidate);
 // is that near.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
-// Returns the word of the interface among `words` that a typed one means, or NULL if none is near.
+// Returns the word of the interface among `words` that a typed word means, or NULL if none is near.
 const char *meant_word(const char *word, const char *const *words, int count);
 
 #endif

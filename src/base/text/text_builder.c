@@ -1,4 +1,4 @@
-// text_builder.c: text that grows.
+// text_builder.c: a string builder.
 #include "text_builder.h"
 
 #include "fail.h"

@@ -1,12 +1,13 @@
-// text_builder.h: text that grows.
+// text_builder.h: a string builder.
 #ifndef TEXT_BUILDER_H
 #define TEXT_BUILDER_H
 
 #include <lambent/base.h>
 
-// Zero is empty. After a failure nothing more is added, and `error` has the reason. The owner frees `bytes`.
+// A zeroed struct is empty. After a failure further additions do nothing, and `error` contains the reason. The owner
+// frees `bytes`.
 struct text {
-    char *bytes; // ends with 0; NULL while nothing was added
+    char *bytes; // ends with 0; NULL if empty
     size_t length, capacity;
     bool failed;
     lam_error error;

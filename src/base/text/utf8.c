@@ -1,4 +1,4 @@
-// utf8.c: well-formed UTF-8.
+// utf8.c: checks UTF-8 text.
 #include <lambent/base.h>
 
 int lam_utf8_length(const void *bytes, size_t size)

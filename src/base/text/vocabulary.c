@@ -6,8 +6,8 @@
 
 enum { LENGTH_MAX = 63 };
 
-// Other names that people use, separated by spaces, in small letters with '-' between words. The program suggests them,
-// but does not accept them. If a name occurs in several rows, the rows that are valid at that position apply.
+// Common synonyms, separated by spaces, in lower case with '-' between words. The program suggests them, but does not
+// accept them. If a name occurs in several rows, the rows that are valid at that position apply.
 static const struct {
     const char *word, *others;
 } vocabulary[] = {
@@ -56,7 +56,7 @@ static const struct {
     {"right", "side"},
     {"top", "above plan"},
     {"bottom", "below under underneath"},
-    // Methods.
+    // Shading and reflection methods.
     {"flat", "per-face facet faceted face faces polygon per-polygon per-triangle constant"},
     {"gouraud", "per-vertex vertex vertices"},
     {"phong", "per-pixel per-fragment pixel fragment"},

@@ -10,7 +10,7 @@
 
 enum { KEY_BITS = 10, PASS_BITS = 11 };
 
-// The maximum slope of the sRGB curve, at black: it bounds the effect of a little light on a byte.
+// The maximum slope of the sRGB curve, at black, which limits the effect of a small amount of light on a byte.
 #define SRGB_SLOPE 12.92f
 
 // The sort key of a light.
@@ -36,7 +36,7 @@ static uint32_t quantize(float x, float low, float high)
 
 static bool has_range(const struct frame_light *light) { return light->falloff == FALLOFF_RANGE; }
 
-// Morton order: the bits of the three coordinates interleaved. Lights without a range come last.
+// Computes Morton codes: the bits of the three coordinates interleaved. Lights without a range come last.
 static void make_keys(const struct frame *frame, struct sort_key *keys)
 {
     float low[3], high[3];
@@ -102,7 +102,7 @@ static float min_cosine(const struct frame_light *light)
     }
 }
 
-// Suballocates rows, each a multiple of 64 bytes. Without a block it only counts.
+// Suballocates rows, each a multiple of 64 bytes. Without a block it only computes the size.
 struct rows {
     float *at;
     size_t used;
@@ -115,7 +115,7 @@ static float *row(struct rows *rows, int count)
     return part;
 }
 
-// The rows of struct light_bounds, writable, and two for sorting.
+// The rows of struct light_bounds, writable, and two rows for sorting.
 struct bound_rows {
     uint32_t *number, *all;
     float *position[3], *axis[3], *attenuation[3], *min_cosine, *inverse_range, *max_diffuse, *max_specular;
@@ -164,7 +164,7 @@ static void fill_light(const struct bound_rows *w, int i, const struct frame_lig
     w->inverse_range[i] = light->inverse_range;
 }
 
-// A light that reaches nothing, since its cone lets no direction through.
+// Adds a light that reaches nothing, because its cone excludes every direction.
 static void fill_padding(const struct bound_rows *w, int i)
 {
     static const struct frame_light nothing = {.attenuation = {1, 0, 0}};
@@ -241,7 +241,7 @@ bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const
             fill_group(&w, g, count);
     }
     fill_materials(&w, count, capacity, frame, materials);
-    // Tone curves are nowhere steeper than the light itself, but for those with a sigmoid.
+    // Tone curves are nowhere steeper than linear light, except those with a sigmoid.
     float steep = frame->settings.tone == LAM_TONE_ACES || frame->settings.tone == LAM_TONE_AGX ? 4.0f : 1.0f;
     float slope = steep * (frame->settings.color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;
     *table = (struct light_bounds){

@@ -1,4 +1,4 @@
-// light_bounds.h: the lights of a frame in rows, to test many of them at a time against the bounds of a part of the
+// light_bounds.h: the lights of a frame in rows, for testing many of them at a time against the bounds of a part of the
 // picture (light_cull.inc).
 #ifndef LIGHT_BOUNDS_H
 #define LIGHT_BOUNDS_H
@@ -9,37 +9,37 @@
 struct material_products;
 
 enum {
-    LIGHTS_IN_GROUP = 16,   // neighbouring lights that are tested at once
-    LIGHTS_ALL_SUMMED = 16, // frames with at most this many drop only lights that add nothing
+    LIGHTS_IN_GROUP = 16,   // neighbouring lights that are tested together
+    LIGHTS_ALL_SUMMED = 16, // frames with at most this many lights only drop lights that add nothing
 };
 
-// Lights with a range come first, in Morton order (1966), then the others. Rows are filled up to a multiple of
+// Lights with a range come first, in Morton order (1966), followed by the others. Rows are padded to a multiple of
 // LIGHTS_IN_GROUP with lights that reach nothing.
 struct light_bounds {
-    int count, capacity;      // lights; with the padding of the last group
+    int count, capacity;      // number of lights; including the padding of the last group
     const uint32_t *number;   // index in the frame
     const float *position[3]; // eye space; of a directional light the direction to it
-    const int32_t *far;       // −1: directional; else 0
-    const float *axis[3];     // of a spot light; else 0
-    const float *min_cosine;  // between the axis and a direction; below it no light arrives; −2: no cone
+    const int32_t *far;       // −1 for a directional light, otherwise 0
+    const float *axis[3];     // the axis of a spot light; otherwise 0
+    const float *min_cosine;  // the cosine at which a spot's light ends; −2 if there is no cone
     const float *attenuation[3];
-    const float *inverse_range; // 0: none
-    // For each material `capacity` numbers: the maximum channel of kd ⊙ Ld, which vertex colours tint (gl1: plus that
+    const float *inverse_range; // 0 if there is none
+    // `capacity` numbers per material: the maximum channel of kd ⊙ Ld, which vertex colours tint (gl1: plus the maximum
     // of ka ⊙ La), and of ks ⊙ Ls.
     const float *max_diffuse, *max_specular;
     // For each group: the bounding box of its lights and their maximum range; infinite if a light has none.
     int group_count, group_capacity;
     const float *group_low[3], *group_high[3], *group_reach;
     const uint32_t *all; // 0, 1, 2 … count − 1
-    // The lights dropped at a point add up to less than this, in linear light.
+    // The sum of the lights dropped at a point is below this, in linear light.
     float cutoff;
 };
 
-// Fills the table; `storage` holds its rows. False: out of memory.
+// Fills the table; `storage` owns its rows. Returns false if memory runs out.
 bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const struct frame *frame,
                        const struct material_products *materials, struct call_control *call, lam_error *error);
 
-// Whether the frame has enough lights for culling to pay off.
+// Returns whether the frame has enough lights for culling to pay off.
 static inline bool light_culling_wanted(const struct frame *frame)
 {
     return frame->light_count > (frame->settings.shading == LAM_SHADING_PHONG ? 4 : LIGHTS_ALL_SUMMED);

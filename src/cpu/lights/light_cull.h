@@ -5,10 +5,10 @@
 #include <stdint.h>
 
 struct light_list {
-    uint32_t *numbers; // in the frame, ascending
+    uint32_t *numbers; // indices in the frame, ascending
     int count;
     uint64_t *bits; // one for each light of the frame: whether it is listed
-    float *bound;   // scratch: the maximum that each light can add
+    float *bound;   // scratch memory: the most that each light can add
 };
 
 #endif

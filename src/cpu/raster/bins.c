@@ -1,4 +1,4 @@
-// bins.c: memory for bins and clipped pieces, and the binning of large triangles.
+// bins.c: memory for bins and clipped triangles, and the binning of large triangles.
 #include "bins.h"
 
 #include "pages.h"
@@ -7,10 +7,10 @@
 
 enum {
     SLAB = 2 << 20,   // a huge page
-    FILLED = 1 << 18, // number of triangles that nearly fills the first slab of each thread
+    FILLED = 1 << 18, // number of triangles that nearly fill the first slab of each thread
 };
 
-// Takes `bytes` from a list of slabs. New slabs come from the system and stay for later frames.
+// Allocates `bytes` from a list of slabs. New slabs come from the system and are kept for later frames.
 static void *slab_take(const struct raster_frame *raster, struct slab_list *list, size_t bytes)
 {
     if (list->count == 0 || list->used + bytes > SLAB) {
@@ -27,7 +27,7 @@ static void *slab_take(const struct raster_frame *raster, struct slab_list *list
             if (!call_charge(raster->work->call, SLAB))
                 goto out_of_memory;
             size_t held;
-            bool filled = next > 0 || raster->frame->triangle_count > FILLED; // its pages will all be used
+            bool filled = next > 0 || raster->frame->triangle_count > FILLED; // all of its pages will be used
             void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
             if (!slab) {
                 call_refund(raster->work->call, SLAB);
@@ -64,22 +64,23 @@ struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread
     return slab_take(raster, &bins->blocks, sizeof(struct bin_block));
 }
 
-// A power of two, so that the slab follows from a piece's number.
-enum { PIECES_PER_SLAB = SLAB / 64 };
-_Static_assert(sizeof(struct clipped_piece) <= 64, "a clipped piece fits 64 bytes");
+// A power of two, so that a clipped triangle's index gives its slab.
+enum { CLIPPED_PER_SLAB = SLAB / 64 };
+_Static_assert(sizeof(struct clipped_triangle) <= 64, "a clipped triangle fits 64 bytes");
 
-struct clipped_piece *new_clipped_piece(const struct raster_frame *raster, struct thread_bins *bins, uint32_t *number)
+struct clipped_triangle *new_clipped_triangle(const struct raster_frame *raster, struct thread_bins *bins,
+                                              uint32_t *number)
 {
-    struct clipped_piece *piece = slab_take(raster, &bins->pieces, 64);
-    if (piece)
-        *number = bins->piece_count++;
-    return piece;
+    struct clipped_triangle *triangle = slab_take(raster, &bins->clipped, 64);
+    if (triangle)
+        *number = bins->clipped_count++;
+    return triangle;
 }
 
-const struct clipped_piece *clipped_piece(const struct thread_bins *bins, uint32_t number)
+const struct clipped_triangle *clipped_triangle(const struct thread_bins *bins, uint32_t number)
 {
-    const char *slab = bins->pieces.slabs[number / PIECES_PER_SLAB];
-    return (const struct clipped_piece *)(slab + (size_t)(number % PIECES_PER_SLAB) * 64);
+    const char *slab = bins->clipped.slabs[number / CLIPPED_PER_SLAB];
+    return (const struct clipped_triangle *)(slab + (size_t)(number % CLIPPED_PER_SLAB) * 64);
 }
 
 void bin_large(const struct raster_frame *raster, struct thread_bins *bins, const struct snapped *c, uint32_t id)
@@ -100,7 +101,7 @@ void bin_large(const struct raster_frame *raster, struct thread_bins *bins, cons
     y0 = y0 < 0 ? 0 : y0;
     x1 = x1 >= raster->tiles_across ? raster->tiles_across - 1 : x1;
     y1 = y1 >= raster->tiles_down ? raster->tiles_down - 1 : y1;
-    // Edge functions, positive inside. A tile is missed if even its innermost corner is outside of an edge.
+    // Edge functions, positive inside. A tile is missed if even its innermost corner is outside an edge.
     int64_t sign = area > 0 ? 1 : -1, size = (int64_t)1 << shift;
     int64_t a[3], b[3], max[3];
     for (int k = 0; k < 3; k++) {

@@ -4,32 +4,32 @@
 
 #include "raster_frame.h"
 
-// Each tile has two bins: small triangles that show their back, and all others. A bin is a chain of blocks of triangle
-// numbers. Every thread has bins of its own, so binning takes no locks; the picture does not depend on the order of a
-// tile's triangles. Back faces are drawn last, since most are occluded by then; each carries a depth bound that is
+// Each tile has two bins: one for small back-facing triangles, and one for all others. A bin is a chain of blocks of
+// triangle numbers. Every thread has its own bins, so binning needs no locks; the picture does not depend on the order
+// of a tile's triangles. Back faces are drawn last, because most are occluded by then; each has a depth bound that is
 // tested first (occlusion.inc).
 enum {
-    TILE_BINS = 2,       // of tile t: 2·t, and 2·t + 1 with back faces
-    BIN_BLOCK_IDS = 128, // multiples of LANES_MAX: whole packets can be read
+    TILE_BINS = 2,       // tile t has bin 2·t, and 2·t + 1 for back faces
+    BIN_BLOCK_IDS = 128, // multiples of LANES_MAX, so that whole packets can be read
     BIN_BLOCK_BACK_FACES = 64,
-    SMALL = TILE * SUBPIXEL, // extent up to which a triangle's edge functions fit 32 bits
+    SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit 32 bits
 };
-#define CLIPPED 0x80000000u // bit of a number in a bin: it numbers a clipped piece, not a triangle
+#define CLIPPED 0x80000000u // bit of a number in a bin: it is the index of a clipped triangle
 
 struct bin_block {
     struct bin_block *next;
     uint32_t count;
-    uint32_t ids[BIN_BLOCK_IDS]; // of back faces BIN_BLOCK_BACK_FACES, then as many bounds
+    uint32_t ids[BIN_BLOCK_IDS]; // for back faces, BIN_BLOCK_BACK_FACES numbers followed by as many bounds
 };
 
-// A piece of a clipped triangle: its own window coordinates, and the number of the triangle.
-struct clipped_piece {
+// A part of a clipped triangle: its own window coordinates, and the number of the triangle.
+struct clipped_triangle {
     float x[3], y[3], key[3];
     uint32_t id;
     bool back;
 };
 
-// Memory in slabs that never move.
+// Memory in slabs that are never moved.
 struct slab_list {
     void **slabs;
     int count, capacity; // slabs
@@ -37,29 +37,31 @@ struct slab_list {
     size_t used;         // bytes of it
 };
 
-// The bins that one thread fills; all threads read them.
+// The bins that one thread fills and all threads read.
 struct thread_bins {
-    struct bin_block **heads; // first block of each bin, newest first
+    struct bin_block **heads; // the newest block of each bin
     struct slab_list blocks;
-    struct slab_list pieces;
-    uint32_t piece_count;
+    struct slab_list clipped;
+    uint32_t clipped_count;
     uint64_t triangles_binned;
-    uint64_t work; // units that were not added up yet
+    uint64_t work; // units that were not yet added
 };
 
-// A block for one more bin, memory for one more clipped piece; NULL: out of memory, and the frame has failed.
+// Allocate a block for one more bin, or memory for one more clipped triangle. They return NULL if memory runs out; the
+// frame has then failed.
 struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread_bins *bins);
-struct clipped_piece *new_clipped_piece(const struct raster_frame *raster, struct thread_bins *bins, uint32_t *number);
-const struct clipped_piece *clipped_piece(const struct thread_bins *bins, uint32_t number);
+struct clipped_triangle *new_clipped_triangle(const struct raster_frame *raster, struct thread_bins *bins,
+                                              uint32_t *number);
+const struct clipped_triangle *clipped_triangle(const struct thread_bins *bins, uint32_t number);
 size_t slabs_bytes(const struct slab_list *list);
-size_t slabs_free(struct slab_list *list); // returns how many bytes that were
+size_t slabs_free(struct slab_list *list); // returns the number of freed bytes
 
-// Snapped coordinates of a triangle's corners.
+// The snapped coordinates of a triangle's corners.
 struct snapped {
     int32_t x[3], y[3];
 };
 
-// Twice the signed area. With y down a positive one is clockwise on the screen.
+// Returns twice the signed area. With y down, a positive area is clockwise on the screen.
 static inline int64_t snapped_area(const struct snapped *c)
 {
     return (int64_t)(c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) - (int64_t)(c->x[2] - c->x[0]) * (c->y[1] - c->y[0]);
@@ -77,7 +79,7 @@ static inline bool tile_has_triangles(const struct raster_frame *raster, size_t 
     return false;
 }
 
-// The newest block of a bin, a new one if `count` more numbers do not fit; NULL: out of memory.
+// Returns the newest block of a bin, or a new one if `count` more numbers do not fit. Returns NULL if memory runs out.
 static inline struct bin_block *bin_reserve(const struct raster_frame *raster, struct thread_bins *bins, int bin,
                                             uint32_t count)
 {

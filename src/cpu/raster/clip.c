@@ -1,7 +1,7 @@
 // clip.c: clips triangles that cross the near or far plane or leave the guard band, in homogeneous coordinates.
 //
 // Sutherland and Hodgman, "Reentrant polygon clipping", 1974. An edge is always cut from its inner towards its outer
-// end, so that two triangles that share the edge get the same point, bit for bit, and no gap opens between them.
+// end, so that two triangles that share the edge get the same point, bit for bit, without a gap between them.
 #include "clip.h"
 
 #include <string.h>
@@ -10,12 +10,12 @@ struct corner {
     float x, y, z, w; // pixels·w (y down), clip z, w
 };
 
-// Each plane adds one corner to a convex polygon, and at most doubles the corners of a thin one that rounding
-// has folded.
+// Each plane adds one corner to a convex polygon, and at most doubles the corners of a thin polygon that rounding has
+// folded.
 enum { PLANES = 6, CORNERS_MAX = 3 << PLANES };
 
-// The distance to a plane times a positive number; ≥ 0 inside. Near and far come first: w > 0 then holds for the
-// guard band.
+// Returns the distance to a plane times a positive number; ≥ 0 inside. Near and far come first, so that w > 0 holds for
+// the guard band.
 static float distance(const struct raster_frame *raster, const struct corner *c, int plane)
 {
     float dx = c->x - 0.5f * (float)raster->frame->width * c->w;
@@ -63,8 +63,8 @@ static int clip_polygon(const struct raster_frame *raster, struct corner polygon
 static float row(const float m[4], const float *p) { return ((m[0] * p[0] + m[1] * p[1]) + m[2] * p[2]) + m[3]; }
 
 // Bins one triangle of the clipped polygon's fan, if it has an area and is not culled.
-static void bin_piece(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
-                      const struct clipped_piece *found)
+static void bin_clipped(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
+                        const struct clipped_triangle *found)
 {
     struct snapped corners;
     for (int k = 0; k < 3; k++) {
@@ -76,11 +76,11 @@ static void bin_piece(const struct raster_frame *raster, struct thread_bins *bin
     if (area == 0 || (draw->cull == LAM_CULL_BACK && back) || (draw->cull == LAM_CULL_FRONT && !back))
         return;
     uint32_t number;
-    struct clipped_piece *piece = new_clipped_piece(raster, bins, &number);
-    if (!piece)
+    struct clipped_triangle *triangle = new_clipped_triangle(raster, bins, &number);
+    if (!triangle)
         return;
-    *piece = *found;
-    piece->back = back;
+    *triangle = *found;
+    triangle->back = back;
     bin_large(raster, bins, &corners, number | CLIPPED);
     bins->triangles_binned++;
 }
@@ -97,7 +97,7 @@ void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, 
                                      row(draw->pixel[3], p)};
     }
     int count = clip_polygon(raster, polygon, 3);
-    struct clipped_piece piece = {.id = id};
+    struct clipped_triangle triangle = {.id = id};
     float x[CORNERS_MAX], y[CORNERS_MAX], key[CORNERS_MAX];
     for (int i = 0; i < count; i++) {
         // The same operations as in vertex_transform.inc, so that an unclipped corner snaps to the same point in
@@ -113,10 +113,10 @@ void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, 
     for (int i = 1; i + 1 < count; i++) {
         int fan[3] = {0, i, i + 1};
         for (int k = 0; k < 3; k++) {
-            piece.x[k] = x[fan[k]];
-            piece.y[k] = y[fan[k]];
-            piece.key[k] = key[fan[k]];
+            triangle.x[k] = x[fan[k]];
+            triangle.y[k] = y[fan[k]];
+            triangle.key[k] = key[fan[k]];
         }
-        bin_piece(raster, bins, draw, &piece);
+        bin_clipped(raster, bins, draw, &triangle);
     }
 }

@@ -4,11 +4,11 @@
 
 #include "tile.h"
 
-// For each sample, in cells (tile.h), the nearest opaque triangle.
+// The nearest opaque triangle of each sample, stored in cells (tile.h).
 struct tile_samples {
-    float *keys;                    // depth; larger is nearer, −1: NOTHING
+    float *keys;                    // depth keys; larger is nearer, −1: NOTHING
     uint32_t *ids;                  // triangle number with BACK_SIDE, or NOTHING
-    int32_t *counts;                // triangles that cover the sample; NULL except for LAM_OUTPUT_OVERDRAW
+    int32_t *counts;                // number of triangles that cover the sample; NULL except for LAM_OUTPUT_OVERDRAW
     uint32_t translucent_triangles; // in the tile's bins
 };
 

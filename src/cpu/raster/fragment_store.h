@@ -1,4 +1,4 @@
-// fragment_store.h: a tile's fragments in compact form, kept while normals are made for all visible triangles.
+// fragment_store.h: a tile's fragments in compact form, kept while normals of all visible triangles are computed.
 #ifndef FRAGMENT_STORE_H
 #define FRAGMENT_STORE_H
 
@@ -7,8 +7,8 @@
 
 struct fragment_store {
     int count;
-    uint32_t lowest; // triangle number
-    bool narrow;     // the other numbers follow within 23 bits
+    uint32_t lowest; // the lowest triangle number
+    bool narrow;     // all numbers are within 23 bits of `lowest`
     void *fragments;
 };
 

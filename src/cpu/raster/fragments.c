@@ -51,7 +51,7 @@ void group_fragments(const struct frame *frame, struct fragments *fragments)
         return;
     }
     uint32_t largest = 0;
-    uint32_t low = 0, count = 0; // the surface of the last fragment
+    uint32_t low = 0, count = 0; // surface of the previous fragment
     int surface = 0;
     for (int i = 0; i < fragments->count; i++) {
         uint32_t id = fragments->id[i] & ~BACK_SIDE;

@@ -1,22 +1,22 @@
-// tile.h: the grid of tiles that the picture is drawn in, and the layout of a tile's samples in memory.
+// tile.h: the grid of tiles of the picture, and the layout of a tile's samples in memory.
 #ifndef TILE_H
 #define TILE_H
 
 #include <stdint.h>
 
 enum {
-    TILE = 64, // pixels on a side; the same on every machine
+    TILE = 64, // pixels per side; the same on every machine
     TILE_SHIFT = 6,
-    SUBPIXEL = 256, // steps of a snapped vertex in a pixel
+    SUBPIXEL = 256, // steps of a snapped vertex per pixel
     SUBPIXEL_SHIFT = 8,
     LANES_MAX = 16,
-    LAYERS_MAX = 65536, // translucent fragments that a thread holds at once, and so the maximum over one pixel
+    LAYERS_MAX = 65536, // the most translucent fragments that a thread stores, and therefore the most over one pixel
 };
 
 #define NOTHING   0xffffffffu // a sample that no triangle covers
-#define BACK_SIDE 0x80000000u // bit of a triangle number in the visibility buffer: the triangle shows its back
+#define BACK_SIDE 0x80000000u // bit of a triangle number in the visibility buffer: the back of the triangle is visible
 
-// A tile: its column and row in the grid, and how many of its pixels lie inside the picture.
+// A tile: its column and row in the grid, and the number of its pixels inside the picture.
 struct tile {
     int x, y, width, height;
 };
@@ -32,14 +32,14 @@ struct rectangle {
     int left, top, right, bottom;
 };
 
-// A tile's samples are stored cell by cell. A cell holds CELL samples of a part of the tile that is as square as
-// possible, so that a small triangle touches few cells. Within a cell pixels lie row by row, and the samples of a
-// pixel side by side.
+// A tile's samples are stored cell by cell. A cell contains CELL samples of an area that is as square as possible, so
+// that a small triangle touches few cells. Within a cell, pixels are stored row by row, and the samples of a pixel are
+// adjacent.
 enum { CELL = 16 };
 struct cells {
     int x_shift, y_shift; // a cell's width and height in pixels: 1 << shift
     int across;           // cells in a row of the tile
-    int samples;          // of a pixel
+    int samples;          // per pixel
 };
 static inline struct cells cells_of(int samples)
 {
@@ -47,7 +47,7 @@ static inline struct cells cells_of(int samples)
     return (struct cells){x_shift, y_shift, TILE >> x_shift, samples};
 }
 
-// The index of a pixel's first sample.
+// Returns the index of a pixel's first sample.
 static inline int pixel_index(const struct cells *cells, int x, int y)
 {
     int cell = (y >> cells->y_shift) * cells->across + (x >> cells->x_shift);
@@ -55,7 +55,7 @@ static inline int pixel_index(const struct cells *cells, int x, int y)
     return cell * CELL + ((row << cells->x_shift) + column) * cells->samples;
 }
 
-// The number of samples in a tile, and so the maximum number of its opaque fragments.
+// Returns the number of samples in a tile, which is also the maximum number of its opaque fragments.
 static inline int tile_samples_count(int samples) { return TILE * TILE * samples; }
 
 #endif

@@ -1,5 +1,5 @@
-// visible_triangles.c: what must be known of the whole picture before any of it is lit: which triangles it shows, and the
-// normals of those, for meshes without normals; and the distances of its surfaces, for ambient occlusion.
+// visible_triangles.c: collects data of the whole picture before lighting: the visible triangles and their normals, for
+// meshes without normals; and the distances of surfaces, for ambient occlusion.
 #include "visible_triangles.h"
 
 #include "cpu_frame.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// --- every triangle in a bin
+// --- all binned triangles
 
 static void mark_bins(void *user, size_t index, int number)
 {
@@ -23,7 +23,7 @@ static void mark_bins(void *user, size_t index, int number)
             for (uint32_t k = 0; k < block->count; k++) {
                 uint32_t id = block->ids[k];
                 if (id & CLIPPED)
-                    id = clipped_piece(bins, id & ~CLIPPED)->id;
+                    id = clipped_triangle(bins, id & ~CLIPPED)->id;
                 rank_bitset_add(&cpu->shade.visible.triangles, id);
             }
     }
@@ -36,15 +36,15 @@ struct tile_search {
     struct arena *arenas;
 };
 
-// Tiles: half a million fragments, and some megabytes, where all is covered.
+// Number of tiles: about half a million fragments, some megabytes, if all are covered.
 enum { LARGE_PICTURE = 128 };
 
-// Adds the triangles of the fragments (`set` NULL: to nothing), and returns the lowest and the highest of them. Whether a
-// fragment's triangle differs from the one before cannot be predicted, so that it is tested without a branch.
+// Adds the triangles of the fragments to `set` (may be NULL), and returns the lowest and the highest. Whether a
+// fragment's triangle differs from the previous one is unpredictable, so the test is branchless.
 static void add_triangles(struct rank_bitset *set, const struct fragments *fragments, uint32_t *lowest,
                           uint32_t *highest)
 {
-    uint32_t *ids = fragments->order; // not in use yet
+    uint32_t *ids = fragments->order; // not used yet
     uint32_t previous = NOTHING;
     int count = 0;
     for (int i = 0; i < fragments->count; i++) {
@@ -116,7 +116,7 @@ static void release_bins(struct cpu_frame *cpu)
     }
 }
 
-// --- memory of the set and the normals
+// --- memory for the set and the normals
 
 static bool make_set(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error)
 {
@@ -131,8 +131,8 @@ static bool make_set(struct cpu_frame *cpu, struct visible_buffers *buffers, lam
     return true;
 }
 
-// Finds memory for the elements and normals of so many corners: in the scratch memory where that is large, else of their
-// own, of which fewer pages are touched, since corners share normals.
+// Finds memory for the elements and normals of this many corners: in the scratch memory if it is large enough,
+// otherwise in separate memory, of which fewer pages are touched because corners share normals.
 static bool place_normals(struct visible_buffers *buffers, struct visible_normals *visible, size_t corners,
                           struct scratch_memory *scratch, struct call_control *call, lam_error *error)
 {
@@ -149,7 +149,7 @@ static bool place_normals(struct visible_buffers *buffers, struct visible_normal
     return true;
 }
 
-// --- distances alone, for ambient occlusion
+// --- only distances, for ambient occlusion
 
 static void measure_tile(void *user, size_t index, int number)
 {
@@ -207,8 +207,9 @@ bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, la
             pool_run(cpu->pool, tile_count(cpu), measure_tile, cpu);
     }
     if (!work_continues(&cpu->work))
-        return true; // the caller reports why
-    // The transformed vertices are no longer needed either: their memory serves again. (Meshes without indices have none.)
+        return true; // the caller reports the reason
+    // The transformed vertices are no longer needed either, so their memory is reused. (Meshes without indices have
+    // none.)
     struct scratch_memory scratch = {0};
     if (cpu->fragment_stores) {
         release_bins(cpu);

@@ -1,4 +1,4 @@
-// behind.c: the levels of the picture behind rough and thick glass, and how they are read.
+// behind.c: makes the levels of the picture behind rough and thick glass, and samples them.
 #include "behind.h"
 
 #define LANES 1
@@ -32,7 +32,7 @@ bool behind_make(struct behind *behind, struct buffer *memory, int width, int he
     return true;
 }
 
-// Texels of a level from `first` on, and their weights.
+// Consecutive texels of a level from `first` on, and their weights.
 struct taps {
     int first, count;
     float weight[4];
@@ -46,8 +46,8 @@ static const float *texel_at(const struct behind *behind, int level, int x, int 
     return behind->texels[level] + 4 * (row + (size_t)clamped(x, behind->width[level]));
 }
 
-// The texels of a level that one of the next, `i` of `count`, covers, and how much of it each is: two, or three of an odd number, the
-// outer ones in part.
+// Returns the texels of a level that texel `i` of `count` of the next level covers, and their covered shares: two, or
+// three if the size is odd, the outer ones partly.
 static struct taps covered_taps(int i, int count, int size)
 {
     if (size == 1)
@@ -86,7 +86,7 @@ void behind_fill(struct behind *behind)
     }
 }
 
-// Around a place in texels, whose centres are at i + ½.
+// Returns the texels around a position in texels, whose centres are at i + ½.
 static struct taps linear_taps(float place)
 {
     float at = place - 0.5f;
@@ -113,7 +113,7 @@ static void look_at_level(const struct behind *behind, int level, float x, float
     sum_taps(behind, level, &across, &down, out);
 }
 
-// A coordinate within the picture.
+// Clamps a coordinate to the picture.
 static float inside(float x, int size) { return x > 0 ? x < (float)size ? x : (float)size : 0; }
 
 void behind_look(const struct behind *behind, float x, float y, float square, float out[4])

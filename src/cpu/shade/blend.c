@@ -1,12 +1,14 @@
-// blend.c: translucent surfaces: sorts a pixel's fragments by depth at every sample, and blends them.
+// blend.c: sorts a pixel's translucent fragments by depth at every sample, and blends them.
 //
 // One layer over another:
 //
-//   color = src·a + dst·(1 − a)
-//   alpha = a + A·(1 − a)
 //
-// The sum goes from the nearest layer to the farthest, with the fraction of light that the layers so far let through.
-// The fraction that remains in the end is the weight of the opaque surface or the background.
+//  color = src·a + dst·(1 − a)
+//  alpha = a + A·(1 − a)
+//
+//
+// The sum goes from the nearest layer to the farthest, with the fraction of light that the previous layers let through.
+// The remaining fraction is the weight of the opaque surface or the background.
 #include "blend.h"
 
 #include "behind.h"
@@ -28,12 +30,12 @@ static void sort_by_pixel(const struct fragments *fragments, struct blend_scratc
     }
     for (int i = 0; i < fragments->count; i++)
         scratch->order[start[fragments->pixel[i]]++] = (uint32_t)i;
-    // Each start has advanced to the next pixel's.
+    // Each start has been advanced to the next pixel's start.
     memmove(start + 1, start, TILE * TILE * sizeof *start);
     start[0] = 0;
 }
 
-// The largest rank first. The ranks of a pixel are all different, so there is only one order.
+// Sorts by descending rank. The ranks of a pixel are all different, so the order is unique.
 static void insertion_sort(struct layer *layers, uint32_t count)
 {
     for (uint32_t i = 1; i < count; i++) {
@@ -80,7 +82,8 @@ static void sort_by_rank(struct layer *layers, uint32_t count)
     }
 }
 
-// A rank by depth key, then by triangle number: of equal keys the lower number is nearer, as among opaque triangles.
+// Returns a rank by depth key, then by triangle number: of equal keys the lower number is nearer, as for opaque
+// triangles.
 static uint64_t rank_of(float key, uint32_t id)
 {
     float unsigned_zero = key + 0.0f;
@@ -90,8 +93,8 @@ static uint64_t rank_of(float key, uint32_t id)
     return (uint64_t)bits << 32 | (uint32_t)~(id << 1 | id >> 31);
 }
 
-// Joins the fragments that pieces of one clipped triangle have in one pixel. Where two of them cover a sample, the
-// nearer key counts.
+// Joins the fragments of one clipped triangle's parts in a pixel. If two of them cover a sample, the nearer key is
+// used.
 static void join_pieces(const struct fragments *fragments, struct layer_rows *rows, struct blend_scratch *scratch,
                         int samples)
 {
@@ -120,7 +123,7 @@ static void join_pieces(const struct fragments *fragments, struct layer_rows *ro
     }
 }
 
-// Removes the fragments without samples, which were joined to others or masked, and updates the nearest samples of the rest.
+// Removes fragments without samples, which were joined or masked, and updates the nearest samples of the others.
 static void drop_empty(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows)
 {
     size_t samples = (size_t)pattern->count, kept = 0;
@@ -140,7 +143,7 @@ static void drop_empty(const struct sample_pattern *pattern, struct fragments *f
     fragments->count = (int)kept;
 }
 
-// The layers of a pixel; returns their number.
+// Lists the layers of a pixel. Returns their number.
 static uint32_t list_layers(struct blend_scratch *scratch, int pixel)
 {
     uint32_t first = scratch->start[pixel], count = scratch->start[pixel + 1] - first;
@@ -149,8 +152,8 @@ static uint32_t list_layers(struct blend_scratch *scratch, int pixel)
     return count;
 }
 
-// Sorts layers, the nearest at a sample first. All are sorted, covering the sample or not: the next sample's order will be
-// nearly the same.
+// Sorts layers, the nearest at a sample first. All are sorted, whether or not they cover the sample, because the next
+// sample's order will be nearly the same.
 static void rank_layers(const struct fragments *fragments, const struct layer_rows *rows, struct layer *layers,
                         uint32_t count, int samples, int sample)
 {
@@ -190,19 +193,19 @@ static void blend_pixel(const struct fragments *fragments, const struct layer_ro
     }
 }
 
-// The light that the layers at a sample return, and what is left of the light behind them.
+// The light that the layers at a sample reflect, and the transmittance for the light behind them.
 struct layer_sum {
     float sum[3], left[3], mean; // the mean of `left`
-    // Of layers that refract: by how much they move the picture behind, and the square of the width over which they blur it.
+    // For layers that refract: the shift of the picture behind, and the square of the blur width.
     float x, y, square;
     bool refracts;
 };
 
 static float mean_of(const float left[3]) { return (left[0] + left[1] + left[2]) * (1 / 3.0f); }
 
-// Sums the layers of a sample, where each lets each channel through by a share of its own: a fragment of opacity a and colour C
-// that lets T through makes of the light L behind it C a + L (1 - a (1 - T)). Behind a surface that refracts, surfaces that do not
-// transmit are left out: they are in the picture that it shows.
+// Sums the layers of a sample with a transmittance per channel: a fragment of opacity a and colour C that lets T
+// through turns the light L behind it into C a + L (1 - a (1 - T)). Behind a surface that refracts, opaque surfaces are
+// omitted, because they are in the picture that it shows.
 static struct layer_sum sum_layers(const struct fragments *fragments, const struct layer_rows *rows,
                                    const struct layer *layers, uint32_t count, int sample, struct recorder *recorder,
                                    int pixel, float share)
@@ -231,17 +234,17 @@ static struct layer_sum sum_layers(const struct fragments *fragments, const stru
     return l;
 }
 
-// The pixels of a tile with layers that let each channel through by a share of its own. A picture has one alpha, the mean of the
-// channels'; where the background is seen, it is coloured by what the one alpha leaves out.
+// The pixels of a tile with layers that have a transmittance per channel. A picture has one alpha, the mean of the
+// channels; the visible background is tinted by the difference.
 struct tinted_pixel {
-    int number;      // in the tile
-    float x, y;      // its centre in the picture
-    int samples;     // of a pixel
-    float looked[4]; // the picture behind, as the last sample that refracts shows it
+    int number;      // index in the tile
+    float x, y;      // the centre of the pixel in the picture
+    int samples;     // per pixel
+    float looked[4]; // the picture behind, at the last sample that refracts
     struct layer_sum last;
 };
 
-// Adds the picture behind to a sample whose layers refract. What is left after that is of the background.
+// Adds the picture behind to a sample whose layers refract. The remaining light is from the background.
 static void add_behind(struct layer_sum *l, const struct behind *behind, struct tinted_pixel *p)
 {
     if (!p->last.refracts || l->x != p->last.x || l->y != p->last.y || l->square != p->last.square)

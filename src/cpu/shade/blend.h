@@ -1,4 +1,4 @@
-// blend.h: translucent fragments blended in order of depth.
+// blend.h: blends translucent fragments in order of depth.
 #ifndef BLEND_H
 #define BLEND_H
 
@@ -10,7 +10,7 @@
 
 struct recorder;
 
-// A pixel's fragment on its way into depth order at one sample: the larger rank is nearer.
+// A pixel's fragment to be sorted by depth at one sample: the larger rank is nearer.
 struct layer {
     uint64_t rank;
     uint32_t fragment;
@@ -18,13 +18,13 @@ struct layer {
 
 // Scratch memory of one thread.
 struct blend_scratch {
-    uint32_t *order;      // fragments in the order of pixels
-    uint32_t *start;      // of each pixel, in `order`; one more at the end
-    struct layer *layers; // of one pixel
+    uint32_t *order;      // fragment indices in the order of pixels
+    uint32_t *start;      // the start of each pixel in `order`, plus one at the end
+    struct layer *layers; // the layers of one pixel
 };
 
-// Sorts a tile's translucent fragments by pixel, after joining those that pieces of one clipped triangle have in one
-// pixel. To be called before they are grouped and shaded.
+// Sorts a tile's translucent fragments by pixel, after joining the fragments of one clipped triangle's parts in each
+// pixel. Call it before they are grouped and shaded.
 void sort_layers(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows,
                  struct blend_scratch *scratch);
 
@@ -41,7 +41,7 @@ uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragmen
                       const struct layer_rows *rows, struct blend_scratch *scratch, const struct tile_part *part,
                       struct pixel_sums *sums, struct recorder *recorder);
 
-// In place of sorting and blending: puts the nearest fragment of each sample into the tile's visibility buffer.
+// Used instead of sorting and blending: puts the nearest fragment of each sample into the tile's visibility buffer.
 void show_layers(const struct sample_pattern *pattern, const struct fragments *fragments, const struct layer_rows *rows,
                  struct tile_samples *samples);
 

@@ -1,4 +1,4 @@
-// output.c: pixels that hold values of the surfaces in place of colours (lam_output in lambent/device.h). Plain C, the
+// output.c: writes pixels with surface properties instead of colours (lam_output in lambent/device.h). Plain C, the
 // same for every instruction set.
 #include "output.h"
 
@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-// A pixel's value is its first fragment's: of the covered sample nearest to the centre (visibility_resolve.inc).
+// A pixel's value is the value of its first fragment, which is at the covered sample nearest to the centre
+// (visibility_resolve.inc).
 static void pick_fragments(const struct fragments *fragments, float *const sum[4])
 {
     int before = -1;

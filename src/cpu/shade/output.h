@@ -1,4 +1,4 @@
-// output.h: pixels that hold values of the surfaces in place of colours (lam_output in lambent/device.h).
+// output.h: writes pixels with surface properties instead of colours (lam_output in lambent/device.h).
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
@@ -6,8 +6,8 @@
 #include "fragments.h"
 #include "resolve.h"
 
-// Writes a tile's pixels, in place of the kernels' resolve. LAM_OUTPUT_CLIPPED: from sums->unclipped, with the tile's
-// pixels row by row.
+// Writes a tile's pixels, instead of the kernels' resolve. LAM_OUTPUT_CLIPPED uses sums->unclipped, which contains the
+// tile's pixels row by row.
 void output_tile(const struct resolve_target *target, const struct fragments *fragments,
                  const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
 

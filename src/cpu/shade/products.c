@@ -1,4 +1,4 @@
-// products.c: materials × lights, once for each frame.
+// products.c: computes the products of materials and lights, once per frame.
 #define LANES 1
 #include "lighting.h"
 
@@ -19,7 +19,8 @@ static void product(float out[3], const float *a, const float *b)
         out[i] = a[i] * b[i];
 }
 
-// The maps that shading reads. Where colours of vertices or triangles are interpolated, those that multiply such a colour.
+// Returns the maps that shading uses. If colours of vertices or triangles are interpolated, these are the maps that
+// multiply such a colour.
 static unsigned maps_of(const lam_material *material, const struct frame *frame)
 {
     unsigned maps = 0, drawn = ~(1u << LAM_MAP_DISPLACEMENT | 1u << LAM_MAP_REFLECTION);
@@ -72,7 +73,7 @@ struct material_products *products_make(struct buffer *storage, const struct fra
         at += lights * sizeof *list;
         float kd[3], ks[3];
         frame_material_colors(material, kd, ks);
-        if (out->converted || (out->maps >> LAM_MAP_METALLIC & 1)) { // what varies is multiplied at each point
+        if (out->converted || (out->maps >> LAM_MAP_METALLIC & 1)) { // varying factors are multiplied at each point
             memcpy(kd, out->converted ? &material->ambient.r : &material->diffuse.r, sizeof kd);
             ks[0] = ks[1] = ks[2] = 1;
         }
@@ -93,10 +94,11 @@ struct material_products *products_make(struct buffer *storage, const struct fra
     return products;
 }
 
-// The levels that a roughness reads: the material's number alone, or times a map's. A mesh without texture coordinates reads no map.
+// Returns the levels that a roughness needs: the material's number alone, or times a map's. A mesh without texture
+// coordinates uses no map.
 static unsigned parts_of_number(const struct material_products *m, lam_map slot, float factor, bool stretched)
 {
-    const float margin = 1e-4f; // for the rounding of filtered texels
+    const float margin = 1e-4f; // allows for the rounding of filtered texels
     float low = factor, high = factor;
     if (m->maps >> slot & 1) {
         float range[2];

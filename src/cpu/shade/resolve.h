@@ -1,4 +1,4 @@
-// resolve.h: from a tile's fragments to pixels of the picture.
+// resolve.h: converts a tile's fragments to pixels of the picture.
 #ifndef RESOLVE_H
 #define RESOLVE_H
 
@@ -9,29 +9,29 @@
 // The picture, and the value of a pixel without fragments.
 struct resolve_target {
     const struct frame *frame;
-    lam_image *image;     // of a working format (pixels.h); without pixels where `converted` is set
-    lam_image *converted; // the caller's picture of another format, into which tiles are converted; or NULL
+    lam_image *image;     // in a working format (pixels.h); it has no pixels if `converted` is set
+    lam_image *converted; // the caller's picture in another format, into which tiles are converted; or NULL
     uint8_t empty_pixel[16];
-    const struct behind *behind; // its first level gets the sums in place of the picture; or NULL
+    const struct behind *behind; // receives the sums in its first level instead of the picture; or NULL
 };
 
 // Sums of a tile's pixels.
 struct pixel_sums {
-    float *sum[4];    // r, g, b premultiplied, and alpha
+    float *sum[4];    // premultiplied r, g, b, and alpha
     float *unclipped; // LAM_OUTPUT_CLIPPED: the tile's pixels before clamping
     float *pixels;    // the tile's pixels before they are converted
-    // Of each sample: the fraction of light that the translucent layers let through.
+    // The fraction of light that the translucent layers let through, for each sample.
     float *transmittance;
-    // The same for each channel, where the frame transmits; then `transmittance` is their mean. NULL: it does not.
+    // The fraction for each channel, if the frame transmits; `transmittance` is then their mean. Otherwise NULL.
     float *tint[3];
-    const float *background;     // what such layers are in front of (frame.glass_background)
-    const struct behind *behind; // NULL: nothing is blurred or bent, or this picture is the one behind
+    const float *background;     // the background of such layers (frame.glass_background)
+    const struct behind *behind; // NULL if nothing is blurred or refracted, or if this is the picture behind
 };
 
-// Of the two working formats: constants, with which short copies are inlined.
+// Returns the bytes per pixel of the two working formats: constants, so that short copies are inlined.
 static inline size_t working_bytes(const lam_image *image) { return image->format == LAM_RGBA8 ? 4 : 16; }
 
-// A row of a tile in the picture.
+// Returns a row of a tile in the picture.
 static inline char *tile_row(const lam_image *image, const struct tile *tile, int y)
 {
     return (char *)image_row(image, tile->y * TILE + y) + (size_t)tile->x * TILE * working_bytes(image);

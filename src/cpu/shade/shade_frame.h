@@ -1,4 +1,4 @@
-// shade_frame.h: what shading reads of a frame.
+// shade_frame.h: data of a frame that shading uses.
 #ifndef SHADE_FRAME_H
 #define SHADE_FRAME_H
 
@@ -7,48 +7,49 @@
 #include "frame.h"
 #include "visible_normals.h"
 
-// A light against a material: the products that the sum needs (conventions, "The sum").
+// The products of a light and a material for the sum (conventions, "The sum").
 struct light_products {
     float diffuse[3], specular[3]; // kd ⊙ Ld, ks ⊙ Ls
-    float ambient[3];              // ka ⊙ La, where it is attenuated (gl1)
+    float ambient[3];              // ka ⊙ La, if it is attenuated (gl1)
 };
 struct material_products {
     float ambient[3]; // ka ⊙ (La_global + Σ La)
     float emission[3];
     float diffuse[4];      // kd and opacity, for unlit painting
     float reflectivity[3]; // kr
-    bool mirrors;          // there is an environment, kr is not 0, and the material is a classic one
+    bool mirrors;          // there is an environment, kr is not 0, and the material is classic
     const lam_material *given;
-    unsigned maps;                       // those that shading reads: a bit 1 << LAM_MAP_… for each
-    bool converted;                      // with maps: a metallic-roughness material under a classic model
-    float shininess;                     // in use
-    int layers;                          // LAYER_…; 0: a metallic-roughness surface alone, or a classic material
-    float stretch[2];                    // of anisotropy: the direction by tangent and bitangent, unit
+    unsigned maps;                       // the maps that shading uses: a bit 1 << LAM_MAP_… for each
+    bool converted;                      // a metallic-roughness material with maps that a classic model lights
+    float shininess;                     // after match_highlights and gl1
+    int layers;                          // LAYER_…; 0 for a plain metallic-roughness surface or a classic material
+    float stretch[2];                    // anisotropy: the direction along tangent and bitangent, unit
     const struct light_products *lights; // one for each light
-    float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere
+    float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere light
 };
 
-// Multiplies all materials by all lights, once for the frame. The storage keeps the products. NULL: it failed.
+// Multiplies all materials by all lights, once for the frame. The storage owns the products. Returns NULL on failure.
 struct material_products *products_make(struct buffer *storage, const struct frame *frame, struct call_control *call,
                                         lam_error *error);
 
 struct shade_frame {
     const struct frame *frame;
     const struct material_products *materials;
-    const struct environment_light *environment_light; // of physical materials; NULL: none
-    const struct environment_samples *reference;       // in place of it; NULL: none
-    const struct light_bounds *light_bounds;           // NULL: every light is evaluated everywhere
-    const struct hierarchy *hierarchy;                 // NULL: no rays
-    const struct light_pattern *light_pattern;         // of lights with a size
-    const struct screen_occlusion *occlusion;          // ambient occlusion of each pixel; NULL: none, or by rays
-    const struct occlusion_pattern *occlusion_pattern; // ambient occlusion by rays; NULL: none
+    const struct environment_light *environment_light; // the environment's light on physical materials, or NULL
+    const struct environment_samples *reference;       // used instead of the split sum, or NULL
+    const struct light_bounds *light_bounds;           // NULL if every light is evaluated everywhere
+    const struct hierarchy *hierarchy;                 // NULL if no rays are traced
+    const struct light_pattern *light_pattern;         // used for lights with a size
+    // ambient occlusion of each pixel; NULL if there is none or it uses rays
+    const struct screen_occlusion *occlusion;
+    const struct occlusion_pattern *occlusion_pattern; // ambient occlusion by rays, or NULL
     const float *decode_srgb, *decode_linear;          // 256 entries each: the value of a colour byte
     struct visible_normals
-        visible;               // of draws whose meshes have no normals; its set holds triangle numbers of the frame
-    struct recorder *recorder; // of the pixel that is explained (recorder.h); else NULL
+        visible;               // for draws whose meshes have no normals; its set contains triangle numbers of the frame
+    struct recorder *recorder; // records the explained pixel (recorder.h), otherwise NULL
 };
 
-// The parts of an environment's light that the frame's materials read (environment_light.h).
+// Returns the parts of an environment's light that the frame's materials use (environment_light.h).
 unsigned environment_parts_of(const struct shade_frame *shade);
 
 #endif

@@ -1,5 +1,5 @@
 // block_list.h: lists that threads fill while corners are sorted by position: chains of blocks of one size, which are
-// filled anew once they have been read.
+// reused after they have been read.
 #ifndef BLOCK_LIST_H
 #define BLOCK_LIST_H
 
@@ -8,7 +8,7 @@
 
 #define NONE UINT32_MAX
 
-// A vertex and the bits of its position (position_simd.h).
+// A vertex, and the bits of its position (position_simd.h).
 struct vertex_key {
     uint32_t bits[3];
     uint32_t vertex;
@@ -30,7 +30,7 @@ struct list_block {
             uint32_t corner[BLOCK_CORNERS];
         } at;
         struct vertex_key key[BLOCK_KEYS];
-        uint32_t duplicates[BLOCK_DUPLICATES][2]; // a vertex, and the one that represents its position
+        uint32_t duplicates[BLOCK_DUPLICATES][2]; // a vertex, and the vertex that represents its position
     };
 };
 _Static_assert(sizeof(struct list_block) <= BLOCK_BYTES, "blocks lie side by side");
@@ -39,7 +39,7 @@ _Static_assert(sizeof(struct list_block) <= BLOCK_BYTES, "blocks lie side by sid
 struct block_lists {
     struct arena arena;
     struct scratch_memory *scratch; // shared by all threads
-    struct loop_status *loop;       // stopped when memory has run out
+    struct loop_status *loop;       // stopped if memory runs out
     size_t slab_bytes;
     char *slab;
     size_t slab_left;
@@ -51,7 +51,8 @@ struct block_lists {
 // Returns an empty block in front of `previous`, or NULL if memory runs out.
 struct list_block *list_block_new(struct block_lists *lists, struct list_block *previous);
 
-// Returns the block of a list that takes one more entry, with `capacity` entries per block, or NULL if memory runs out.
+// Returns the block of a list with space for one more entry, at `capacity` entries per block, or NULL if memory runs
+// out.
 static inline struct list_block *list_block_with_space(struct block_lists *lists, struct list_block **list,
                                                        uint32_t capacity)
 {
@@ -63,7 +64,7 @@ static inline struct list_block *list_block_with_space(struct block_lists *lists
     return block;
 }
 
-// Makes the blocks of a list that has been read available again; the list is empty then.
+// Makes the blocks of a list available again after it has been read; the list is then empty.
 void list_blocks_recycle(struct block_lists *lists, struct list_block **list);
 
 #endif

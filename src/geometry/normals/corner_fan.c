@@ -12,12 +12,12 @@
 struct fan_edge {
     uint32_t end[3]; // bits of the other end
     uint32_t corner;
-    uint32_t incoming; // 0: the triangle runs from the position to the end; 1: from the end to the position
+    uint32_t incoming; // 0 means the triangle runs from the position to the end; 1 means from the end to the position
 };
 _Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
                "a fan's sum must fit into the memory of a corner's edges");
 
-// Positions are floats: the same angle between two pairs of faces differs in the seventh digit.
+// Tolerance for float positions: the same angle between two pairs of faces may differ in the seventh digit.
 #define CREASE_SLACK 1e-6
 
 double min_crease_cosine(double crease_angle_rad) { return math_cos(crease_angle_rad) - CREASE_SLACK; }
@@ -70,7 +70,7 @@ bool corner_fan_scratch_reserve(struct corner_fan_scratch *scratch, uint32_t cou
     return ok;
 }
 
-// atan2(y, x) for y ≥ 0.
+// Returns atan2(y, x) for y ≥ 0.
 static double angle_of(double y, double x)
 {
     double ax = x < 0 ? -x : x;
@@ -102,7 +102,7 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct fan_corner *c)
         b[i] = (double)r[i] - (double)p[i];
     }
     double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-    // Twice the area. Differences of floats reach 7e38, so the square stays below 1e156, and above 1e-180 if
+    // Twice the area. Differences of floats are at most 7e38, so the square is below 1e156, and above 1e-180 if it is
     // not 0.
     double length = __builtin_sqrt(x * x + y * y + z * z);
     bool spans = length > 0 && length < 1e300; // neither infinite nor NaN
@@ -110,8 +110,9 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct fan_corner *c)
     c->normal[0] = spans ? x * scale : 0;
     c->normal[1] = spans ? y * scale : 0;
     c->normal[2] = spans ? z * scale : 0;
-    // |a × b| and a·b are sine and cosine of the angle times the same lengths. The weight is below 1e78, and above 1e-90
-    // if not 0: neither a sum of weighted normals nor its square leaves the range of doubles, whatever the unit.
+    // |a × b| and a·b are the sine and cosine of the angle times the same lengths. The weight is below 1e78, and above
+    // 1e-90 if it is not 0, so neither a sum of weighted normals nor its square overflows or underflows, whatever the
+    // unit is.
     c->weight = spans ? length * angle_of(length, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) : 0;
 }
 
@@ -120,13 +121,13 @@ static bool has_area(const struct fan_corner *s) { return s->normal[0] != 0 || s
 static uint32_t root_of(struct fan_corner *around, uint32_t i)
 {
     while (around[i].fan != i) {
-        around[i].fan = around[around[i].fan].fan; // halves the path for the next time
+        around[i].fan = around[around[i].fan].fan; // path halving
         i = around[i].fan;
     }
     return i;
 }
 
-// Joins two corners that share an edge, if they may share a normal. The lower number becomes the root.
+// Joins two corners that share an edge, if they may share a normal. The lower index becomes the root.
 static void join(struct fan_corner *around, uint32_t a, uint32_t b, double min_cosine)
 {
     const struct fan_corner *s = &around[a], *t = &around[b];
@@ -141,8 +142,8 @@ static void join(struct fan_corner *around, uint32_t a, uint32_t b, double min_c
         around[x].fan = y;
 }
 
-// Consistently wound neighbours have their common edge in opposite directions: the next corner of one lies where the
-// previous corner of the other does. For few corners: tests every pair.
+// Neighbours with consistent winding have their common edge in opposite directions: the next corner of one is at the
+// previous corner of the other. Tests every pair, for few corners.
 static void join_few(struct fan_corner *around, uint32_t count, double min_cosine)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -162,8 +163,8 @@ static int compare_edges(const void *left, const void *right)
     return a->corner < b->corner ? -1 : a->corner > b->corner;
 }
 
-// For many corners: sorts their edges. On an edge with very many triangles, each outgoing one is tested only against
-// the incoming one of the same rank, because there would be too many pairs; no real surface has such an edge.
+// Sorts the edges, for many corners. If an edge has very many triangles, each outgoing edge is tested only against the
+// incoming edge of the same rank, because there would be too many pairs; no real surface has such an edge.
 static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_t count, double min_cosine)
 {
     enum { PAIRS_MAX = 256 };
@@ -177,7 +178,7 @@ static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_
     }
     size_t total = 2 * (size_t)count;
     qsort(edges, total, sizeof *edges,
-          compare_edges); // no two are equal, so every qsort gives the same order
+          compare_edges); // no two are equal, so the order does not depend on qsort
     for (size_t first = 0; first < total;) {
         size_t split = first, end;
         while (split < total && !edges[split].incoming && same_position(edges[split].end, edges[first].end))
@@ -194,11 +195,11 @@ static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_
     }
 }
 
-// The fan for a corner of a triangle without area: the first neighbour's across an edge that has an area, otherwise the
-// fan of corner `otherwise`.
+// Returns the fan for a corner of a degenerate triangle: the fan of the first neighbour with an area across an edge,
+// otherwise the fan of corner `otherwise`.
 static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count, uint32_t i, uint32_t otherwise)
 {
-    enum { EXAMINED_MAX = 64 }; // so that a million such corners at a position do not take a million squared steps
+    enum { EXAMINED_MAX = 64 }; // limits the time for a million such corners at one position
     for (uint32_t j = 0; j < count && j < EXAMINED_MAX; j++)
         if (has_area(&around[j]) &&
             (same_position(around[i].next, around[j].previous) || same_position(around[i].previous, around[j].next)))
@@ -206,7 +207,7 @@ static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count
     return around[otherwise].fan;
 }
 
-// Turns roots into numbers of fans, in the order of their first corners. Returns how many there are.
+// Replaces roots by numbers of fans, in the order of their first corners. Returns the number of fans.
 static uint32_t number_fans(struct fan_corner *around, uint32_t count, uint32_t *number)
 {
     uint32_t fans = 0;
@@ -242,7 +243,7 @@ uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corn
         if (!has_area(&around[i]))
             around[i].fan = neighbouring_fan(around, count, i, first_with_area);
 
-    // The numbers are stored in the corners too, and the edges are no longer needed: both arrays are used again.
+    // The numbers are also stored in the corners, and the edges are no longer needed, so both arrays are reused.
     uint32_t fans = number_fans(around, count, scratch->numbers);
     double(*sums)[3] = (double(*)[3])scratch->edges;
     memset(sums, 0, fans * sizeof *sums);

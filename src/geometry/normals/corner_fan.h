@@ -1,4 +1,4 @@
-// corner_fan.h: computes the normals at one position from the corners that meet there.
+// corner_fan.h: computes the normals at one position from the adjacent corners.
 #ifndef CORNER_FAN_H
 #define CORNER_FAN_H
 
@@ -6,18 +6,18 @@
 
 #include <lambent/mesh.h>
 
-// One corner at the position, and its triangle as seen from there.
+// A corner at the position, and its triangle seen from there.
 struct fan_corner {
     uint32_t corner;
     uint32_t smoothing_group;
-    // Bits of the positions of the triangle's next corner and of the previous one, with −0 as 0.
+    // Bits of the positions of the triangle's next and previous corners, with −0 as 0.
     uint32_t next[3], previous[3];
-    double normal[3]; // of the triangle, unit; zero without area
+    double normal[3]; // the triangle's unit normal, zero if it has no area
     double weight;    // twice the area × the angle at the corner in radians
-    uint32_t fan;     // while joining: a corner that this one is joined to; then the number of its fan
+    uint32_t fan;     // while joining: a corner to which this one is joined; then the number of its fan
 };
 
-// Scratch memory that grows with the largest position met; a thread's own.
+// Scratch memory of one thread, which grows with the largest position.
 struct corner_fan_scratch {
     struct arena arena;
     uint32_t *numbers; // in: the corners at the position
@@ -31,16 +31,16 @@ void corner_fan_scratch_free(struct corner_fan_scratch *scratch);
 // Makes space for `count` corners. Returns false if memory runs out.
 bool corner_fan_scratch_reserve(struct corner_fan_scratch *scratch, uint32_t count);
 
-// Computes the fans of the `count` corners in scratch->numbers, ascending, all at one position, by the rule in
-// normals.h. Returns the number of fans: scratch->normals[fan] is the fan's unit normal (zero where no triangle has an
-// area), fans being numbered by their first corner, and scratch->corners[i].fan is the fan of corner i.
+// Computes the fans of the `count` corners in scratch->numbers, which are ascending and at one position, by the rule in
+// normals.h. Returns the number of fans. scratch->normals[fan] is a fan's unit normal (zero if no triangle has an
+// area); fans are numbered by their first corner, and scratch->corners[i].fan is the fan of corner i.
 uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corner_fan_scratch *scratch,
                             uint32_t count);
 
-// Sorts corners, quickly if they are nearly in order.
+// Sorts corners; it is fast if they are nearly in order.
 void sort_corners(uint32_t *corners, uint32_t count);
 
-// Returns the least cosine between two faces' normals that corner_fan_normals joins, from the crease angle.
+// Returns the smallest cosine between the normals of two faces that corner_fan_normals joins, from the crease angle.
 double min_crease_cosine(double crease_angle_rad);
 
 // Returns the vertex of a corner.

@@ -1,4 +1,5 @@
-// corner_fan_batch.c: positions with equally many corners, moved into blocks.
+// corner_fan_batch.c: moves positions with the same number of corners into struct corner_fan_block, so that
+// corner_fan_simd.c can process them in parallel lanes.
 #include "corner_fan_batch.h"
 
 #include "cpu_features.h"

@@ -1,5 +1,5 @@
-// corner_fan_simd.c: compiled once for each instruction set (meson.build, with ISA and LANES): loops over positions side
-// by side that the compiler vectorizes. Choices are made without branches, and nothing is divided by zero.
+// corner_fan_simd.c: compiled once for each instruction set (meson.build, with ISA and LANES): loops over positions in
+// parallel lanes, which the compiler vectorizes. Choices are branchless, and there is no division by zero.
 #include "corner_fan_simd.h"
 
 #include "angle_series.h"
@@ -16,7 +16,7 @@ static bool any_of(const fan_row numbers)
     return any != 0;
 }
 
-// Sorts the corners at each position. They mostly are in order.
+// Sorts the corners at each position. Usually they are already in order.
 static void sort(fan_row *rows, uint32_t count)
 {
     fan_row wrong = {0};
@@ -32,7 +32,7 @@ static void sort(fan_row *rows, uint32_t count)
             }
 }
 
-// Fetches the numbers of the neighbouring vertices, and the smoothing groups.
+// Fetches the indices of the neighbouring vertices, and the smoothing groups.
 static void fetch_vertices(struct corner_fan_block *b, const lam_mesh *mesh)
 {
     for (uint32_t i = 0; i < b->count; i++) {
@@ -81,7 +81,7 @@ static void fetch(struct corner_fan_block *b, const lam_mesh *mesh)
     }
 }
 
-// As look() of corner_fan.c, operation by operation; at one position, 0 and −0 are the same.
+// Does the same as look() in corner_fan.c, operation by operation; at one position, 0 and −0 are equal.
 static void look(struct corner_fan_block *b)
 {
     memset(b->flat, 0, sizeof b->flat);
@@ -119,13 +119,13 @@ static void look(struct corner_fan_block *b)
         }
 }
 
-// Finds which corners are joined, by join_few() of corner_fan.c. No coordinate is NaN: equal floats are equal bits, but
-// for the sign of zero. With `by_vertex` also finds which vertices are open: compiled for both cases.
+// Finds the joined corners, like join_few() in corner_fan.c. No coordinate is NaN: equal floats are equal bits, except
+// for the sign of zero. `by_vertex` also finds open vertices; the function is compiled for both cases.
 static inline __attribute__((always_inline)) void link(struct corner_fan_block *b, double min_cosine, bool grouped,
                                                        const bool by_vertex)
 {
     fan_row with_next = {0}, with_previous = {0},
-            pairs = {0}; // corners as bits whose edge is another one's, and how many
+            pairs = {0}; // corners, as bits, whose edge is shared, and their number
     memset(b->links, 0, b->count * sizeof *b->links);
     for (uint32_t i = 0; i < b->count; i++)
         for (uint32_t j = i + 1; j < b->count; j++) {
@@ -164,7 +164,7 @@ static inline __attribute__((always_inline)) void link(struct corner_fan_block *
                           (b->next[i][2][p] == b->previous[i][2][p]);
 }
 
-// Adds the corners that are joined to members; returns whether there were any.
+// Adds the corners that are joined to members. Returns whether there were any.
 static bool spread(const struct corner_fan_block *b, fan_row members)
 {
     fan_row more;
@@ -179,8 +179,8 @@ static bool spread(const struct corner_fan_block *b, fan_row members)
     return any_of(differ);
 }
 
-// As v3_unit (linear.c), which need not scale where the square is neither large nor small. A function of its own, since
-// gcc does not vectorize the loop inside of others.
+// Normalises like v3_unit (linear.c), which does not scale if the square is neither large nor small. It is a separate
+// function, since gcc does not vectorize the loop inside other functions.
 static __attribute__((noinline)) void unit(double sum[3][FAN_POSITIONS], float out[3][FAN_POSITIONS])
 {
     fan_row odd;
@@ -202,7 +202,7 @@ static __attribute__((noinline)) void unit(double sum[3][FAN_POSITIONS], float o
         }
 }
 
-// Sums in the order of the corners; one that is not a member adds 0, which changes nothing.
+// Sums in the order of the corners; a corner that is not a member adds 0, which changes nothing.
 static void sum(const struct corner_fan_block *b, const fan_row members, float out[3][FAN_POSITIONS])
 {
     double total[3][FAN_POSITIONS] = {0};

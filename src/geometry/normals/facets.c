@@ -1,4 +1,4 @@
-// facets.c: computes facet normals, for one triangle or for some triangles of a mesh, each with a separate element.
+// facets.c: computes facet normals, for one triangle or for some triangles of a mesh, each as a separate element.
 #include "facets.h"
 
 #include "corner_fan.h"
@@ -18,15 +18,15 @@ void facet_normal(const lam_mesh *mesh, size_t triangle, float normal[3])
     normal[2] = (float)n.z;
 }
 
-enum { WORDS = 1 << 7 }; // of the set, in one piece of work
+enum { WORDS = 1 << 7 }; // words of the set per task
 
 struct facet_loop {
     const lam_mesh *mesh;
     struct visible_normals *visible;
     struct loop_status loop;
     size_t first, end, first_word; // numbers in the set
-    uint32_t before;               // members of the set before the mesh's
-    uint32_t element;              // of the mesh's first member
+    uint32_t before;               // members of the set in earlier meshes
+    uint32_t element;              // element of the mesh's first member
 };
 
 static uint32_t members_below(const struct rank_bitset *set, size_t number)

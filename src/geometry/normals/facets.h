@@ -1,13 +1,13 @@
-// facets.h: the normals of facets.
+// facets.h: computes facet normals.
 #ifndef FACETS_H
 #define FACETS_H
 
 #include "visible_normals.h"
 
-// The normal of one triangle; zero if it has no area.
+// Computes the normal of one triangle; zero if it has no area.
 void facet_normal(const lam_mesh *mesh, size_t triangle, float normal[3]);
 
-// As make_visible_normals, with a crease at every edge.
+// Does the same as make_visible_normals with a crease at every edge.
 bool make_visible_facets(const lam_mesh *mesh, uint32_t first, struct visible_normals *visible, struct pool *pool,
                          struct call_control *call, lam_error *error);
 

@@ -12,8 +12,8 @@
 #include <string.h>
 
 enum {
-    CHUNK = 1 << 16,    // corners or triangles of one piece of work
-    LANES_MAX = 1 << 8, // whatever the processor has
+    CHUNK = 1 << 16,    // corners or triangles per task
+    LANES_MAX = 1 << 8, // no limit: whatever the processor supports
 };
 
 static size_t chunks_of(size_t total) { return (total + CHUNK - 1) / CHUNK; }
@@ -29,8 +29,8 @@ static size_t chunk_end(size_t index, size_t total)
 struct numbering {
     struct visible_normals made;
     struct rank_bitset first_corners;
-    float (*normals)[3]; // by number
-    uint32_t *indices;   // of the corners: elements of `made`, then numbers
+    float (*normals)[3]; // indexed by number
+    uint32_t *indices;   // per corner: elements of `made`, then numbers
     size_t corners;
 };
 
@@ -62,7 +62,7 @@ static void number_corners(void *user, size_t index, int thread)
         n->indices[c] = n->made.first_corners[n->indices[c]];
 }
 
-// A set of all numbers below `size`, or of none.
+// Makes a set of all numbers below `size`, or an empty set.
 static bool make_set(struct rank_bitset *set, size_t size, bool full, struct arena *arena)
 {
     size_t words = rank_bitset_words(size);

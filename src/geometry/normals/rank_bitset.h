@@ -1,4 +1,4 @@
-// rank_bitset.h: a set of numbers that also knows how many members lie below a number.
+// rank_bitset.h: a bit set that also gives the number of members below a number.
 #ifndef RANK_BITSET_H
 #define RANK_BITSET_H
 
@@ -6,17 +6,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Some of the numbers from 0 to below `size`.
+// A subset of the numbers from 0 to `size` − 1.
 struct rank_bitset {
-    uint64_t *bits;  // 64 numbers to a word
-    uint32_t *ranks; // of each word: the members in the words before it; filled by rank_bitset_finish
+    uint64_t *bits;  // 64 numbers per word
+    uint32_t *ranks; // members in the words before each word; filled by rank_bitset_finish
     size_t size;
-    uint32_t count; // of members; filled by rank_bitset_finish
+    uint32_t count; // number of members; filled by rank_bitset_finish
 };
 
 static inline size_t rank_bitset_words(size_t size) { return (size + 63) / 64; }
 
-// Any thread.
+// Adds a number, from any thread.
 static inline void rank_bitset_add(struct rank_bitset *set, size_t number)
 {
     uint64_t bit = (uint64_t)1 << number % 64, *word = &set->bits[number / 64];
@@ -39,13 +39,13 @@ static inline uint32_t count_bits(uint64_t x)
     return (uint32_t)(x * UINT64_C(0x0101010101010101) >> 56);
 }
 
-// Returns how many members are below a number: a member's index among all of them.
+// Returns the number of members below a number, which is the member's index.
 static inline uint32_t rank_bitset_rank(const struct rank_bitset *set, size_t number)
 {
     return set->ranks[number / 64] + count_bits(set->bits[number / 64] & (((uint64_t)1 << number % 64) - 1));
 }
 
-// Fills `ranks` and `count`, once all members are in.
+// Fills `ranks` and `count` after all members are added.
 void rank_bitset_finish(struct rank_bitset *set);
 
 #endif

@@ -1,4 +1,4 @@
-// scratch_memory.c: lets several steps share the caller's memory.
+// scratch_memory.c: shares the caller's memory among several steps.
 #include "scratch_memory.h"
 
 void *scratch_take(struct scratch_memory *scratch, struct arena *arena, size_t count, size_t size)

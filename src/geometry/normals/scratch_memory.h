@@ -1,21 +1,22 @@
-// scratch_memory.h: lets several steps share the caller's memory.
+// scratch_memory.h: shares the caller's memory among several steps.
 #ifndef SCRATCH_MEMORY_H
 #define SCRATCH_MEMORY_H
 
 #include "arena.h"
 
-// Memory of the caller, aligned to 64 bytes, that may be overwritten: fresh memory costs more to touch than to use.
+// Memory of the caller, aligned to 64 bytes, that may be overwritten. Reusing it is faster than touching fresh memory.
 struct scratch_memory {
     void *memory;
     size_t capacity, used;
-    size_t borrowed; // bytes at its end, after `capacity`
+    size_t borrowed; // bytes borrowed from its end, after `capacity`
 };
 
-// Memory from the scratch memory while it lasts, else from the arena, or NULL if memory runs out. Any thread.
+// Allocates from the scratch memory, or from the arena when that is exhausted. Returns NULL if memory runs out. Any
+// thread may call it.
 void *scratch_take(struct scratch_memory *scratch, struct arena *arena, size_t count, size_t size);
 
-// Takes the end of the scratch memory until scratch_return, or NULL if it is smaller. Only while no other thread takes
-// any.
+// Borrows the end of the scratch memory until scratch_return. Returns NULL if it is too small. No other thread may
+// allocate from it meanwhile.
 void *scratch_borrow(struct scratch_memory *scratch, size_t bytes);
 void scratch_return(struct scratch_memory *scratch);
 

@@ -1,10 +1,10 @@
 // visible_normals.c: computes smooth normals for some or all triangles of a mesh.
 //
-// First come the closed vertices (normals.h), which need no search: the corners that name each vertex are collected. The
-// others take three steps. Positions (shared_positions.c): every vertex at one of their positions gets the position's
-// number. Bins (position_bins.c): the corners there are sorted by ranges of positions. Fans (corner_fan.c): range by range
-// the corners of each position are put in order and their normals computed; positions with equally few corners wait until
-// 32 of them can be computed side by side (corner_fan_simd.c).
+// Closed vertices (normals.h) are processed first; they need no search: the corners that use each vertex are collected.
+// All others take three steps. Positions (shared_positions.c): every vertex at one of their positions gets the
+// position's number. Bins (position_bins.c): the corners there are sorted by ranges of positions. Fans (corner_fan.c):
+// in each range, the corners of each position are sorted and their normals computed; positions with the same small
+// number of corners are collected until 32 of them can be computed in parallel lanes (corner_fan_simd.c).
 #include "visible_normals.h"
 
 #include "corner_fan.h"
@@ -16,19 +16,19 @@
 #include <string.h>
 
 enum {
-    CLOSED_MAX = 8, // corners of a closed vertex
+    CLOSED_MAX = 8, // the most corners of a closed vertex
     LISTED = 256,   // corners listed together
-    WORDS = 1 << 6, // of vertices, in one piece of work
+    WORDS = 1 << 6, // words of vertices per task
 };
 
-// One thread's.
+// The state of one thread.
 struct fan_worker {
     struct arena arena;
     struct corner_fan_scratch scratch;
     struct corner_fan_batch *batch;
-    uint32_t *sorted; // the corners of a bin, by position
+    uint32_t *sorted; // the corners of a bin, sorted by position
     size_t sorted_capacity;
-    uint32_t *starts; // in `sorted`, of each position of a bin
+    uint32_t *starts; // offset in `sorted` of each position of a bin
 };
 
 struct fan_loop {
@@ -38,10 +38,10 @@ struct fan_loop {
     double min_cosine;
     struct visible_normals *visible;
     struct fan_worker *workers;
-    // While closed vertices are made: open vertices among them are only listed.
+    // While closed vertices are processed, open vertices are only listed.
     bool by_vertex;
     struct rank_bitset open;
-    uint32_t *counts, (*collected)[CLOSED_MAX]; // of each wanted vertex: its number of corners, and the first of them
+    uint32_t *counts, (*collected)[CLOSED_MAX]; // for each wanted vertex, its number of corners and the first of them
 };
 
 // Fills an element with the normal x, y, z.
@@ -55,7 +55,7 @@ static void fill_element(struct visible_normals *visible, uint32_t element, uint
         visible->first_corners[element] = first_corner;
 }
 
-// Makes the normals at one position.
+// Computes the normals at one position.
 static bool make_fans(struct fan_loop *l, struct fan_worker *worker, const uint32_t *corners, uint32_t count)
 {
     const struct rank_bitset *triangles = &l->visible->triangles, *done = &l->search->done;
@@ -66,7 +66,7 @@ static bool make_fans(struct fan_loop *l, struct fan_worker *worker, const uint3
     memcpy(scratch->numbers, corners, count * sizeof *corners);
     sort_corners(scratch->numbers, count);
     uint32_t fans = corner_fan_normals(l->search->mesh, l->min_cosine, scratch, count);
-    uint32_t *element_of = scratch->numbers; // no longer needed
+    uint32_t *element_of = scratch->numbers; // no longer needed as input
     memset(element_of, 0xff, fans * sizeof *element_of);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t corner = scratch->corners[i].corner, fan = scratch->corners[i].fan;
@@ -83,7 +83,8 @@ static bool make_fans(struct fan_loop *l, struct fan_worker *worker, const uint3
     return true;
 }
 
-// Makes the normals at the positions that wait with that many corners; fans without a corner of the set get no element.
+// Computes the normals at the collected positions that have `count` corners. Fans without a corner in the set get no
+// element.
 static bool make_block(struct fan_loop *l, struct fan_worker *worker, uint32_t count)
 {
     struct corner_fan_block *block = &worker->batch->block;
@@ -119,7 +120,7 @@ static bool make_block(struct fan_loop *l, struct fan_worker *worker, uint32_t c
     return ok;
 }
 
-// Makes the normals at one position, now or together with others.
+// Computes the normals at one position, immediately or together with others.
 static bool add_position(struct fan_loop *l, struct fan_worker *worker, const uint32_t *corners, uint32_t count)
 {
     if (count > FAN_CORNERS_MAX)
@@ -154,7 +155,7 @@ static void make_bin(void *user, size_t index, int thread)
         no_memory(&l->search->loop);
 }
 
-// Makes the normals at the positions that still wait with a worker.
+// Computes the normals at a worker's remaining collected positions.
 static void make_rest(void *user, size_t index, int thread)
 {
     (void)thread;
@@ -193,7 +194,7 @@ static bool start_workers(struct fan_loop *l)
     return true;
 }
 
-// Returns the whole lines of 64 bytes between two addresses.
+// Returns the complete lines of 64 bytes between two addresses.
 static struct scratch_memory lines_between(void *from, void *to)
 {
     uintptr_t first = ((uintptr_t)from + 63) / 64 * 64, end = (uintptr_t)to / 64 * 64;
@@ -201,7 +202,7 @@ static struct scratch_memory lines_between(void *from, void *to)
                        : (struct scratch_memory){0};
 }
 
-// Until fans are made, the mesh's elements and all unused normals are scratch memory too.
+// Until fans are computed, the mesh's elements and all unused normals serve as scratch memory.
 static void lend_normals(struct position_search *s, const struct visible_normals *visible)
 {
     uint32_t *elements = visible->elements + 3 * (size_t)s->triangles_of_others;
@@ -222,7 +223,7 @@ static void collect_corners(void *user, size_t index, int thread)
     const bool alone = pool_threads(s->pool) == 1;
     if (!should_continue(&s->loop))
         return;
-    uint32_t end = (uint32_t)piece_end(index, s->corners, CHUNK), count;
+    uint32_t end = (uint32_t)chunk_end(index, s->corners, CHUNK), count;
     for (uint32_t c = (uint32_t)(index * CHUNK); c < end; c += count) {
         uint32_t corners[LISTED + WORD], ranks[LISTED + WORD];
         count = end - c < LISTED ? end - c : LISTED;
@@ -241,7 +242,7 @@ static void make_vertices(void *user, size_t index, int thread)
     struct fan_loop *l = user;
     struct position_search *s = l->search;
     for (size_t w = index * WORDS;
-         should_continue(&s->loop) && w < piece_end(index, rank_bitset_words(s->vertices), WORDS); w++) {
+         should_continue(&s->loop) && w < chunk_end(index, rank_bitset_words(s->vertices), WORDS); w++) {
         uint32_t rank = s->wanted.ranks[w];
         for (uint64_t bits = s->wanted.bits[w]; bits; bits &= bits - 1, rank++)
             if (l->counts[rank] < 3 || l->counts[rank] > CLOSED_MAX)
@@ -251,7 +252,7 @@ static void make_vertices(void *user, size_t index, int thread)
     }
 }
 
-// Makes the normals of closed vertices; the others remain wanted.
+// Computes the normals of closed vertices; the others remain wanted.
 static bool make_closed(struct fan_loop *l)
 {
     struct position_search *s = l->search;
@@ -264,8 +265,8 @@ static bool make_closed(struct fan_loop *l)
     if (!l->open.bits || !l->open.ranks || !l->counts || !l->collected || !number_wanted(s) || !start_workers(l))
         return false;
     l->by_vertex = true;
-    pool_run(s->pool, pieces_of(s->corners, CHUNK), collect_corners, l);
-    pool_run(s->pool, pieces_of(words, WORDS), make_vertices, l);
+    pool_run(s->pool, chunks_of(s->corners, CHUNK), collect_corners, l);
+    pool_run(s->pool, chunks_of(words, WORDS), make_vertices, l);
     pool_run(s->pool, (size_t)pool_threads(s->pool), make_rest, l);
     l->by_vertex = false;
     for (size_t w = 0; w < words; w++)
@@ -275,11 +276,11 @@ static bool make_closed(struct fan_loop *l)
     rank_bitset_finish(&s->wanted);
     s->position_of = NULL;
     lend_normals(s, l->visible);
-    s->until_fans[0] = (struct scratch_memory){0}; // some elements are filled
+    s->until_fans[0] = (struct scratch_memory){0}; // some elements are now filled
     return true;
 }
 
-// Makes the normals of all other vertices.
+// Computes the normals of all other vertices.
 static bool make_others(struct fan_loop *l, lam_error *error)
 {
     struct position_search *s = l->search;

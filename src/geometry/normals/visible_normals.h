@@ -1,7 +1,7 @@
 // visible_normals.h: computes normals for some or all triangles of a mesh.
 //
-// Of a large model a picture shows few triangles: only the corners at their positions are searched for, and the normals
-// of these triangles have the same bits as if all were made.
+// A picture of a large model shows few of its triangles. Only the corners at their positions are searched, and their
+// normals are bit-identical to a computation for the whole mesh.
 #ifndef VISIBLE_NORMALS_H
 #define VISIBLE_NORMALS_H
 
@@ -11,19 +11,19 @@
 
 #include <lambent/mesh.h>
 
-// Normals of a set of triangles, of one mesh or of several, whose triangles are numbered one mesh after the other.
-// Corner k of the triangle of rank r in the set has the normal normals[elements[3r + k]].
+// Normals of a set of triangles, of one mesh or of several meshes, whose triangles are numbered consecutively. Corner k
+// of the triangle with rank r in the set has the normal normals[elements[3r + k]].
 struct visible_normals {
     struct rank_bitset triangles;
     uint32_t *elements; // 3 · triangles.count
-    // Capacity for 3 · triangles.count; `used` of them are filled, far fewer where corners share normals. Their order
+    // Capacity for 3 · triangles.count; `used` of them are filled, far fewer if corners share normals. Their order
     // depends on the threads.
     float (*normals)[3];
     uint32_t used;
-    uint32_t *first_corners; // of the mesh, for each normal; the same capacity; NULL: not wanted
+    uint32_t *first_corners; // a corner of the mesh for each normal, with the same capacity; NULL if not needed
 };
 
-// Returns the element of a corner of a triangle that is in the set.
+// Returns the element of a corner of a triangle in the set.
 static inline uint32_t visible_element(const struct visible_normals *visible, size_t triangle, uint32_t k)
 {
     return visible->elements[3 * (size_t)rank_bitset_rank(&visible->triangles, triangle) + k];

@@ -17,11 +17,11 @@ static inline uint32_t mesh_element(const uint32_t *own, const uint32_t *common,
 // The items to weld: the mesh's vertices, if one index serves the three attributes, otherwise its corners.
 struct corner_weld {
     uint32_t items;
-    const uint32_t *of; // of each corner the first item that is equal to its own: the number that equal corners share
+    const uint32_t *of; // for each corner the first equal item, which is the same for equal corners
 };
 
-// Numbers are compared as floats: −0 equals 0. Normals and texture coordinates that the mesh lacks are all equal. n·log
-// n steps at worst, n for files that were not made to collide. `memory` owns the result and the scratch memory.
+// Numbers are compared as floats: −0 equals 0. Missing normals and texture coordinates are all equal. It takes n·log n
+// steps at worst, and n for files that were not made to collide. `memory` owns the result and the scratch memory.
 bool corner_weld(struct corner_weld *weld, const lam_mesh *mesh, struct arena *memory, struct call_control *call,
                  lam_error *error);
 

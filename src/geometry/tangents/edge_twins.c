@@ -1,5 +1,5 @@
-// edge_twins.c: each edge is looked at from the lower one of its two welded numbers: all edges of this number that
-// lead to higher ones, in both directions, sorted by the other end.
+// edge_twins.c: pairs the edges of adjacent triangles. Each edge is assigned to the lower of its two welded numbers:
+// for each number, the edges to higher numbers, in both directions, are sorted by the other end.
 #include "edge_twins.h"
 
 #include "edge_keys.h"
@@ -8,7 +8,7 @@
 
 enum { CHECK_INTERVAL = 1 << 13 }; // welded numbers between two checks of the call
 
-// Joins the edges of both directions that have the same other end, in order.
+// Pairs edges of opposite directions that have the same other end, in order.
 static void join(uint32_t *twin, const uint64_t *out, uint32_t out_count, const uint64_t *in, uint32_t in_count)
 {
     for (uint32_t i = 0, k = 0; i < out_count && k < in_count;) {
@@ -22,7 +22,7 @@ static void join(uint32_t *twin, const uint64_t *out, uint32_t out_count, const 
     }
 }
 
-// Lists the corners by welded number. Returns the largest number of corners of one.
+// Lists the corners by welded number. Returns the largest number of corners of one number.
 static uint32_t list_corners(struct edge_twins *edges, const struct corner_weld *weld, size_t corners,
                              const uint8_t *flags, unsigned left_out)
 {
@@ -33,7 +33,7 @@ static uint32_t list_corners(struct edge_twins *edges, const struct corner_weld 
         max = edges->first[v + 1] > max ? edges->first[v + 1] : max;
         edges->first[v + 1] += edges->first[v];
     }
-    // Filling advances each start to its end; the loop after it restores them.
+    // Filling advances each start to its end; the loop afterwards restores the starts.
     for (size_t c = 0; c < corners; c++)
         if (!(flags[c / 3] & left_out))
             edges->list[edges->first[weld->of[c]]++] = (uint32_t)c;

@@ -1,8 +1,8 @@
-// mikktspace.c: the groups of triangles around each corner, and their tangents.
+// mikktspace.c: finds the groups of triangles around each corner, and computes their tangents.
 //
-// Triangles are taken in order, and each corner that has no group yet starts one: it grows across the edges that leave
-// the corner, then across those that lead to it. A triangle without an orientation gets the first reaching group's, so
-// this order is part of the definition.
+// Triangles are processed in order, and each corner without a group starts one. The group grows across the edges that
+// leave the corner, then across the edges that lead to it. A triangle without an orientation takes the orientation of
+// the first group that reaches it, so this order is part of the definition.
 #include "mikktspace.h"
 
 #include "cpu_features.h"
@@ -13,16 +13,17 @@
 #include <string.h>
 
 enum { CHECK_INTERVAL = 1 << 13 }; // triangles or corners between two checks of the call
-#define ZERO_SUM 1e-6 // a sum this short, for summands of length 1 together, is zero but for the rounding of its floats
+// a sum this short, of summands with a total length of 1, is zero except for the rounding of its floats
+#define ZERO_SUM 1e-6
 
 struct tangent_maker {
     const lam_mesh *mesh;
     const struct tangent_kernels *kernels;
     struct corner_weld weld;
     struct edge_twins edges;
-    uint8_t *flags;   // of triangles (tangent_kernels.h)
-    uint32_t *groups; // of each corner; NO_CORNER: none
-    int8_t *signs;    // of the bitangent, for each group
+    uint8_t *flags;   // flags of triangles (tangent_kernels.h)
+    uint32_t *groups; // the group of each corner, or NO_CORNER
+    int8_t *signs;    // the sign of the bitangent for each group
     uint32_t group_count;
     bool t_down;
 };
@@ -33,15 +34,15 @@ static lam_vec3 normal_of(const lam_mesh *mesh, size_t corner)
     return v3_unit(v3((double)n[0], (double)n[1], (double)n[2]));
 }
 
-// The tangent without texture coordinates: around the y axis, or along x if the normal is along y. The same as in
-// src/cpu/shade/attributes.inc.
+// Returns the tangent for a mesh without texture coordinates: around the y axis, or along x if the normal is along y,
+// as in src/cpu/shade/attributes.inc.
 static lam_vec3 field_tangent(lam_vec3 n)
 {
     lam_vec3 around = v3_cross(v3(0, 1, 0), n);
     return v3_dot(around, around) < 1e-8 ? v3(1, 0, 0) : v3_unit(around);
 }
 
-// Adds a corner to a group of this orientation, TRIANGLE_PRESERVING or 0. Returns false if the group ends here.
+// Adds a corner to a group with this orientation, TRIANGLE_PRESERVING or 0. Returns false if the group ends here.
 static bool join_group(struct tangent_maker *m, uint32_t corner, uint32_t group, unsigned preserving)
 {
     uint8_t *flags = &m->flags[corner / 3];
@@ -73,8 +74,8 @@ static void make_group(struct tangent_maker *m, uint32_t corner)
             break;
 }
 
-// The corners that no group has reached: corners of degenerate triangles copy the first equal corner, the rest get a
-// group of their own.
+// Completes a corner that no group reached: corners of degenerate triangles copy the first equal corner, and all others
+// start their own group.
 static void finish_corner(struct tangent_maker *m, uint32_t corner)
 {
     uint32_t v = m->weld.of[corner];
@@ -107,7 +108,7 @@ static bool make_groups(struct tangent_maker *m, struct call_control *call, lam_
     return true;
 }
 
-// Makes the sums unit. Without one it uses the tangent without texture coordinates, with its corners' normal.
+// Normalises the sums. A zero sum is replaced by the tangent without texture coordinates, for its corners' normal.
 static void finish_sums(const struct tangent_maker *m, float (*sums)[4])
 {
     bool zeros = false;

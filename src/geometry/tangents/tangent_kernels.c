@@ -1,4 +1,4 @@
-// tangent_kernels.c: flags of triangles and the sums of their groups. ISA and LANES are given by the build.
+// tangent_kernels.c: computes the flags of triangles and the sums of their groups. The build defines ISA and LANES.
 #include "tangent_kernels.h"
 
 #include "angle_series.h"
@@ -12,12 +12,13 @@
 typedef float axes[3][LANES];
 
 struct triangles {
-    uint32_t vertex[3][LANES]; // the elements of the attribute that was fetched last
-    axes position[3];          // of the corners
+    uint32_t vertex[3][LANES]; // elements of the most recently fetched attribute
+    axes position[3];          // the positions of the corners
     float s[3][LANES], t[3][LANES];
 };
 
-// The elements of an attribute at the corners of the triangles from `first` on; the last one of the mesh is repeated.
+// Fetches the elements of an attribute at the corners of the triangles from `first` on; the mesh's last triangle is
+// repeated.
 static void fetch_elements(const lam_mesh *mesh, const uint32_t *own, uint32_t first, uint32_t vertex[3][LANES])
 {
     uint32_t number[LANES];
@@ -77,7 +78,7 @@ struct directions {
     mask preserving, joins_any;
 };
 
-// From p = p0 + ∂p/∂s·Δs + ∂p/∂t·Δt along two edges, times the area that the triangle has in the texture.
+// Solves p = p0 + ∂p/∂s·Δs + ∂p/∂t·Δt for two edges, times the triangle's area in the texture.
 LANE_FN struct directions directions_of(const struct triangles *from)
 {
     num s0 = num_load(from->s[0]), t0 = num_load(from->t[0]);
@@ -122,7 +123,7 @@ static void look(const lam_mesh *mesh, uint32_t first, uint32_t end, uint8_t *fl
     }
 }
 
-// --- shares of groups, in double: neither squares of floats nor their products leave its range
+// --- shares of groups, in double: squares and products of floats stay within its range
 
 struct dvector {
     dnum x, y, z;
@@ -139,17 +140,17 @@ LANE_FN struct dvector dload(const axes v, int part)
     return (struct dvector){dnum_load_float(v[0] + part), dnum_load_float(v[1] + part), dnum_load_float(v[2] + part)};
 }
 
-// 1 / |v|; 0 for the zero vector.
+// Returns 1 / |v|, or 0 for the zero vector.
 LANE_FN dnum inverse_length(struct dvector v)
 {
     dnum square = ddot(v, v), none = dnum_of(0), one = dnum_of(1);
     return dpick(square > none, one / dsquare_root(dpick(square > none, square, one)), none);
 }
 
-// Returns the part of v perpendicular to n, which is unit.
+// Returns the component of v perpendicular to n, which is unit.
 LANE_FN struct dvector in_plane(struct dvector v, struct dvector n) { return dsubtract(v, dscale(n, ddot(n, v))); }
 
-// Returns the angle between two vectors perpendicular to n; a right one where either is zero.
+// Returns the angle between two vectors perpendicular to n; a right angle if either is zero.
 LANE_FN dnum angle_between(struct dvector a, struct dvector b, struct dvector n)
 {
     struct dvector cross = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -1,6 +1,6 @@
-// bmp.c: reads Windows and OS/2 bitmaps: 1, 4, 8, 16, 24 and 32 bits, colour masks, run lengths of 4 and 8 bits, rows
-// upwards and downwards, headers from BITMAPCOREHEADER (12 bytes) to BITMAPV5HEADER (124).
-// https://learn.microsoft.com/windows/win32/gdi/bitmap-storage and, of OS/2's header of 16 to 64 bytes,
+// bmp.c: reads Windows and OS/2 bitmaps: 1, 4, 8, 16, 24 and 32 bits, colour masks, run lengths of 4 and 8 bits,
+// bottom-up and top-down rows, headers from BITMAPCOREHEADER (12 bytes) to BITMAPV5HEADER (124).
+// https://learn.microsoft.com/windows/win32/gdi/bitmap-storage and, for OS/2's header of 16 to 64 bytes,
 // https://www.fileformat.info/format/os2bmp/egff.htm
 //
 // Without masks, the fourth byte of 32 bits is ignored, as the format specifies. Pixels that run lengths skip get the
@@ -14,19 +14,19 @@
 enum compression { BI_RGB, BI_RLE8, BI_RLE4, BI_BITFIELDS, BI_JPEG, BI_PNG, BI_ALPHABITFIELDS };
 enum { FILE_HEADER = 14, CORE_HEADER = 12, INFO_HEADER = 40, OS2_SHORTEST = 16, OS2_HEADER = 64, MASKS = 4 };
 
-// A colour's bits in a pixel of 16 or 32 bits.
+// The bits of a colour channel in a pixel of 16 or 32 bits.
 struct mask {
-    uint32_t max; // the largest value; 0: the pixel has none
+    uint32_t max; // the largest value; 0 means no such channel
     int shift;
 };
 
 struct bmp {
     const struct picture_file *file;
     uint32_t width, height, bits, compression;
-    size_t header; // bytes of the header after the file's own 14
-    size_t pixels; // their position
+    size_t header; // size of the header after the 14 bytes of the file header
+    size_t pixels; // offset of the pixels
     bool top_down;
-    uint32_t colors; // of the palette
+    uint32_t colors; // number of colours in the palette
     uint8_t palette[256][4];
     struct mask masks[MASKS]; // red, green, blue, alpha
 };
@@ -36,7 +36,7 @@ static bool bmp_probe(const uint8_t *bytes, size_t size)
     if (size < FILE_HEADER + 4 || bytes[0] != 'B' || bytes[1] != 'M')
         return false;
     uint32_t header = u32_at(bytes + FILE_HEADER);
-    return header >= CORE_HEADER && header <= 4096; // text that begins with BM has larger ones
+    return header >= CORE_HEADER && header <= 4096; // text that begins with BM has larger values there
 }
 
 static bool fail_end(const struct bmp *bmp, const char *within, lam_error *error)
@@ -61,7 +61,7 @@ static bool read_mask(struct bmp *bmp, int index, uint32_t bits, lam_error *erro
     return true;
 }
 
-// The masks follow a header of 40 bytes, and are within a longer one.
+// Reads the masks, which follow a header of 40 bytes and are part of a longer one.
 static bool read_masks(struct bmp *bmp, lam_error *error)
 {
     static const uint32_t usual[2][MASKS] = {{0x7c00, 0x3e0, 0x1f, 0}, {0xff0000, 0xff00, 0xff, 0}};
@@ -76,11 +76,12 @@ static bool read_masks(struct bmp *bmp, lam_error *error)
             return false;
     }
     if (own && bmp->header == INFO_HEADER)
-        bmp->header += 4 * (size_t)count; // the palette would follow them
+        bmp->header += 4 * (size_t)count; // the palette would follow the masks
     return true;
 }
 
-// Entries of three bytes with a header of 12 bytes, else four, blue first. A palette may be shorter than the bits allow.
+// Reads the palette, blue first: three bytes per entry with a header of 12 bytes, otherwise four. A palette may be
+// shorter than the bits allow.
 static bool read_palette(struct bmp *bmp, uint32_t used, lam_error *error)
 {
     size_t start = FILE_HEADER + bmp->header, entry = bmp->header == CORE_HEADER ? 3 : 4;
@@ -235,8 +236,8 @@ static bool put_rows(const struct bmp *bmp, const lam_image *image, lam_error *e
     return true;
 }
 
-// Two bytes a step. A count and a color (two colors of 4 bits in turns); 0 0: the row's end; 0 1: the picture's end; 0 2 x y:
-// a step to the right and up; 0 n: n colors follow, padded to two bytes.
+// Decodes run lengths, two bytes at a time: a count and a color (with 4 bits, two alternating colors); 0 0: end of row;
+// 0 1: end of picture; 0 2 x y: move right and up; 0 n: n colors follow, padded to two bytes.
 static bool put_runs(const struct bmp *bmp, const lam_image *image, lam_error *error)
 {
     const uint8_t *at = bmp->file->bytes + bmp->pixels, *end = bmp->file->bytes + bmp->file->size;

@@ -1,7 +1,7 @@
-// exr.c: reads and writes OpenEXR, floats in named layers, through OpenEXR's C core, which is loaded on demand
-// (dlopen). Written: one part of scanlines, 32-bit floats, ZIP compression. The picture's channels are R, G, B, A,
-// linear and premultiplied as OpenEXR defines it; a layer's are NAME.R and so on. Neither time nor path is stored: the
-// same picture gives the same bytes with the same library.
+// exr.c: reads and writes OpenEXR, floats in named layers, with OpenEXR's C core, which is loaded on demand (dlopen).
+// It writes one part of scanlines with 32-bit floats and ZIP compression. The picture's channels are R, G, B, A, linear
+// and premultiplied as OpenEXR defines it; the channels of a layer are NAME.R and so on. Neither time nor path is
+// stored, so the same picture gives the same bytes with the same library.
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
@@ -26,7 +26,7 @@ static bool exr_probe(const uint8_t *bytes, size_t size)
 
 #define LIBRARY "libOpenEXRCore-3_1.so.30"
 
-// The core's functions that are used here: each is a member of struct core with the type of its own declaration.
+// The functions of the core that Lambent uses; each is a member of struct core with the type of its declaration.
 #define FUNCTIONS(each)                                                                                                \
     each(exr_start_write) each(exr_add_part) each(exr_initialize_required_attr_simple) each(exr_add_channel)           \
         each(exr_attr_set_string) each(exr_write_header) each(exr_get_scanlines_per_chunk)                             \
@@ -72,7 +72,7 @@ static void stay_silent(exr_const_context_t context, exr_result_t code, const ch
 struct sink {
     uint8_t *bytes;
     size_t size, capacity;
-    bool full; // memory is out
+    bool full; // memory ran out
 };
 
 static int64_t write_sink(exr_const_context_t context, void *user, const void *from, uint64_t size, uint64_t offset,
@@ -99,7 +99,7 @@ static int64_t write_sink(exr_const_context_t context, void *user, const void *f
     return (int64_t)size;
 }
 
-// A channel of the file: its name and the address of its first number.
+// A channel of the file: its name, and the address of its first number.
 struct channel {
     char name[NAME_BYTES];
     const float *from;
@@ -111,7 +111,7 @@ static const char *letters_of(const lam_layer *layer)
     return layer->channels ? layer->channels : named ? "RGB" : "RGBA";
 }
 
-// Lists the channels of all layers. Returns NULL on error; nothing is left to free.
+// Lists the channels of all layers. Returns NULL on error; there is nothing to free then.
 static struct channel *list_channels(const lam_layer *layers, int count, int *channel_count, lam_error *error)
 {
     struct channel *channels = calloc(4 * (size_t)count, sizeof *channels);
@@ -229,7 +229,7 @@ static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam
     result = result == EXR_ERR_SUCCESS ? closed : result;
     free(channels);
     bool ok = result == EXR_ERR_SUCCESS;
-    // Numbers can always be packed: a chunk that the core calls corrupt is one for which zlib found no memory.
+    // Packing cannot fail for valid data, so an error about a corrupt chunk means that zlib could not allocate memory.
     if (ok)
         *out = (lam_bytes){sink.bytes, sink.size};
     else if (sink.full || result == EXR_ERR_OUT_OF_MEMORY || result == EXR_ERR_CORRUPT_CHUNK)
@@ -267,7 +267,7 @@ static int64_t size_of_source(exr_const_context_t context, void *user)
     return (int64_t)((const struct source *)user)->size;
 }
 
-// Returns the position of a channel of the file in a pixel of the picture, or −1 if there is none. Y is luminance, for
+// Returns the position of a channel of the file in a pixel of the picture, or −1 if it has none. Y is luminance, for
 // all three colours.
 static int place_of(const char *name)
 {
@@ -276,7 +276,7 @@ static int place_of(const char *name)
     return found ? (int)(found - letters) : strcmp(name, "Y") == 0 ? 0 : -1;
 }
 
-// Returns whether every chunk is present, before memory is allocated for the picture.
+// Checks that every chunk is present, before memory is allocated for the picture.
 static exr_result_t find_chunks(const struct core *core, exr_context_t file, int top, int64_t height)
 {
     int32_t rows = 1;
@@ -288,7 +288,7 @@ static exr_result_t find_chunks(const struct core *core, exr_context_t file, int
     return result;
 }
 
-// *stopped: the call must end.
+// Reads the chunks. Sets *stopped if the call must end.
 static exr_result_t read_chunks(const struct core *core, exr_context_t file, int top, struct call_control *call,
                                 lam_image *image, bool *stopped)
 {

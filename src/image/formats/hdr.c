@@ -1,12 +1,12 @@
-// hdr.c: reads Radiance pictures (.hdr, RGBE): three mantissas and one exponent for a pixel, linear light.
+// hdr.c: reads Radiance pictures (.hdr, RGBE): three mantissas and one exponent per pixel, linear light.
 //
-// Lines of text up to an empty one, a line with the size ("-Y 512 +X 1024"), then rows of pixels, each in one of
-// three ways:
-//   new runs   2, 2, width as two bytes (8 … 32767), then the row's red, green, blue and exponent bytes one after the
-//              other: a count above 128 is a run of count − 128 equal bytes, up to 128 that many bytes as they are
-//   old runs   pixels; 1, 1, 1, n repeats the pixel before n times; directly after another run n · 256 times, and so on
-//   plain      pixels
-// A pixel is mantissa · 2^(exponent − 136), black where the exponent is 0. EXPOSURE lines are not applied (like PFM's
+// The file consists of lines of text up to an empty one, a line with the size ("-Y 512 +X 1024"), and rows of pixels,
+// each encoded in one of three ways:
+//  new runs   2, 2, width as two bytes (8 … 32767), then the row's red, green, blue and exponent bytes one after the
+//             other: a count above 128 is a run of count − 128 equal bytes; otherwise that many single bytes follow
+//  old runs   pixels; 1, 1, 1, n repeats the previous pixel n times; directly after another run n · 256 times, and so on
+//  plain      pixels
+// A pixel is mantissa · 2^(exponent − 136), and black if the exponent is 0. EXPOSURE lines are not applied (like PFM's
 // scale), because programs do not agree about them.
 #include "codec.h"
 #include "fail.h"
@@ -22,17 +22,17 @@ static bool hdr_probe(const uint8_t *bytes, size_t size)
 struct header {
     int width, height;
     bool up, left; // rows run upwards, pixels to the left
-    size_t pixels; // their start
+    size_t pixels; // the offset of the pixels
 };
 
-// Returns the end of the line that starts at `at`; NULL: the file ends within the line.
+// Returns the end of the line that starts at `at`, or NULL if the file ends within the line.
 static const uint8_t *line_end(const uint8_t *at, const uint8_t *end)
 {
     const uint8_t *found = memchr(at, '\n', (size_t)(end - at));
     return found;
 }
 
-// Parses a number such as " 512" and advances; −1: no number of 1 … 65535.
+// Parses a number such as " 512" and advances. Returns −1 if it is not 1 … 65535.
 static int side_at(const uint8_t **at, const uint8_t *end)
 {
     int value = 0;
@@ -91,8 +91,8 @@ static bool read_header(const uint8_t *bytes, size_t size, const char *name, str
     return read_size(at, stop, name, header, error);
 }
 
-// Row readers return the end of the row; NULL where the row is invalid or the file ends within it. `row` has 4 bytes a
-// pixel.
+// The row readers return the end of the row, or NULL if the row is invalid or the file ends within it. `row` has 4
+// bytes per pixel.
 
 static const uint8_t *read_new_runs(const uint8_t *at, const uint8_t *end, int width, uint8_t *row)
 {
@@ -151,7 +151,7 @@ static void store_row(const struct header *header, const uint8_t *row, const flo
     }
 }
 
-// 2^(exponent − 136); 0 for the exponent 0 and for results below the smallest normal float.
+// Fills the table of 2^(exponent − 136); 0 for the exponent 0 and for results below the smallest normal float.
 static void fill_scale(float scale[256])
 {
     double value = 0x1p119;
@@ -159,7 +159,7 @@ static void fill_scale(float scale[256])
         scale[exponent] = exponent > 10 ? (float)value : 0.0f;
 }
 
-// A file is small for its picture if each byte represents more pixels: uncompressed ones need four bytes.
+// A file is suspiciously small if each byte represents more pixels than this; uncompressed pixels need four bytes.
 enum { PIXELS_OF_A_BYTE = 2 };
 
 static bool read_rows(const struct picture_file *file, const struct header *header, uint8_t *row, lam_image *image,
@@ -168,7 +168,8 @@ static bool read_rows(const struct picture_file *file, const struct header *head
     const uint8_t *end = file->bytes + file->size;
     float scale[256];
     fill_scale(scale);
-    // The rows of a small file that claims a huge picture are read twice: the first pass finds that before memory is allocated.
+    // If a small file declares a huge picture, its rows are read twice: the first pass checks them before memory is
+    // allocated.
     size_t pixels = (size_t)header->width * (size_t)header->height;
     for (int pass = pixels / PIXELS_OF_A_BYTE < file->size; pass < 2; pass++) {
         const uint8_t *at = file->bytes + header->pixels;

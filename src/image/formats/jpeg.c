@@ -1,19 +1,19 @@
-// jpeg.c: JPEG's row in the table of formats; reads through libjpeg-turbo with its accurate integer transform,
+// jpeg.c: JPEG's row in the table of formats; reads with libjpeg-turbo and its accurate integer transform,
 // bit-identical on every processor.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"
 
 #include <setjmp.h>
-#include <stdio.h> // jpeglib.h wants it
+#include <stdio.h> // required by jpeglib.h
 #include <string.h>
 
 #include <jerror.h>
 #include <jpeglib.h>
 
-enum { MAX_SCANS = 200 }; // a progressive picture has about ten; each one covers the whole picture
+enum { MAX_SCANS = 200 }; // a progressive picture has about ten scans; each one covers the whole picture
 
-// libjpeg's structs, which its callbacks get, and our members after them.
+// libjpeg's structs, which its callbacks receive, followed by our members.
 struct reader {
     struct jpeg_error_mgr errors;
     struct jpeg_progress_mgr progress;
@@ -21,10 +21,10 @@ struct reader {
     jmp_buf out;
     char message[JMSG_LENGTH_MAX];
     const struct picture_file *file;
-    bool rgb;           // LAM_RGB8 rather than LAM_RGBA8, but for inks
+    bool rgb;           // LAM_RGB8 instead of LAM_RGBA8, except for inks
     bool stopped;       // the call must end
-    bool out_of_memory; // libjpeg's own
-    size_t charged;     // for libjpeg's coefficients
+    bool out_of_memory; // in libjpeg
+    size_t charged;     // bytes for libjpeg's coefficients
 };
 
 _Noreturn static void give_up(j_common_ptr jpeg)
@@ -35,7 +35,7 @@ _Noreturn static void give_up(j_common_ptr jpeg)
     longjmp(reader->out, 1);
 }
 
-// Warnings (level −1) about lost parts of the picture end the reading; others are habits of cameras and old programs.
+// Warnings (level −1) about missing data end the reading; other warnings are common for cameras and old programs.
 static void take_message(j_common_ptr jpeg, int level)
 {
     int code = jpeg->err->msg_code;
@@ -45,7 +45,7 @@ static void take_message(j_common_ptr jpeg, int level)
 
 static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 
-// Called for every row of blocks, in each scan.
+// Is called for every row of blocks, in each scan.
 static void monitor(j_common_ptr jpeg)
 {
     struct reader *reader = (struct reader *)jpeg->err;
@@ -63,15 +63,15 @@ static bool jpeg_probe(const uint8_t *bytes, size_t size)
     return size >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-// A block of 64 pixels takes at least one bit, in the component with the most blocks, which may cover 1/16 of
-// the pixels.
+// Checks the file size: a block of 64 pixels takes at least one bit in the component with the most blocks, which may
+// cover 1/16 of the pixels.
 static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
 {
     return (uint64_t)jpeg->image_width * jpeg->image_height / (8 * 64 * 16) <= size;
 }
 
-// A file of several scans has all of its coefficients in memory before the first row: two bytes for each number, at most
-// as many as all components in full resolution have.
+// Charges the coefficients. A file with several scans keeps all of its coefficients in memory before the first row: two
+// bytes each, at most as many as all components in full resolution have.
 static bool charge_coefficients(struct reader *reader, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
@@ -83,9 +83,9 @@ static bool charge_coefficients(struct reader *reader, lam_error *error)
     return reader->charged || call_memory_error(call, bytes, error);
 }
 
-// Cyan, magenta, yellow and black inks of one row to RGBA, without a colour profile: the products of the light that an
-// ink and black transmit. 255 is no ink in files with Adobe's marker, which Photoshop began and every program follows,
-// else 0.
+// Converts cyan, magenta, yellow and black inks of one row to RGBA, without a colour profile: the product of the light
+// that an ink and black transmit. 255 means no ink in files with Adobe's marker, a convention of Photoshop that every
+// program follows; otherwise 0 does.
 static void mix_inks(uint8_t *row, size_t width, bool inverted)
 {
     const unsigned flip = inverted ? 0 : 255;
@@ -97,7 +97,7 @@ static void mix_inks(uint8_t *row, size_t width, bool inverted)
     }
 }
 
-// The part that libjpeg may jump out of (longjmp): it changes only memory behind its pointers.
+// The function that libjpeg may leave by longjmp; it changes only memory behind its pointers.
 static bool decode(struct reader *reader, lam_image *image, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
@@ -116,9 +116,9 @@ static bool decode(struct reader *reader, lam_image *image, lam_error *error)
     jpeg->out_color_space = inks ? JCS_CMYK : format == LAM_RGB8 ? JCS_RGB : JCS_EXT_RGBA; // alpha 255
     jpeg->dct_method = JDCT_ISLOW;
     jpeg->do_fancy_upsampling =
-        TRUE; // colours at half the size are interpolated linearly: integers, the same everywhere
-    jpeg->do_block_smoothing = FALSE; // only matters to files that lack scans, which are refused
-    // The picture first: without memory for it, the coefficients need none.
+        TRUE; // chroma at half the size is interpolated linearly, in integers, which is exact everywhere
+    jpeg->do_block_smoothing = FALSE; // only affects files with missing scans, which are rejected
+    // The picture is allocated first: if that fails, no memory for coefficients is needed.
     if (!picture_make(file, jpeg->image_width, jpeg->image_height, format, image, error) ||
         !charge_coefficients(reader, error))
         return false;
@@ -142,7 +142,7 @@ static bool fail_jump(const struct reader *reader, lam_error *error)
     return fail(error, LAM_CANNOT_READ, "%s: JPEG: %s", reader->file->name, reader->message);
 }
 
-// The call that libjpeg jumps back to: nothing of its own changes meanwhile.
+// The function that libjpeg returns to by longjmp; none of its own variables change meanwhile.
 static bool decode_or_jump(struct reader *reader, lam_image *image, lam_error *error)
 {
     return setjmp(reader->out) == 0 ? decode(reader, image, error) : fail_jump(reader, error);
@@ -180,7 +180,7 @@ static bool jpeg_read_wide(const struct picture_file *file, lam_image *image, bo
     return jpeg_read_as(true, file, image, error);
 }
 
-// A remark after the marks of a file's begin and of JFIF.
+// Returns whether a remark after the markers SOI and JFIF is Lambent's.
 static bool jpeg_ours(const uint8_t *bytes, size_t size)
 {
     static const char remark[] = "\xff\xfe\0\x09" JPEG_REMARK;

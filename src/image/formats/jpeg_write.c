@@ -1,21 +1,21 @@
-// jpeg_write.c: writes JPEG through libjpeg-turbo: baseline, the accurate integer transform, optimised Huffman codes.
-// The bytes depend only on the picture, the quality and libjpeg-turbo's version.
+// jpeg_write.c: writes JPEG with libjpeg-turbo: baseline, the accurate integer transform, optimised Huffman codes. The
+// bytes depend only on the picture, the quality and libjpeg-turbo's version.
 #include "codec.h"
 #include "compose.h"
 #include "fail.h"
 
 #include <setjmp.h>
-#include <stdio.h> // jpeglib.h wants it
+#include <stdio.h> // required by jpeglib.h
 #include <stdlib.h>
 #include <string.h>
 
 #include <jerror.h>
 #include <jpeglib.h>
 
-// From QUALITY_OF_FULL_COLOR on, colours are kept for every pixel, below for every four.
+// From QUALITY_OF_FULL_COLOR on, chroma is stored for every pixel, below it for every four.
 enum { QUALITY_DEFAULT = 90, QUALITY_OF_FULL_COLOR = 90 };
 
-// libjpeg's struct of errors, which its callbacks get, and our members after it.
+// libjpeg's error struct, which its callbacks receive, followed by our members.
 struct writer {
     struct jpeg_error_mgr errors;
     struct jpeg_compress_struct jpeg;
@@ -26,7 +26,7 @@ struct writer {
     int quality;
     unsigned char *bytes; // from malloc
     unsigned long size;
-    bool has_bytes; // jpeg_mem_dest has returned: without memory it leaves its own members unset
+    bool has_bytes; // jpeg_mem_dest has returned; if it fails for lack of memory, it leaves its members unset
     uint8_t *row;
 };
 
@@ -36,7 +36,7 @@ static void ignore_message(j_common_ptr jpeg, int level) { (void)jpeg, (void)lev
 
 static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 
-// The part that libjpeg may jump out of (longjmp): it changes only memory behind its pointer.
+// The function that libjpeg may leave by longjmp; it changes only memory behind its pointer.
 static bool encode(struct writer *writer, lam_error *error)
 {
     struct jpeg_compress_struct *jpeg = &writer->jpeg;
@@ -76,7 +76,7 @@ static bool fail_jump(const struct writer *writer, lam_error *error)
     return fail(error, LAM_LIMIT, "JPEG: %s", message);
 }
 
-// The call that libjpeg jumps back to: nothing of its own changes meanwhile.
+// The function that libjpeg returns to by longjmp; none of its own variables change meanwhile.
 static bool encode_or_jump(struct writer *writer, lam_error *error)
 {
     return setjmp(writer->out) == 0 ? encode(writer, error) : fail_jump(writer, error);
@@ -101,7 +101,7 @@ bool jpeg_write(const lam_image *image, const lam_save_params *params, struct po
     call_start(&writer->call, params->control);
     bool ok = encode_or_jump(writer, error);
     if (!ok && writer->has_bytes)
-        writer->jpeg.dest->term_destination(&writer->jpeg); // stores where the memory is now
+        writer->jpeg.dest->term_destination(&writer->jpeg); // stores the current address of the memory
     jpeg_destroy_compress(&writer->jpeg);
     if (ok)
         *out = (lam_bytes){writer->bytes, writer->size};

@@ -1,8 +1,8 @@
 // pfm.c: reads and writes PFM, floats with a three-line header (Debevec's portable float map), bottom row first.
 //
-// "PF", width and height, then a number whose sign is the byte order: negative is little-endian. Its absolute value is
-// a scale that programs do not agree about; it is written as 1 and not applied when read. PFM has neither alpha nor
-// comments, so no PFM says which program wrote it.
+// The header is "PF", width and height, and a number whose sign gives the byte order: negative is little-endian.
+// Programs do not agree about its absolute value, the scale: it is written as 1 and ignored when read. PFM has neither
+// alpha nor comments, so the file cannot name the program that wrote it.
 #include "codec.h"
 #include "fail.h"
 #include "netpbm.h"

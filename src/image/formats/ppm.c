@@ -1,4 +1,4 @@
-// ppm.c: reads and writes binary PPM (P6), three bytes a pixel, with the picture over a background.
+// ppm.c: reads and writes binary PPM (P6), three bytes per pixel, with the picture composited over a background.
 #include "codec.h"
 #include "compose.h"
 #include "fail.h"

@@ -1,8 +1,8 @@
-// tga.c: reads Truevision TGA: palettes, true colour and grey, plain and as run lengths, of 8, 15, 16, 24 and 32 bits,
-// with the first pixel in any corner. Truevision TGA File Format Specification, version 2.0 (1991).
+// tga.c: reads Truevision TGA: palettes, true colour and grey, uncompressed and run-length encoded, of 8, 15, 16, 24
+// and 32 bits, with the first pixel in any corner. Truevision TGA File Format Specification, version 2.0 (1991).
 //
-// A TGA file has no magic number, so the whole header is tested, after all other formats. The fourth byte of 32 bits is
-// alpha, also where the header says that there are 0 bits of it, which many programs write; unless it is 0 everywhere
+// A TGA file has no magic number, so the whole header is checked, after all other formats. The fourth byte of 32 bits
+// is used as alpha even if the header declares 0 alpha bits, as many programs write it, unless it is 0 in all pixels
 // then.
 #include "codec.h"
 #include "fail.h"
@@ -17,8 +17,8 @@ struct tga {
     const struct picture_file *file;
     uint32_t type, width, height;
     uint32_t kind;                      // PALETTE, COLOR or GREY
-    uint32_t bits;                      // of a pixel
-    uint32_t first, colors, color_bits; // of the palette: the first entry's number, entries, bits of each
+    uint32_t bits;                      // per pixel
+    uint32_t first, colors, color_bits; // the palette: index of the first entry, number of entries, bits per entry
     uint32_t alpha_bits;
     bool runs, top_down, right_to_left;
     const uint8_t *palette;
@@ -26,7 +26,7 @@ struct tga {
 
 static bool is_color_bits(uint32_t bits) { return bits == 15 || bits == 16 || bits == 24 || bits == 32; }
 
-// Takes the header apart. Returns false if it is not one of a TGA file, and the error (may be NULL) says why.
+// Parses the header. Returns false if it is not a TGA header; the error (may be NULL) says why.
 static bool take_header(const struct picture_file *file, struct tga *tga, lam_error *error)
 {
     const uint8_t *bytes = file->bytes;
@@ -102,7 +102,7 @@ static bool put_pixel(const struct tga *tga, const uint8_t *from, uint8_t *to, l
         memset(to, *from, 3);
         to[3] = 255;
     } else {
-        uint32_t index = *from - tga->first; // wraps below the first
+        uint32_t index = *from - tga->first; // wraps around below the first entry
         if (index >= tga->colors)
             return fail(error, LAM_CANNOT_READ, "%s: TGA byte %zu: colour %u, but the palette has %u to %u",
                         tga->file->name, (size_t)(from - tga->file->bytes), *from, tga->first,
@@ -112,7 +112,7 @@ static bool put_pixel(const struct tga *tga, const uint8_t *from, uint8_t *to, l
     return true;
 }
 
-// Returns the place of pixel number `x` of row number `y` in the file's order.
+// Returns the address of pixel `x` of row `y` in the file's order.
 static uint8_t *place_of(const struct tga *tga, const lam_image *image, uint32_t x, uint32_t y)
 {
     size_t row = tga->top_down ? y : tga->height - 1 - y, column = tga->right_to_left ? tga->width - 1 - x : x;
@@ -125,13 +125,13 @@ static bool fail_end(const struct tga *tga, const char *within, lam_error *error
                 within);
 }
 
-// A packet is a byte, followed by one pixel that is repeated (bit 7) or by several, 1 to 128. Version 2 of the format
-// ends packets with their row, older files do not.
+// Decodes packets: a byte, followed by one repeated pixel (bit 7) or by several, 1 to 128. In version 2 of the format
+// packets end with their row; in older files they do not.
 static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image *image, lam_error *error)
 {
     const uint8_t *end = tga->file->bytes + tga->file->size;
     size_t step = bytes_of(tga->bits);
-    uint32_t left = 0; // of the packet
+    uint32_t left = 0; // remaining pixels of the packet
     bool repeated = false;
     for (uint32_t y = 0; y < tga->height; y++) {
         if (!picture_continues(tga->file, y, error))
@@ -157,7 +157,7 @@ static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image
     return true;
 }
 
-// The alpha of a header that says there is none.
+// Fills the alpha if the header declares none.
 static void fill_alpha(const lam_image *image)
 {
     uint8_t *pixels = image->pixels;

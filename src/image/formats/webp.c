@@ -1,6 +1,6 @@
-// webp.c: reads and writes WebP, lossy and lossless with alpha, through libwebp, which is loaded on demand (dlopen).
-// Reads chunk by chunk, so that a long decoding can be stopped. Does not read animations. The written bytes depend on
-// the library's version. https://developers.google.com/speed/webp/docs/riff_container
+// webp.c: reads and writes WebP, lossy and lossless with alpha, with libwebp, which is loaded on demand (dlopen). It
+// reads chunk by chunk, so that a long decoding can be stopped, and does not support animations. The written bytes
+// depend on the library's version. https://developers.google.com/speed/webp/docs/riff_container
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
@@ -13,9 +13,9 @@
 
 enum {
     RIFF_HEADER = 12,
-    PIECE_BYTES = 1 << 14, // at a time, fewer of files in which so many bytes are more pixels than
-    PIECE_PIXELS = 1 << 22,
-    PLAIN_PIXELS = 1 << 24, // that a file of any size may have: 4096×4096 of one colour take a few bytes
+    CHUNK_BYTES = 1 << 14, // bytes per step; fewer if so many bytes are more pixels than
+    CHUNK_PIXELS = 1 << 22,
+    PLAIN_PIXELS = 1 << 24, // pixels that a file of any size may have: 4096×4096 of one colour take a few bytes
 };
 
 static bool webp_probe(const uint8_t *bytes, size_t size)
@@ -71,7 +71,7 @@ static bool fail_status(const struct picture_file *file, int status, lam_error *
     }
 }
 
-// The file chunk by chunk; after each, all completed rows are available.
+// Decodes the file chunk by chunk; after each, all completed rows are available.
 static bool decode(const struct webp_library *webp, const struct picture_file *file, lam_image *image, lam_error *error)
 {
     size_t stride = 4 * (size_t)image->width;
@@ -81,10 +81,10 @@ static bool decode(const struct webp_library *webp, const struct picture_file *f
     int status = VP8_STATUS_SUSPENDED;
     bool runs = true;
     double bytes_of_pixel = (double)file->size / ((double)image->width * image->height);
-    double even = bytes_of_pixel * PIECE_PIXELS;
-    size_t piece = even < 1 ? 1 : even < PIECE_BYTES ? (size_t)even : PIECE_BYTES;
+    double even = bytes_of_pixel * CHUNK_PIXELS;
+    size_t chunk = even < 1 ? 1 : even < CHUNK_BYTES ? (size_t)even : CHUNK_BYTES;
     for (size_t size = 0; runs && status == VP8_STATUS_SUSPENDED && size < file->size;) {
-        size += file->size - size < piece ? file->size - size : piece;
+        size += file->size - size < chunk ? file->size - size : chunk;
         runs = call_should_continue(file->call) || call_error(file->call, error);
         if (runs)
             status = webp->WebPIUpdate(decoder, file->bytes, size);
@@ -93,12 +93,12 @@ static bool decode(const struct webp_library *webp, const struct picture_file *f
     return runs && (status == VP8_STATUS_OK || fail_status(file, status, error));
 }
 
-// libwebp 1.2 may dereference a null pointer where an allocation fails: as much as it will take, tables included, is allocated and
-// freed first.
+// libwebp 1.2 may dereference a null pointer if an allocation fails, so the largest amount that it needs, including
+// tables, is allocated and freed first.
 static bool has_memory(size_t own, lam_error *error)
 {
     const size_t bytes = own + (4 << 20);
-    void *volatile memory = malloc(bytes); // volatile: allocated, though nobody uses it
+    void *volatile memory = malloc(bytes); // volatile, so that the unused memory is really allocated
     if (!memory)
         return fail_memory(error, bytes);
     free(memory);
@@ -118,7 +118,7 @@ static bool read_with(const struct webp_library *webp, const struct picture_file
     if (end > file->size)
         return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its WebP header says byte %llu", file->name,
                     file->size, (unsigned long long)end);
-    // Pixels that take no bytes are decoded in one go, which nothing stops.
+    // Pixels that take no bytes are decoded in one step, which cannot be stopped.
     uint64_t pixels = (uint64_t)features.width * (uint64_t)features.height;
     uint64_t more = call_expansion_limit(file->call);
     uint64_t most = PLAIN_PIXELS + (more < UINT32_MAX ? file->size * more : UINT32_MAX);
@@ -129,7 +129,7 @@ static bool read_with(const struct webp_library *webp, const struct picture_file
             file->name, features.width, features.height, (unsigned long long)most, file->size);
     if (!picture_make(file, (uint32_t)features.width, (uint32_t)features.height, LAM_RGBA8, image, error))
         return false;
-    // libwebp reads these itself: all pixels of a lossless picture, and the alpha of a lossy one.
+    // libwebp decodes these at once: all pixels of a lossless picture, and the alpha of a lossy one.
     enum { LOSSLESS = 2 };
     size_t own = (size_t)pixels * (features.format == LOSSLESS ? 4 : features.has_alpha ? 2 : 0);
     bool ok = !file->call || call_charge(file->call, own) || call_memory_error(file->call, own, error);
@@ -165,7 +165,7 @@ bool webp_check_size(int width, int height, lam_error *error)
 struct sink {
     uint8_t *bytes; // from malloc
     size_t size, capacity;
-    bool full; // out of memory
+    bool full; // memory ran out
 };
 
 static int write_sink(const uint8_t *bytes, size_t size, const WebPPicture *picture)
@@ -203,7 +203,7 @@ static bool fail_encoding(const WebPPicture *picture, const struct sink *sink, l
                 picture->height, (int)picture->error_code);
 }
 
-// Lossless with the colours of fully transparent pixels as they are, or at a quality.
+// Lossless, keeping the colours of fully transparent pixels, or lossy at a quality.
 bool webp_configure(const struct webp_library *webp, const lam_image *image, const lam_save_params *params,
                     struct call_control *call, WebPConfig *config, WebPPicture *picture, lam_error *error)
 {
@@ -214,7 +214,7 @@ bool webp_configure(const struct webp_library *webp, const lam_image *image, con
                     "WebP: " WEBP_LIBRARY " is not of the version that this build was made for");
     config->lossless = quality == 0 || quality == 100;
     if (config->lossless)
-        config->quality = 75; // the effort
+        config->quality = 75; // the effort, not a quality
     config->exact = config->lossless;
     picture->use_argb = config->lossless;
     picture->width = image->width;

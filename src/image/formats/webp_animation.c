@@ -1,4 +1,4 @@
-// webp_animation.c: writes animated WebP through libwebpmux, which is loaded (dlopen) when an animation begins. The
+// webp_animation.c: writes animated WebP with libwebpmux, which is loaded (dlopen) when an animation begins. The
 // library stores the changes of each frame; the bytes depend on its version.
 #include "animation.h"
 #include "dynamic_library.h"
@@ -26,7 +26,7 @@ struct webp_animation {
     FUNCTIONS(MEMBER)
     struct animation_settings settings;
     WebPAnimEncoder *encoder;
-    int count; // frames so far
+    int count; // number of frames so far
 };
 
 static void animation_free(void *state)
@@ -78,7 +78,7 @@ static void *animation_start(const struct animation_settings *settings, lam_erro
     return NULL;
 }
 
-// When a frame begins, in the format's milliseconds.
+// Returns the start time of a frame in the format's milliseconds.
 static int time_of(const struct webp_animation *animation, int frame)
 {
     return (int)(frame * 1000.0 / animation->settings.frames_per_second + 0.5);
@@ -95,7 +95,7 @@ static bool animation_add(void *state, const lam_image *frame, const lam_save_pa
     struct call_control call;
     if (!webp_configure(webp, frame, params, &call, &config, &picture, error))
         return false;
-    picture.use_argb = 1; // the input of the encoder of animations
+    picture.use_argb = 1; // required by the animation encoder
     bool ok =
         call_should_continue(&call) && webp->WebPPictureImportRGBA(&picture, frame->pixels, 4 * frame->width) &&
         animation->WebPAnimEncoderAdd(animation->encoder, &picture, time_of(animation, animation->count), &config);
@@ -118,14 +118,15 @@ static bool animation_finish(void *state, const lam_save_params *params, lam_byt
         !animation->WebPAnimEncoderAssemble(animation->encoder, &data))
         return fail(error, LAM_LIMIT, "WebP: libwebpmux cannot make the animation: %.200s",
                     animation->WebPAnimEncoderGetError(animation->encoder));
-    *out = (lam_bytes){malloc(data.size), data.size}; // the library's memory may be another allocator's
+    *out = (lam_bytes){malloc(data.size), data.size}; // copied, because the library may use another allocator
     if (out->data)
         memcpy(out->data, data.bytes, data.size);
     animation->webp.WebPFree((void *)(uintptr_t)data.bytes);
     return out->data || fail_memory(error, data.size);
 }
 
-// Returns the encoder's three canvases. It gives the lengths of its encoded frames only with the finished file.
+// Returns the bytes of the encoder's three canvases. It reports the size of its encoded frames only with the finished
+// file.
 static uint64_t animation_held(const void *state)
 {
     const struct webp_animation *animation = state;

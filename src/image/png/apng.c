@@ -1,8 +1,9 @@
 // apng.c: writes animated PNG: https://www.w3.org/TR/png-3/ (acTL, fcTL, fdAT).
 //
 // Each frame is encoded immediately, as a PNG of the smallest rectangle that contains all changes since the previous
-// frame, with the necessary channels. All frames of a file have one colour type, which is known with the last one: a
-// frame that was encoded with fewer channels is then decoded and encoded again. Its chunks become the animation's.
+// frame, with as few channels as possible. All frames of a file must have one colour type, which is known after the
+// last frame, so frames with fewer channels are then decoded and encoded again. The chunks of these PNGs become the
+// chunks of the animation.
 #include "animation.h"
 #include "codec.h"
 #include "fail.h"
@@ -19,14 +20,14 @@ struct box {
 };
 
 struct apng_frame {
-    lam_bytes png; // of the box alone
+    lam_bytes png; // contains only the box
     struct box box;
     int channels; // enum png_channels
 };
 
 struct apng {
     struct animation_settings settings;
-    lam_image before; // the last frame; no pixels: none
+    lam_image before; // the previous frame; no pixels: none
     struct apng_frame *frames;
     int count, capacity;
     uint64_t held; // bytes of the frames
@@ -53,7 +54,7 @@ static void *apng_start(const struct animation_settings *settings, lam_error *er
     return apng;
 }
 
-// Returns the smallest box outside which two pictures are equal; one pixel if they are equal.
+// Returns the smallest box that contains all differences of two pictures; one pixel if they are equal.
 static struct box changed_box(const lam_image *a, const lam_image *b)
 {
     const size_t row = 4 * (size_t)a->width;
@@ -180,8 +181,8 @@ static void put_animation_control(struct writer *writer, const struct apng *apng
     close_chunk(writer, "acTL", 8);
 }
 
-// The time of a frame is a fraction of 16-bit numbers: exact for whole frames a second, else to a thousandth of a frame
-// a second, or from 65 on to a hundredth.
+// The duration of a frame is a fraction of 16-bit numbers: exact for a whole number of frames per second, otherwise
+// rounded to a thousandth of a frame per second (from 65 on, to a hundredth).
 static void put_delay(double frames_per_second, uint8_t out[4])
 {
     const bool whole = frames_per_second == (double)(int)frames_per_second;
@@ -199,8 +200,8 @@ static void put_frame_control(struct writer *writer, const struct apng *apng, co
     png_put_u32(data + 12, (uint32_t)box->x);
     png_put_u32(data + 16, (uint32_t)box->y);
     put_delay(apng->settings.frames_per_second, data + 20);
-    data[24] = 0; // APNG_DISPOSE_OP_NONE: the frame stays
-    data[25] = 0; // APNG_BLEND_OP_SOURCE: it replaces the previous pixels, alpha included
+    data[24] = 0; // APNG_DISPOSE_OP_NONE means keep the frame
+    data[25] = 0; // APNG_BLEND_OP_SOURCE: replace the previous pixels, alpha included
     close_chunk(writer, "fcTL", CONTROL_BYTES);
 }
 
@@ -209,8 +210,8 @@ static uint32_t u32_of(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-// Returns the most bytes that put_frame appends for a frame: its chunks, each with a number, one that is open, and the
-// animation's.
+// Returns the most bytes that put_frame appends for a frame: its chunks with a sequence number each, one that is still
+// open, and the animation's chunks.
 static size_t frame_bytes(const struct apng_frame *frame)
 {
     const uint8_t *at = frame->png.data, *end = at + frame->png.size;
@@ -220,7 +221,7 @@ static size_t frame_bytes(const struct apng_frame *frame)
     return bytes;
 }
 
-// Copies the chunks of a frame's PNG: of the first frame those before the picture too.
+// Copies the chunks of a frame's PNG; for the first frame, also the chunks before the picture.
 static void put_frame(struct writer *writer, const struct apng *apng, int index)
 {
     const struct apng_frame *frame = &apng->frames[index];
@@ -248,13 +249,13 @@ static void put_frame(struct writer *writer, const struct apng *apng, int index)
     }
 }
 
-// Gives all frames the same channels. Adds up the bytes of the file.
+// Gives all frames the same channels, and sums the bytes of the file.
 static bool unify(struct apng *apng, const lam_save_params *params, struct call_control *call, size_t *bytes,
                   lam_error *error)
 {
     const size_t again = (size_t)8 * (size_t)apng->settings.width * (size_t)apng->settings.height;
     int channels = 0;
-    if (!call_charge(call, apng->held) || !call_charge(call, again)) // of one frame, its pixels and its new encoding
+    if (!call_charge(call, apng->held) || !call_charge(call, again)) // one frame's pixels and its new encoding
         return call_memory_error(call, again, error);
     for (int i = 0; i < apng->count; i++)
         channels |= apng->frames[i].channels;

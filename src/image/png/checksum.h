@@ -5,27 +5,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Tables for CRC-32 of eight bytes a step (8 KiB). They are made for each encoding (about a microsecond), because the
-// library keeps no global state.
+// Tables for CRC-32 of eight bytes at a time (8 KiB). They are made for each encoding, which takes about a microsecond,
+// because the library keeps no global state.
 struct crc_tables {
     uint32_t row[8][256];
 };
 
 void crc_tables_make(struct crc_tables *tables);
 
-// CRC-32 (polynomial 0xEDB88320 reflected, PNG specification annex D) of `size` bytes.
+// Returns the CRC-32 (polynomial 0xEDB88320 reflected, PNG specification annex D) of `size` bytes.
 uint32_t crc_of(const struct crc_tables *tables, const uint8_t *bytes, size_t size);
 
-// Adler-32 of a run of bytes, in a form in which neighbouring runs from different threads can be joined, modulo 65521:
-//   sum      = Σ byte
-//   weighted = Σ (size − position)·byte
+// Adler-32 of a sequence of bytes, in a form in which adjacent sequences from different threads can be joined, modulo
+// 65521:
+//  sum      = Σ byte
+//  weighted = Σ (size − position)·byte
 struct adler_part {
     uint32_t sum, weighted;
     uint64_t size;
 };
 
-// Lengthen a part by one byte, by some, by zeros, by a row of pixels, by the part that follows it. A row is `width`
-// 32-bit words whose first `bytes_per_pixel` bytes (1 … 4) are in the stream; the others must be zero, and so must the
+// Append to a part: one byte, several bytes, zeros, a row of pixels, or the following part. A row is `width` 32-bit
+// words whose first `bytes_per_pixel` bytes (1 … 4) are in the stream; the other bytes must be zero, and so must the
 // words after the row up to a multiple of 4.
 void adler_byte(struct adler_part *part, uint8_t byte);
 void adler_bytes(struct adler_part *part, const uint8_t *bytes, size_t size);

@@ -4,8 +4,8 @@
 #include <string.h>
 
 enum {
-    CHUNK = 16, // pixels that are examined together
-    // Words beside a row, so that loops can read its neighbours.
+    CHUNK = 16, // pixels that are processed together
+    // Padding words before and after a row, so that loops can read its neighbours.
     PADDING_BEFORE = 4,
     PADDING_AFTER = CHUNK,
 };
@@ -17,7 +17,7 @@ typedef u32x4 u32x4_memory __attribute__((aligned(4), may_alias));
 
 static inline u32x4 load(const uint32_t *at) { return (u32x4) * (const u32x4_memory *)at; }
 
-// Tokens are made as 64-bit numbers, the first quarter lowest.
+// Tokens are built as 64-bit numbers, the first quarter lowest.
 static inline void put_token(struct token *at, uint64_t token) { memcpy(at, &token, sizeof token); }
 
 static size_t stride_of(int width) { return PADDING_BEFORE + (size_t)width + PADDING_AFTER; }
@@ -34,7 +34,7 @@ bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int r
     deflate->stride = stride_of(width);
     uint32_t *words = arena_array(arena, (size_t)rows * deflate->stride, sizeof *words);
     deflate->last_positions = arena_array(arena, 1 << DEFLATE_HASH_BITS, sizeof *deflate->last_positions);
-    // One more than is ever kept: find_runs writes a token for each pixel before it knows whether it stays.
+    // One more token than is kept: find_runs writes a token for each pixel before it knows whether to keep it.
     deflate->tokens = arena_array(arena, (size_t)rows * ((size_t)width + 1) + 1, sizeof *deflate->tokens);
     if (!words || !deflate->last_positions || !deflate->tokens)
         return false;
@@ -46,22 +46,22 @@ void deflate_start(struct deflate *deflate, uint8_t filter, bool matches)
 {
     deflate->filter = filter;
     deflate->row = deflate->words;
-    deflate->matches = matches || deflate->bytes_per_pixel < 3; // grey pictures always have matches
+    deflate->matches = matches || deflate->bytes_per_pixel < 3; // grey pictures always use matches
     deflate->y = 0;
     deflate->end = deflate->tokens;
     memset(deflate->counts, 0, sizeof deflate->counts);
     if (deflate->matches)
-        memset(deflate->last_positions, 0xFF, sizeof *deflate->last_positions << DEFLATE_HASH_BITS); // nowhere
+        memset(deflate->last_positions, 0xFF, sizeof *deflate->last_positions << DEFLATE_HASH_BITS); // no positions yet
 }
 
-// Returns a token whose quarters after the first `used` (1 … 4) are empty, and the others zero.
+// Returns a token whose quarters after the first `used` (1 … 4) are empty, and whose others are zero.
 static inline uint64_t unused_after(int used)
 {
     const uint64_t all = (uint64_t)DEFLATE_NOTHING * 0x0001000100010001u;
     return used == 4 ? 0 : all << 16 * used;
 }
 
-// Returns a distance's symbol and extra bits (RFC 1951, 3.2.5): from 5 on, two symbols for each power of two.
+// Returns a distance's symbol and extra bits (RFC 1951, 3.2.5): from 5 on, there are two symbols for each power of two.
 static inline uint64_t distance_of(uint32_t distance)
 {
     uint32_t before = distance - 1;
@@ -75,13 +75,13 @@ static inline uint64_t distance_of(uint32_t distance)
     return symbol | low << 16 | high << 32;
 }
 
-// A match of 3 … 258 bytes.
+// Returns a match of 3 … 258 bytes.
 static inline uint64_t match_of(size_t length, uint64_t distance)
 {
     return (DEFLATE_MATCH + length - DEFLATE_SHORTEST) | distance << 16;
 }
 
-// A match of any length as matches of at most 258 bytes: the longest first, but never leaving 1 or 2 bytes.
+// Splits a match of any length into matches of at most 258 bytes: the longest first, but never leaving 1 or 2 bytes.
 static struct token *put_match(struct token *token, size_t left, uint64_t distance)
 {
     while (left) {
@@ -105,14 +105,14 @@ static inline bool chunk_repeats(const uint32_t *row, int x)
     return (halves[0] | halves[1]) == 0;
 }
 
-// The tokens of a chunk's pixels, from each pixel and its neighbours.
+// The tokens of a chunk's pixels, computed from each pixel and its neighbours.
 struct chunk {
     uint64_t literal[CHUNK]; // the pixel's bytes as a token
-    uint32_t in_run[CHUNK];  // all bits set: the pixel belongs to a run; else 0
-    int32_t step[CHUNK];     // 0: the run continues after the pixel; else 1
+    uint32_t in_run[CHUNK];  // all bits set if the pixel belongs to a run; else 0
+    int32_t step[CHUNK];     // 0 if the run continues after the pixel; else 1
 };
 
-// A run repeats the pixel before it at least twice.
+// A run repeats the previous pixel at least twice.
 static inline __attribute__((always_inline)) void examine(struct chunk *chunk, const uint32_t *at, int bytes_per_pixel)
 {
     const u64x2 unused = (u64x2){0} + unused_after(bytes_per_pixel);
@@ -122,7 +122,7 @@ static inline __attribute__((always_inline)) void examine(struct chunk *chunk, c
         const u32x4 previous = (u32x4)(before == load(at + i - 2));
         const u32x4 in_run = same & (previous | next), step = (in_run & next) + 1;
         const u8x16 bytes = (u8x16)here, zero = {0};
-        // Each byte gets a zero byte above it.
+        // Inserts a zero byte after each byte.
         const u64x2 low = unused | (u64x2)__builtin_shufflevector(bytes, zero, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21,
                                                                   6, 22, 7, 23);
         const u64x2 high = unused | (u64x2)__builtin_shufflevector(bytes, zero, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28,
@@ -134,8 +134,9 @@ static inline __attribute__((always_inline)) void examine(struct chunk *chunk, c
     }
 }
 
-// Every pixel writes the next token, but only a literal or a run's last pixel keeps it: there is no branch except for
-// whole chunks of one colour. A run that is pending at a chunk's start is shorter than a chunk, so it fits a match.
+// Every pixel writes the next token, but only a literal or a run's last pixel keeps it, so the only branch is the one
+// for whole chunks of one colour. A run that is pending at the start of a chunk is shorter than a chunk, so it fits
+// into a match.
 static inline __attribute__((always_inline)) void find_runs(struct deflate *deflate, unsigned bytes_per_pixel,
                                                             int first, int end)
 {
@@ -143,7 +144,7 @@ static inline __attribute__((always_inline)) void find_runs(struct deflate *defl
     const uint32_t *row = deflate->row;
     struct token *token = deflate->end;
     const uint64_t distance = distance_of(bytes_per_pixel), shortest = match_of(DEFLATE_SHORTEST, distance);
-    uint32_t pending = 0; // bytes of the run so far
+    uint32_t pending = 0; // length in bytes of the current run
     struct chunk chunk;
     for (int x = 0; x < width;) {
         if (x + CHUNK <= width && chunk_repeats(row, x)) {
@@ -164,7 +165,7 @@ static inline __attribute__((always_inline)) void find_runs(struct deflate *defl
             pending = (pending + bytes_per_pixel) & chunk.in_run[i];
             const uint64_t match = shortest + pending - DEFLATE_SHORTEST, literal = chunk.literal[i];
             const uint64_t run = (uint64_t)(int32_t)chunk.in_run[i];
-            put_token(token, literal ^ ((literal ^ match) & run)); // a choice without a branch
+            put_token(token, literal ^ ((literal ^ match) & run)); // a branchless selection
             token += chunk.step[i];
         }
         x += count;
@@ -186,7 +187,8 @@ static inline uint64_t two_pixels(const uint32_t *at)
     return pair;
 }
 
-// Returns the number of equal pixels from `a` and from `b` on, at most `max`. Reads up to two more: rows are padded.
+// Returns the number of equal pixels starting at `a` and `b`, at most `max`. It reads up to two pixels more: rows are
+// padded.
 static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
 {
     int count = 0;
@@ -197,13 +199,13 @@ static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
     return count < max ? count : max;
 }
 
-// Limits of find_matches by bytes_per_pixel. Pixels of one or two bytes cost few bits as literals, so only longer
-// matches and runs make the file smaller (measured).
+// Limits of find_matches by bytes_per_pixel. Pixels of one or two bytes take few bits as literals, so only longer
+// matches and runs reduce the size (measured).
 static const int key_pixels[5] = {0, 8, 4, 2, 2};  // pixels that are hashed together
 static const int min_match[5] = {0, 20, 12, 2, 2}; // pixels
-static const int min_run[5] = {0, 8, 5, 2, 2};     // pixels that repeat the one before them
+static const int min_run[5] = {0, 8, 5, 2, 2};     // pixels that repeat the previous one
 
-// The next key_pixels pixels as one number.
+// Returns the next key_pixels pixels as one number.
 static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
 {
     if (bytes_per_pixel >= 3)
@@ -217,9 +219,9 @@ static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
     return key;
 }
 
-// At each pixel, the first of these that is possible: a run; a match with the last position of the same key; literals,
-// as many pixels as fit into a token. If a match may be as short as one pixel, a single repetition is a match too.
-// Matches stay within a row on both sides, so they contain no filter byte.
+// Uses at each pixel the first of these that is possible: a run; a match with the last position of the same key;
+// literals, as many pixels as fit into a token. If a match may be as short as one pixel, a single repetition is also a
+// match. Source and target of a match are each within one row, so they contain no filter byte.
 static inline __attribute__((always_inline)) void find_matches(struct deflate *deflate, const int bytes_per_pixel,
                                                                int first, int end)
 {
@@ -269,7 +271,7 @@ static inline __attribute__((always_inline)) void find_matches(struct deflate *d
         } else {
             const uint64_t literal = spread(row[x]) | unused_after(bytes_per_pixel);
             const uint64_t run = 0 - (uint64_t)(row[x] == row[x - 1]);
-            put_token(token++, literal ^ ((literal ^ one_more) & run)); // a choice without a branch
+            put_token(token++, literal ^ ((literal ^ one_more) & run)); // a branchless selection
             x++;
         }
     }
@@ -286,7 +288,7 @@ void deflate_row(struct deflate *deflate, int first, int end)
 {
     struct token *token = deflate->end;
     put_token(deflate->end++, deflate->filter | unused_after(1));
-    // The first pixel repeats nothing, because the filter's byte precedes it; every run ends after the last pixel.
+    // The first pixel never repeats another, because the filter byte precedes it; every run ends after the last pixel.
     uint32_t *row = deflate->row;
     row[-1] = ~row[0];
     row[deflate->width] = ~row[deflate->width - 1];
@@ -304,7 +306,8 @@ void deflate_row(struct deflate *deflate, int first, int end)
         find_runs(deflate, 3, first, end);
     deflate->row += deflate->stride;
     deflate->y++;
-    // Two sets of counts: neighbouring tokens are often equal, and adding to a number just stored takes some cycles.
+    // There are two sets of counts, because neighbouring tokens are often equal, and adding to a number that was just
+    // stored takes some cycles.
     for (; token + 2 <= deflate->end; token += 2) {
         count(deflate->counts[0], token);
         count(deflate->counts[1], token + 1);

@@ -3,7 +3,7 @@
 
 #include "huffman.h"
 
-// Lengths above 10 have groups of four symbols with the same number of extra bits; 258 has a symbol of its own.
+// Lengths above 10 are in groups of four symbols with the same number of extra bits; 258 has its own symbol.
 unsigned length_symbol(unsigned length, unsigned *extra)
 {
     unsigned beyond = length - DEFLATE_SHORTEST;
@@ -27,7 +27,7 @@ static void put_length(struct codes *codes, uint8_t symbol, unsigned extra)
     codes->length_extra[codes->length_symbol_count++] = (uint8_t)extra;
 }
 
-// Run-length code of the code lengths (RFC 1951, 3.2.7): 16 repeats the last 3–6 times, 17 and 18 are 3–10
+// Run-length codes for the code lengths (RFC 1951, 3.2.7): 16 repeats the previous length 3–6 times, 17 and 18 are 3–10
 // and 11–138 zeros.
 static void encode_lengths(struct codes *codes, const uint8_t *lengths, unsigned count)
 {
@@ -63,7 +63,7 @@ void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint
         codes->bits += (uint64_t)counts[i] * codes->length[i];
     for (int i = 0; i < DISTANCES; i++)
         codes->bits += (uint64_t)distance_counts[i] * (codes->distance_length[i] + distance_extra(i));
-    // Zeros at the end are not written, except for the first distance: alone, it says that there is none.
+    // Trailing zeros are not written, except for the first distance: alone, it means that there are no distances.
     for (codes->literals = LITERALS; !codes->length[codes->literals - 1];)
         codes->literals--;
     for (codes->distances = DISTANCES; codes->distances > 1 && !codes->distance_length[codes->distances - 1];)
@@ -90,7 +90,7 @@ void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint
 
 void put_codes(struct bits *bits, const struct codes *codes)
 {
-    put(bits, 0 | 2 << 1, 3); // not the last block; codes of its own
+    put(bits, 0 | 2 << 1, 3); // not the last block; dynamic codes
     put(bits, codes->literals - 257, 5);
     put(bits, codes->distances - 1, 5);
     put(bits, codes->code_lengths - 4, 4);

@@ -12,11 +12,11 @@ enum {
     FIRST_LENGTH = 257,
     DISTANCES = 30,
     CODE_LENGTHS = 19,
-    CODE_LIMIT = 14,    // a token goes out in one 64-bit step: four codes, 4·14 bits, and the 7 bits still waiting
-    MAX_STORED = 65535, // bytes of a stored block
+    CODE_LIMIT = 14,    // a token is written in one 64-bit step: four codes, 4·14 bits, and the 7 pending bits
+    MAX_STORED = 65535, // bytes per stored block
 };
 
-// A writer of bits; bits of an incomplete byte wait, the first lowest. After put() fewer than 8 wait.
+// A bit writer. The bits of an incomplete byte are pending, the first lowest; after put() there are fewer than 8.
 struct bits {
     uint8_t *at;
     uint64_t waiting;
@@ -33,7 +33,7 @@ static inline __attribute__((always_inline)) void put(struct bits *bits, uint64_
     bits->count &= 7;
 }
 
-// Ends on a byte boundary with an empty stored block.
+// Pads to a byte boundary with an empty stored block.
 static inline uint8_t *put_boundary(struct bits *bits)
 {
     put(bits, 0, 3);
@@ -43,36 +43,36 @@ static inline uint8_t *put_boundary(struct bits *bits)
     return bits->at;
 }
 
-// A block's two codes and their encoded code lengths.
+// A block's two codes, and the encoded form of their code lengths.
 struct codes {
     uint8_t length[LITERALS], distance_length[DISTANCES];
     uint16_t code[LITERALS], distance_code[DISTANCES];
-    unsigned literals, distances; // number of code lengths that are written
+    unsigned literals, distances; // number of written code lengths
 
-    // The code lengths as symbols 0…18 of the code length code, and the value of each one's extra bits.
+    // The code lengths as symbols 0…18 of the code length code, and the values of their extra bits.
     uint8_t length_symbols[LITERALS + DISTANCES], length_extra[LITERALS + DISTANCES];
     unsigned length_symbol_count;
 
     // The code length code.
     uint8_t code_length_length[CODE_LENGTHS];
     uint16_t code_length_code[CODE_LENGTHS];
-    unsigned code_lengths; // number of code_length_length that are written, in the format's order
+    unsigned code_lengths; // number of written code_length_length entries, in the format's order
 
-    uint64_t bits; // of the whole block
+    uint64_t bits; // the size of the whole block
 };
 
 // Returns the symbol of a match of 3 … 258 bytes, and the number of its extra bits.
 unsigned length_symbol(unsigned length, unsigned *extra);
 
-// Number of extra bits of a distance symbol.
+// Returns the number of extra bits of a distance symbol.
 static inline unsigned distance_extra(int symbol) { return symbol < 4 ? 0 : (unsigned)symbol / 2 - 1; }
 
-// Makes the codes of a block from the number of times that each symbol occurs; the end of the block occurs once.
-// `extra_bits`: of all lengths; the distances' are added here.
+// Makes the codes of a block from the number of occurrences of each symbol; the end of the block occurs once.
+// `extra_bits` counts those for all lengths; the bits for distances are added here.
 void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint32_t distance_counts[DISTANCES],
                 uint64_t extra_bits);
 
-// Writes the header of a block that is not the last: its codes.
+// Writes the header of a block with its codes; the block is not the last.
 void put_codes(struct bits *bits, const struct codes *codes);
 
 #endif

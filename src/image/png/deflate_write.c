@@ -3,7 +3,7 @@
 
 size_t deflate_capacity(int width, int rows, int bytes_per_pixel)
 {
-    // Stored blocks, the empty one at the end, and the bytes that the last 8-byte step touches after it.
+    // Stored blocks, the empty one at the end, and the bytes after it that the last 8-byte step overwrites.
     size_t bytes = (size_t)rows * ((size_t)width * (unsigned)bytes_per_pixel + 1);
     return bytes + 5 * (bytes / MAX_STORED + 2) + 8;
 }
@@ -34,7 +34,7 @@ static void make_codes(struct codes *codes, const struct deflate *deflate)
     codes_make(codes, counts, distance_counts, extra_bits);
 }
 
-// A kind's bits.
+// The code of a kind.
 struct entry {
     uint32_t bits, count;
 };
@@ -63,7 +63,7 @@ static uint8_t *put_tokens(const struct deflate *deflate, const struct codes *co
     put_codes(&head, codes);
     struct entry entries[DEFLATE_KINDS];
     make_entries(entries, codes);
-    struct bits bits = head; // a copy whose address is not taken, so that it stays in registers
+    struct bits bits = head; // a local copy, which stays in registers
     for (const struct token *token = deflate->tokens, *end = deflate->end; token < end; token++) {
         const struct entry a = entries[token->kind[0]], b = entries[token->kind[1]];
         const struct entry c = entries[token->kind[2]], d = entries[token->kind[3]];
@@ -81,10 +81,10 @@ static size_t stream_bytes(const struct deflate *deflate)
     return ((size_t)deflate->width * (unsigned)deflate->bytes_per_pixel + 1) * deflate->y;
 }
 
-// Writes the stream's bytes unchanged, in blocks of at most MAX_STORED.
+// The state of writing the bytes uncompressed, in blocks of at most MAX_STORED.
 struct storing {
     uint8_t *at;
-    size_t left, in_block; // bytes still to come, and the ones in this block
+    size_t left, in_block; // remaining bytes in total, and in this block
 };
 
 static void store(struct storing *storing, uint8_t byte)
@@ -100,7 +100,7 @@ static void store(struct storing *storing, uint8_t byte)
     storing->left--;
 }
 
-// For strips that codes would make longer: noise, and pictures of a few pixels.
+// For strips that codes would make longer: noise, and pictures with few pixels.
 static uint8_t *put_stored(const struct deflate *deflate, uint8_t *out)
 {
     struct storing storing = {out, stream_bytes(deflate), 0};

@@ -1,8 +1,7 @@
-// png_best.c: writes the smallest files, through libdeflate, which is loaded on demand. The bytes depend on its
-// version.
+// png_best.c: writes the smallest files, with libdeflate, which is loaded on demand. The bytes depend on its version.
 //
-// Each strip is filtered in six ways: all rows by one of the five filters, or each row by the filter of the lowest
-// cost. Level 7 finds the smallest of these, and level 12 compresses it.
+// Each strip is filtered in six ways: all rows with one of the five filters, or each row with its cheapest filter.
+// Level 7 finds the smallest of these, and level 12 compresses it.
 #include "png_encoding.h"
 
 #include "fail.h"
@@ -20,11 +19,11 @@
 
 enum {
     FILTERS = PNG_FILTER_PAETH + 1,
-    BY_ROW = FILTERS, // the way that chooses a filter for each row
+    BY_ROW = FILTERS, // chooses a filter for each row
     WAYS,
-    TRIAL_LEVEL = 7, // ranks the ways as level 12 does, to 1 %, in a twentieth of its time (measured)
+    TRIAL_LEVEL = 7, // ranks the ways like level 12 within 1 %, in a twentieth of its time (measured)
     BEST_LEVEL = 12,
-    BOUNDARY = 5, // bytes of an empty stored block at most
+    BOUNDARY = 5, // the most bytes of an empty stored block
 };
 
 struct libdeflate {
@@ -38,11 +37,11 @@ struct libdeflate {
 struct best_thread {
     const struct libdeflate *libdeflate;
     struct libdeflate_compressor *trial, *best;
-    uint8_t *filtered, *smallest; // a strip's filtered rows: being tried, and the best so far
+    uint8_t *filtered, *smallest; // a strip's filtered rows: the current trial, and the best so far
     uint32_t *words;              // two filtered rows
 };
 
-// State shared by the threads, and the state of each.
+// The state shared by the threads, and the state of each thread.
 struct best_state {
     struct libdeflate libdeflate;
     size_t count;
@@ -146,16 +145,16 @@ static void filter_strip(const struct png_encoding *encoding, struct best_thread
     }
 }
 
-// Makes the last block of a deflate stream one that others can follow, and ends on a byte boundary with an empty stored
-// block. libdeflate writes whole streams only, so zlib finds where the last block starts. `scratch` has capacity for
-// the decompressed bytes. Returns the new size; 0: out of memory.
+// Marks the last block of a deflate stream as not the last, and pads to a byte boundary with an empty stored block.
+// libdeflate writes only complete streams, so zlib finds the start of the last block. `scratch` has capacity for the
+// decompressed bytes. Returns the new size, or 0 if memory runs out.
 static size_t open_stream(uint8_t *stream, size_t size, uint8_t *scratch, size_t capacity)
 {
     enum { AT_BOUNDARY = 128, IN_LAST = 64, UNUSED_BITS = 7 }; // z_stream's data_type after inflate(…, Z_BLOCK)
     z_stream z = {.next_in = stream, .avail_in = (uInt)size, .next_out = scratch, .avail_out = (uInt)capacity};
     if (inflateInit2(&z, -15) != Z_OK) // a raw stream
         return 0;
-    size_t last = 0; // the first bit of the last block
+    size_t last = 0; // position in bits of the last block
     int code;
     while ((code = inflate(&z, Z_BLOCK)) == Z_OK && (z.data_type & (AT_BOUNDARY | IN_LAST)) != (AT_BOUNDARY | IN_LAST))
         if (z.data_type & AT_BOUNDARY)
@@ -165,7 +164,7 @@ static size_t open_stream(uint8_t *stream, size_t size, uint8_t *scratch, size_t
     if (code != Z_OK)
         return 0;
     stream[last / 8] &= (uint8_t)~(1u << last % 8);
-    // The three bits of a stored block's header are zero, and so are the stream's unused ones.
+    // The header of a stored block is three zero bits, and the unused bits of the stream are zero too.
     static const uint8_t boundary[BOUNDARY] = {0, 0, 0, 0xFF, 0xFF};
     const size_t skipped = unused >= 3;
     memcpy(stream + size, boundary + skipped, BOUNDARY - skipped);
@@ -207,7 +206,7 @@ static bool best_start(struct png_encoding *encoding, struct pool *pool, struct 
 #endif
 
 const struct png_method png_best = {
-    .strip_pixels = 1 << 18, // larger ones are not smaller in all, and cancel later
+    .strip_pixels = 1 << 18, // larger strips do not reduce the total, and delay cancellation
     .zlib_flags = 0xDA,      // the slowest level
     .start = best_start,
     .strip = best_strip,

@@ -1,4 +1,4 @@
-// png_encoding.h: declarations that png_write.c shares with the two compressors, png_fast.c and png_best.c.
+// png_encoding.h: declarations shared by png_write.c and the two compressors, png_fast.c and png_best.c.
 #ifndef PNG_ENCODING_H
 #define PNG_ENCODING_H
 
@@ -9,31 +9,31 @@
 
 #include <lambent/image.h>
 
-// A picture that becomes a PNG file, in strips of rows that any thread can encode.
+// A picture to be encoded as PNG, in strips of rows that any thread can encode.
 struct png_encoding {
     const lam_image *image;
-    const uint8_t *zeros; // the row above the first
-    int bytes_per_pixel;  // 1: grey, 2: grey and alpha, 3: RGB, 4: RGBA
-    int rows;             // of a strip; the last may have fewer
+    const uint8_t *zeros; // the row above the first row
+    int bytes_per_pixel;  // 1 means grey, 2 means grey and alpha, 3: RGB, 4: RGBA
+    int rows;             // the rows of each strip; the last may have fewer
     int strips;
-    size_t capacity;          // bytes that a strip's stream may need
-    void *threads;            // the method's state, one for each thread
-    struct call_control call; // of the whole encoding
+    size_t capacity;          // the most bytes of a strip's stream
+    void *threads;            // the method's state, one per thread
+    struct call_control call; // the control of the whole encoding
 };
 
-// A way to compress.
+// A compression method.
 struct png_method {
-    int strip_pixels;   // about how many a strip has
+    int strip_pixels;   // approximate pixels per strip
     uint8_t zlib_flags; // the second byte of zlib's header (RFC 1950): the level
 
     // Sets capacity and threads.
     bool (*start)(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);
 
     // Writes one strip as deflate blocks that are not the last and end on a byte boundary, and adds its filtered rows
-    // to `adler`. Returns the number of bytes; 0: out of memory, or the call must stop.
+    // to `adler`. Returns the number of bytes, or 0 if memory runs out or the call must stop.
     size_t (*strip)(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
-    // Frees memory that the arena does not own; also after a failed start. NULL: nothing.
+    // Frees memory that the arena does not own, also after a failed start. NULL if not needed.
     void (*end)(struct png_encoding *encoding);
 };
 
@@ -42,16 +42,16 @@ extern const struct png_method png_fast, png_best;
 // The channels of a picture besides grey, as bits.
 enum png_channels { PNG_COLORED = 1, PNG_TRANSLUCENT = 2, PNG_ALL_CHANNELS = 3 };
 
-// As png_write, with at least the channels of *channels; *channels becomes the file's.
+// Does the same as png_write, with at least the channels in *channels; *channels becomes the file's channels.
 bool png_write_channels(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
                         lam_bytes *out, lam_error *error);
 
-// Numbers of a PNG file, highest byte first; and the end of a chunk with `size` bytes of data at out + 8, which returns
-// the chunk's size.
+// Write numbers of a PNG file, highest byte first. png_end_chunk completes a chunk with `size` bytes of data at out + 8
+// and returns the chunk's size.
 void png_put_u32(uint8_t *at, uint32_t value);
 size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size);
 
-// A row's RGBA pixels; row −1 is zero.
+// Returns a row's RGBA pixels; row −1 is zero.
 static inline const uint8_t *png_pixel_row(const struct png_encoding *encoding, int y)
 {
     if (y < 0)

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { TRIAL_STEP = 8 }; // every eighth row is tried with every filter
+enum { TRIAL_STEP = 8 }; // every filter is tried on every eighth row
 
 static int first_trial(int rows) { return rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2; }
 
@@ -25,7 +25,7 @@ static void filter_span(const struct png_encoding *encoding, enum png_filter fil
                    span.end - span.first, encoding->bytes_per_pixel, out);
 }
 
-// Returns the filter with the lowest cost over some of the strip's rows; of equal ones that with the highest number.
+// Returns the filter with the lowest cost over some of the strip's rows; of equal ones, the highest.
 static enum png_filter choose_filter(const struct png_encoding *encoding, struct deflate *scratch, int top, int rows)
 {
     uint64_t cost[PNG_FILTER_PAETH + 1] = {0};
@@ -43,7 +43,7 @@ static enum png_filter choose_filter(const struct png_encoding *encoding, struct
     return best;
 }
 
-// Returns whether the tried rows of a strip of a coloured picture are grey.
+// Returns whether the sampled rows of a strip of a coloured picture are grey.
 static bool is_grey(const struct png_encoding *encoding, int top, int rows)
 {
     uint32_t differ = 0;
@@ -83,7 +83,7 @@ static size_t fast_strip(struct png_encoding *encoding, int strip, int thread, s
     return deflate_write(scratch, out);
 }
 
-// Memory for each thread: about 12 bytes for each pixel of a strip.
+// Allocates memory for each thread: about 12 bytes per pixel of a strip.
 static bool fast_start(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error)
 {
     const size_t threads = (size_t)pool_threads(pool);
@@ -97,7 +97,7 @@ static bool fast_start(struct png_encoding *encoding, struct pool *pool, struct 
 }
 
 const struct png_method png_fast = {
-    .strip_pixels = 1 << 15, // a strip's words stay in the second-level cache; its Huffman codes cost about 80 bytes
+    .strip_pixels = 1 << 15, // a strip's words fit the second-level cache; its Huffman codes cost about 80 bytes
     .zlib_flags = 0x01,      // the fastest level
     .start = fast_start,
     .strip = fast_strip,

@@ -15,19 +15,19 @@ typedef u8x16 u8x16_memory __attribute__((aligned(1), may_alias));
 INLINE u8x16 load(const uint8_t *at) { return (u8x16) * (const u8x16_memory *)at; }
 INLINE u8x16 choose(u8x16 mask, u8x16 a, u8x16 b) { return (a & mask) | (b & ~mask); }
 INLINE u8x16 below(u8x16 a, u8x16 b) { return (u8x16)(a < b); }
-// |a − b|, given a < b as a mask.
+// Returns |a − b|, given a < b as a mask.
 INLINE u8x16 distance(u8x16 a, u8x16 b, u8x16 a_below) { return ((a - b) ^ a_below) - a_below; }
 
 // Returns the mean, rounded down, without a ninth bit.
 INLINE u8x16 average(u8x16 a, u8x16 b)
 {
-    u16x8 half = (u16x8)((a ^ b) & 0xFE) >> 1; // no bit crosses from byte to byte: the lowest is cleared
+    u16x8 half = (u16x8)((a ^ b) & 0xFE) >> 1; // clearing the lowest bit keeps bits from moving to the next byte
     return (a & b) + (u8x16)half;
 }
 
 // Paeth's predictor in bytes. With p = a + b − c: |p − a| = |b − c|, |p − b| = |a − c|, and |p − c| is the difference
-// of these two where a and b lie on different sides of c. On the same side it is their sum, never the smallest: 255
-// represents it. Ties go to a, then b.
+// of these two if a and b are on different sides of c. On the same side it is their sum, which is never the smallest,
+// so 255 replaces it. Ties go to a, then b.
 INLINE u8x16 paeth(u8x16 a, u8x16 b, u8x16 c)
 {
     u8x16 b_below = below(b, c), a_below = below(a, c);
@@ -55,8 +55,8 @@ INLINE u8x16 filtered(enum png_filter filter, u8x16 here, u8x16 left, u8x16 abov
 
 enum { VECTOR = 16, BLOCK = 4 * VECTOR, BLOCK_PIXELS = BLOCK / 4 };
 
-// One vector at a time; the first, which has nothing to its left, and the last, which may be short, go through copies.
-// `low`: the bytes of a pixel that are kept; `gather`: alpha follows red.
+// Filters one vector at a time. The first vector, which has no left neighbour, and the last, which may be short, use
+// copies. `low` selects the bytes of a pixel that are kept; `gather` means that alpha follows red.
 INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
                        bool gather, uint32_t *out)
 {
@@ -66,7 +66,8 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
         if (at > 0 && at + VECTOR <= bytes) {
             result = filtered(filter, load(row + at), load(row + at - 4), load(above + at), load(above + at - 4));
         } else {
-            uint8_t near[VECTOR + 4] = {0}, far[VECTOR + 4] = {0}; // this row and the one above, from the left pixel on
+            // this row and the one above, starting at the left pixel
+            uint8_t near[VECTOR + 4] = {0}, far[VECTOR + 4] = {0};
             const int before = at > 0 ? 4 : 0, after = bytes - at < VECTOR ? bytes - at : VECTOR;
             memcpy(near + 4 - before, row + at - before, (size_t)(before + after));
             memcpy(far + 4 - before, above + at - before, (size_t)(before + after));
@@ -81,7 +82,7 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
     }
 }
 
-// Written out so that each loop is compiled for its filter.
+// Expanded, so that each loop is compiled for its filter.
 INLINE void filter_row_by(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
                           bool gather, uint32_t *out)
 {
@@ -146,7 +147,7 @@ struct png_span png_span_filtered(struct png_span row, struct png_span above, in
 
 uint64_t png_filter_cost(const uint32_t *filtered_row, int width)
 {
-    // 16-bit lanes take two bytes of at most 128 a step: 255 steps stay below 65536.
+    // 16-bit lanes add two bytes of at most 128 per step, so 255 steps stay below 65536.
     enum { STEPS = 255 };
     const int vectors = (width + 3) / 4;
     const uint8_t *bytes = (const uint8_t *)filtered_row;

@@ -1,5 +1,4 @@
-// png_read.c: PNG's row in the table of formats; reads through libspng, and the pixels of usual files through
-// png_whole.c.
+// png_read.c: PNG's row in the table of formats; reads with libspng, and the pixels of common files with png_whole.c.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"
@@ -15,7 +14,7 @@ static bool png_probe(const uint8_t *bytes, size_t size)
     return size >= sizeof signature && memcmp(bytes, signature, sizeof signature) == 0;
 }
 
-// The text "Software: lambent" in one of the chunks in front of the pixels.
+// Finds the text "Software: lambent" in a chunk before the pixels.
 static bool png_ours(const uint8_t *bytes, size_t size)
 {
     static const char wanted[] = "tEXtSoftware\0lambent";
@@ -34,7 +33,7 @@ static bool png_ours(const uint8_t *bytes, size_t size)
     return false;
 }
 
-// Deflate expands a byte to at most 1032, so a small file that claims a huge picture is refused before memory is
+// Deflate expands a byte to at most 1032, so a small file that declares a huge picture is rejected before memory is
 // allocated.
 static bool fits(const struct spng_ihdr *header, size_t size)
 {
@@ -43,7 +42,7 @@ static bool fits(const struct spng_ihdr *header, size_t size)
     return (bits / 8 + 1) * header->height / 1032 <= size;
 }
 
-// The 16-bit numbers lie in the second half of the pixels' memory; in ascending order none is overwritten before it is
+// The 16-bit numbers are in the second half of the pixels' memory; in ascending order none is overwritten before it is
 // read.
 static void widen(lam_image *image)
 {
@@ -67,7 +66,7 @@ static bool has_alpha(spng_ctx *spng, const struct spng_ihdr *header)
            spng_get_trns(spng, &transparent) != SPNG_ECHUNKAVAIL;
 }
 
-// Returns the channels of a picture that png_read_whole reads; 0: it does not.
+// Returns the channels of a picture that png_read_whole supports, or 0 if it does not.
 static int whole_channels(const struct spng_ihdr *header, bool alpha)
 {
     if (header->bit_depth != 8 || header->interlace_method != SPNG_INTERLACE_NONE)
@@ -78,7 +77,7 @@ static int whole_channels(const struct spng_ihdr *header, bool alpha)
                                                                        : 0;
 }
 
-// Decodes row by row, in the order of the file: an interlaced one has seven passes over the picture.
+// Decodes row by row, in the order of the file: an interlaced file has seven passes over the picture.
 static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool keep, lam_image *image, lam_error *error)
 {
     struct spng_row_info row = {0};
@@ -98,13 +97,16 @@ static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool ke
             code = spng_decode_row(spng, pixels + (size_t)row.row_num * row_bytes, row_bytes);
     }
     if (code == SPNG_EOI)
-        code = spng_decode_chunks(spng); // to the file's end, so that a file cut off after the pixels is an error too
-    if (code == SPNG_EMEM || code == SPNG_EZLIB_INIT) // zlib begins with nothing but an allocation
+        // to the end of the file, so that a truncation after the pixels is an error too
+        code = spng_decode_chunks(spng);
+    // allocation is the only step of zlib's initialisation that can fail
+    if (code == SPNG_EMEM || code == SPNG_EZLIB_INIT)
         return fail_memory(error, row_bytes);
     return !code || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
 }
 
-// `wide`: set to whether the file has 16 bits, which then are kept; NULL: they are cut to 8, and there is always an alpha.
+// Sets `wide` to whether the file has 16 bits, which are then kept. If `wide` is NULL, they are cut to 8 bits, and
+// there is always an alpha.
 static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
 {
     struct spng_ihdr header;
@@ -126,7 +128,7 @@ static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *i
     bool keep = wide && header.bit_depth == 16;
     if (wide)
         *wide = keep;
-    code = spng_decode_chunks(spng); // those before the pixels
+    code = spng_decode_chunks(spng); // the chunks before the pixels
     if (code == SPNG_EMEM)
         return fail_memory(error, file->size);
     if (code)

@@ -1,8 +1,8 @@
-// png_whole.c: a PNG's pixels decompressed at once by libdeflate, which is opened when it is used, and unfiltered here: a third of
-// the time of libspng, which reads row by row through zlib.
+// png_whole.c: decompresses a PNG's pixels at once with libdeflate, which is opened on first use, and unfilters them
+// here. It takes a third of the time of libspng, which reads row by row through zlib.
 //
-// Takes the usual pictures: 8 bits a channel, grey, RGB or RGBA without a transparent colour, not interlaced, with nothing between or
-// behind the pixels but the end. libspng reads all other pictures, and damaged ones, and reports their errors.
+// It supports the common pictures: 8 bits per channel, grey, RGB or RGBA without a transparent colour, not interlaced,
+// with only the end after the pixels. libspng reads all other pictures, and damaged ones, and reports their errors.
 #include "png_whole.h"
 
 #ifdef HAVE_LIBDEFLATE
@@ -14,8 +14,8 @@
 #include <string.h>
 
 enum {
-    PIXELS_MIN = 1 << 14,  // in smaller pictures opening the library takes longer than it saves
-    BYTES_MAX = 128 << 20, // decompressed: cancelling waits for them
+    PIXELS_MIN = 1 << 14,  // for smaller pictures, opening the library takes longer than it saves
+    BYTES_MAX = 128 << 20, // decompressed; cancelling waits for them
     CHUNK_EXTRA = 12,      // length, type and checksum of a chunk
 };
 
@@ -38,7 +38,7 @@ static bool open_inflater(struct inflater *d)
 
 // --- the chunks
 
-// Returns whether a whole chunk of a type lies at a place, and its length.
+// Returns whether a complete chunk of a type is at a position, and gets its length.
 static bool chunk_at(const struct picture_file *file, size_t at, const char *type, uint32_t *length)
 {
     const uint8_t *chunk = (const uint8_t *)file->bytes + at;
@@ -64,7 +64,8 @@ static size_t find_pixels(const struct picture_file *file)
     return 0;
 }
 
-// Joins the compressed bytes of the chunks of pixels, which the file's end follows. 0: something else follows.
+// Joins the compressed bytes of the pixel chunks, which the end of the file must follow. Returns 0 if another chunk
+// follows.
 static size_t join_pixels(const struct inflater *d, const struct picture_file *file, size_t at, uint8_t *joined)
 {
     size_t used = 0;
@@ -80,7 +81,7 @@ static size_t join_pixels(const struct inflater *d, const struct picture_file *f
 
 // --- filters
 
-// A pixel's channels in the lower four of eight lanes; the fourth is any number where the file has three or one.
+// A pixel's channels in the lower four of eight lanes; the fourth is arbitrary if the file has three or one.
 typedef uint8_t bytes8 __attribute__((vector_size(8)));
 typedef uint8_t bytes16 __attribute__((vector_size(16)));
 typedef uint32_t words4 __attribute__((vector_size(16)));
@@ -99,7 +100,7 @@ static inline wide8 wide_of(uint32_t pixel)
                                           WIDE(7));
 }
 
-// Four bytes, in the order of memory.
+// Loads four bytes in memory order.
 static inline uint32_t pixel_at(const uint8_t *at)
 {
     uint32_t pixel;
@@ -113,7 +114,7 @@ static inline void store_pixel(uint8_t *at, wide8 v)
     memcpy(at, &bytes, 4);
 }
 
-// Written so that compilers find the instructions for them.
+// Written so that compilers emit the vector instructions.
 static inline wide8 min8(wide8 x, wide8 y)
 {
     for (int i = 0; i < 8; i++)
@@ -128,10 +129,10 @@ static inline wide8 max8(wide8 x, wide8 y)
     return x;
 }
 
-// Of the pixels to the left, above, and above to the left, per channel the one that is nearest to a + b − c, of equals the
-// first. For c between a and b the lower of them is at the distance high − c, the higher at c − low, and c at |low + high − 2c|: the
-// lower is nearest where 3c − a − b ≥ high, and the higher if it is ≤ low; which also holds for c outside. Few steps depend
-// on a, the pixel that was made last.
+// Returns, per channel, the left, upper or upper left pixel that is nearest to a + b − c; ties go to the first. For c
+// between a and b, the lower of them has the distance high − c, the higher c − low, and c itself |low + high − 2c|. The
+// lower is nearest if 3c − a − b ≥ high, and the higher if it is ≤ low, which also holds for other c. Few steps depend
+// on a, the most recent pixel.
 static inline wide8 paeth(wide8 a, wide8 b, wide8 c)
 {
     const wide8 low = min8(a, b), high = max8(a, b), middle = (c + c + c - b) - a;
@@ -140,15 +141,15 @@ static inline wide8 paeth(wide8 a, wide8 b, wide8 c)
     return (takes_high & high) | (~takes_high & other);
 }
 
-// To pixels of `size` bytes, 3 or 4. The fourth byte is read and written in any case: behind a row too. `filter` and
-// `channels` are constants where this is inlined.
+// Unfilters to pixels of `size` bytes, 3 or 4. The fourth byte is always read and written, also after a row. `filter`
+// and `channels` are constants after inlining.
 static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const uint8_t *above, const uint8_t *from,
                                                            size_t width, size_t size, int filter, int channels)
 {
     const wide8 alpha = channels < 4 ? (wide8){0, 0, 0, 255} : (wide8){0};
     wide8 a = {0}, c = {0};
     for (size_t i = 0; i < width; i++, row += size, above += size, from += channels) {
-        // Grey is the same in three channels.
+        // Grey is copied to three channels.
         wide8 v = wide_of(channels == 1 ? from[0] * 0x01010101u : pixel_at(from)), b = wide_of(pixel_at(above));
         v += filter == 1 ? a : filter == 2 ? b : filter == 3 ? (a + b) >> 1 : filter == 4 ? paeth(a, b, c) : (wide8){0};
         a = v & 255;
@@ -174,7 +175,7 @@ static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const u
         unfilter(row, above, from, width, size, 4, channels);                                                          \
         break;
 
-// A row of the file: its filter, then its pixels. Returns false if the filter is unknown.
+// Unfilters a row of the file: its filter byte, then its pixels. Returns false if the filter is unknown.
 static bool unfilter_row(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t width, size_t size,
                          int channels)
 {
@@ -189,7 +190,7 @@ static bool unfilter_row(uint8_t *row, const uint8_t *above, const uint8_t *from
     return true;
 }
 
-// --- all of it
+// --- whole pictures
 
 static bool decompress(const struct inflater *d, const uint8_t *compressed, size_t size, uint8_t *out, size_t out_size)
 {
@@ -203,8 +204,8 @@ static bool decompress(const struct inflater *d, const uint8_t *compressed, size
     return ok;
 }
 
-// Unfilters rows in place: the file's rows end at the end of the picture's memory, so that no pixel is written before
-// it is read.
+// Unfilters rows in place: the file's rows are at the end of the picture's memory, so that no pixel is overwritten
+// before it is read.
 static bool unfilter_rows(const lam_image *image, const uint8_t *rows, const uint8_t *zeros, int channels)
 {
     size_t width = (size_t)image->width, height = (size_t)image->height, size = pixel_bytes(image->format);

@@ -1,9 +1,8 @@
-// png_write.c: writes PNG files: grey, grey and alpha, RGB or RGBA, whichever is the smallest that stores the picture
-// exactly.
+// png_write.c: writes PNG files: grey, grey and alpha, RGB or RGBA, whichever is the smallest exact representation.
 //
-// The picture is cut into strips of rows, whose height depends only on the width. Each strip is filtered and compressed
-// separately (png_fast.c, png_best.c) and becomes one IDAT chunk with its own CRC, so any thread can process any strip
-// and the bytes do not depend on threads; only the Adler-32 of the whole is joined at the end.
+// The picture is divided into strips of rows, whose height depends only on the width. Each strip is filtered and
+// compressed separately (png_fast.c, png_best.c) and becomes one IDAT chunk with its own CRC. Any thread can process
+// any strip, and the bytes do not depend on threads; only the Adler-32 of the whole is combined at the end.
 #include "codec.h"
 #include "fail.h"
 #include "png_encoding.h"
@@ -12,25 +11,25 @@
 #include <string.h>
 
 enum {
-    BATCH_STRIPS = 256, // strips between two joinings: bounds the memory reserved for the worst case
+    BATCH_STRIPS = 256, // strips per batch, which limits the memory reserved for the worst case
     CHUNK_BYTES = 12,   // a chunk's length, type and CRC
     ZLIB_HEADER = 2,    // in the first strip's chunk
-    HEAD_BYTES = 128,   // at most
+    HEAD_BYTES = 128,   // maximum
     TAIL_BYTES = 6 + 2 * CHUNK_BYTES,
 };
 
 struct png_strip {
     struct adler_part adler;
-    size_t size; // of its chunk; 0: it was not encoded
+    size_t size; // size of its chunk; 0 if it was not encoded
 };
 
 struct png_writer {
     struct png_encoding encoding;
     const struct png_method *method;
     struct crc_tables crc;
-    int channels;           // enum png_channels; touched atomically
-    int first;              // strip of this batch
-    uint8_t *out;           // of this batch, chunk_capacity bytes for each strip
+    int channels;           // enum png_channels; accessed atomically
+    int first;              // first strip of this batch
+    uint8_t *out;           // the output of this batch, chunk_capacity bytes for each strip
     struct png_strip *done; // one for each strip of a batch
 };
 
@@ -63,7 +62,7 @@ static size_t put_chunk(const struct crc_tables *crc, const char *type, const vo
 typedef uint32_t u32x4 __attribute__((vector_size(16)));
 typedef u32x4 u32x4_memory __attribute__((aligned(1), may_alias));
 
-// Returns the channels that some pixels need.
+// Returns the channels that these pixels need.
 static int channels_of(const uint8_t *pixels, size_t count)
 {
     u32x4 differ = {0}, all = ~differ;
@@ -85,8 +84,8 @@ static int channels_of(const uint8_t *pixels, size_t count)
     return (colored ? PNG_COLORED : 0) | (opaque ? 0 : PNG_TRANSLUCENT);
 }
 
-// Adds the channels that a strip's pixels need. A strip is left early only when every channel is needed already, so the
-// result does not depend on the order of the strips.
+// Adds the channels that a strip's pixels need. A strip is abandoned early only if all channels are already needed, so
+// the result does not depend on the order of the strips.
 static void find_channels(void *user, size_t index, int thread)
 {
     (void)thread;
@@ -129,7 +128,7 @@ static void encode_strip(void *user, size_t index, int thread)
 static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
 {
     static const uint8_t signature[8] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
-    static const uint8_t color_types[5] = {0, 0, 4, 2, 6}; // by bytes_per_pixel
+    static const uint8_t color_types[5] = {0, 0, 4, 2, 6}; // indexed by bytes_per_pixel
     static const uint8_t intent = 0;                       // perceptual
     static const char software[] = "Software\0lambent";
     uint8_t header[13] = {0}, *at = out;
@@ -146,7 +145,7 @@ static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
     return (size_t)(at - out);
 }
 
-// The last block, empty with fixed codes, and the checksum.
+// Writes the last block, which is empty and uses fixed codes, and the checksum.
 static size_t put_tail(const struct png_writer *writer, const struct adler_part *adler, uint8_t *out)
 {
     uint8_t end[6] = {3, 0};
@@ -155,8 +154,8 @@ static size_t put_tail(const struct png_writer *writer, const struct adler_part 
     return size + put_chunk(&writer->crc, "IEND", NULL, 0, out + size);
 }
 
-// Encodes the strips of a batch, and moves their chunks together at bytes + *size. Strips are encoded at a distance
-// that fits the worst case; unused pages are never touched, so the distance costs only address space.
+// Encodes the strips of a batch, and moves their chunks together at bytes + *size. Strips are encoded at distances that
+// fit the worst case; unused pages are never touched, so this costs only address space.
 static bool encode_batch(struct png_writer *writer, int count, struct pool *pool, uint8_t *bytes, size_t *size,
                          struct adler_part *adler, lam_error *error)
 {

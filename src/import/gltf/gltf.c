@@ -21,7 +21,7 @@
 
 #include <string.h>
 
-// Returns a binary file, or a JSON object with the key "asset".
+// Recognises a binary file, or a JSON object with the key "asset".
 static int gltf_probe(const uint8_t *bytes, size_t size)
 {
     static const char key[] = "\"asset\"";
@@ -35,7 +35,7 @@ static int gltf_probe(const uint8_t *bytes, size_t size)
     return memmem(bytes + at, size - at, key, sizeof key - 1) ? 2 : 0;
 }
 
-// Warns of primitives that are not drawn; the error of a file that contains nothing else.
+// Warns of primitives that are not drawn; it is an error if the file contains nothing else.
 static bool report_skipped(struct gltf *gltf)
 {
     struct lam_scene *scene = gltf->scene;

@@ -16,19 +16,19 @@
 #include "importer.h"
 #include "json_reader.h"
 
-// The file's own bytes, a file beside it, or a data URI. Read when first used.
+// A buffer: the file's own bytes, a file beside it, or a data URI. It is read on first use.
 struct gltf_buffer {
-    const uint8_t *data; // NULL: not read yet
+    const uint8_t *data; // NULL if not read yet
     size_t size;
-    struct file_bytes file; // the owner of `data`, where that is not the model file itself
-    bool kept;              // the scene's arrays lie in it
+    struct file_bytes file; // the owner of `data`, unless that is the model file itself
+    bool kept;              // the scene's arrays point into it
 };
 
-// A bufferView: a run of a buffer's bytes.
+// A bufferView: a range of a buffer's bytes.
 struct gltf_view {
-    const uint8_t *data; // NULL: not looked at yet
-    size_t size, stride; // stride 0: the elements lie one after the other
-    int buffer;          // −1: none, the bytes were decoded into the scene's memory
+    const uint8_t *data; // NULL if not read yet
+    size_t size, stride; // stride 0: the elements are contiguous
+    int buffer;          // −1 if there is none; the bytes were decoded into the scene's memory
 };
 
 // componentType (section 3.6.2.2).
@@ -37,24 +37,24 @@ enum { GLTF_I8 = 5120, GLTF_U8, GLTF_I16, GLTF_U16, GLTF_U32 = 5125, GLTF_F32 };
 // An accessor: a typed array.
 struct gltf_accessor {
     bool ready;          // the members below are set
-    const uint8_t *data; // the first element; NULL: all elements are zero
-    int buffer;          // that `data` lies in; −1: none
-    int draco_view;      // 1 + the view that `data` was decoded from (gltf_draco.c); 0: none
+    const uint8_t *data; // the first element; NULL means all elements are zero
+    int buffer;          // the buffer of `data`, or −1
+    int draco_view;      // 1 + the view that `data` was decoded from (gltf_draco.c), or 0
     size_t count;        // elements
-    size_t stride;       // bytes from one to the next
+    size_t stride;       // bytes from one element to the next
     int component;       // GLTF_…
-    int width;           // numbers of an element
+    int width;           // numbers per element
     const char *type;    // "VEC3"
     bool normalized;
-    // Elements that replace others (section 3.6.2.3).
+    // Elements that replace others (sparse accessors, section 3.6.2.3).
     size_t sparse_count;
     int sparse_component;
     const uint8_t *sparse_indices, *sparse_values;
-    // Converted when first used. NULL: not yet.
-    const float *floats[2];  // `width` of each element; [0]: until the load ends, [1]: as long as the scene
-    const uint32_t *indices; // one of each element
+    // Converted on first use; NULL if not yet.
+    const float *floats[2];  // `width` per element; [0]: kept until the load ends, [1]: kept as long as the scene
+    const uint32_t *indices; // one per element
     uint32_t max_index;
-    const void *colors[2]; // as a mesh has them; [1]: with an alpha of 1
+    const void *colors[2]; // in a format of lam_mesh; [1]: with an alpha of 1
 };
 
 struct gltf {
@@ -64,35 +64,35 @@ struct gltf {
     struct json_reader json;
     json_t *root;
     size_t json_bytes;     // charged to the call for `root`
-    const uint8_t *binary; // the .glb's BIN chunk; NULL: none
+    const uint8_t *binary; // the .glb's BIN chunk, or NULL
     size_t binary_size;
-    bool source_kept; // the scene's arrays lie in the model file's own bytes
+    bool source_kept; // the scene's arrays point into the model file's own bytes
 
     struct gltf_buffer *buffers;
     struct gltf_view *views;
     struct gltf_accessor *accessors;
-    void *meshopt;        // the library, once a view needs it; NULL: not opened
-    void *draco;          // the module, once a primitive needs it; NULL: not opened
-    int first_material;   // of the file's own in the scene
-    int default_material; // of primitives that name none; −1: not made yet
-    int variant;          // that the caller wants; −1: none
-    size_t cut_factors;   // numbers outside of the standard's range (gltf_take_factors); the first of them:
+    void *meshopt;        // the library, once a view needs it; NULL if not opened
+    void *draco;          // the module, once a primitive needs it; NULL if not opened
+    int first_material;   // index in the scene of the file's first material
+    int default_material; // used by primitives that name none; −1 if not made yet
+    int variant;          // the requested variant, or −1
+    size_t cut_factors;   // numbers outside the standard's range (gltf_take_factors); the first of them:
     char cut_factor[160];
     double cut_from, cut_to;
 
     lam_file_image *file_images;   // one for each image (gltf_file_info.h)
     struct gltf_picture *pictures; // gltf_textures.h: two for each of the file's images
-    struct gltf_map *maps;         // the maps of materials, the last one first
-    int (*texcoord_sets)[2];       // of each material: the file's sets that serve as its first and second; −1: none
+    struct gltf_map *maps;         // the maps of materials, latest first
+    int (*texcoord_sets)[2];       // for each material, the file's sets used as its first and second set; −1 if unused
 
     struct gltf_node *nodes; // gltf_nodes.h
     int node_count;
     const int *node_order;    // parents before children, children in the file's order
     struct gltf_mesh *meshes; // gltf_primitives.h
 
-    // Primitives that are left out, for one warning of each kind, and for the error of a file with nothing else.
+    // Skipped primitives: for one warning of each kind, and for the error of a file that contains nothing else.
     size_t without_positions, flattened;
-    uint64_t morphed; // vertices, once for each target that moved them
+    uint64_t morphed; // morphed vertices, counted once per target
 };
 
 #define GLTF_ALLOC(gltf, count, type) ((type *)arena_alloc_zeroed((gltf)->scratch, (size_t)(count) * sizeof(type)))

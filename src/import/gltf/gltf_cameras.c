@@ -22,7 +22,7 @@ static bool read_perspective(struct gltf *gltf, const struct place *place, const
                          near_plane);
     camera->fovy_rad = yfov;
     camera->near_plane = near_plane;
-    camera->far_plane = far_plane; // 0, if there is no zfar: lam_scene_camera fits it
+    camera->far_plane = far_plane; // 0 without zfar: lam_scene_camera fits it
     return true;
 }
 
@@ -79,7 +79,7 @@ static bool add_camera(struct gltf *gltf, int node_index)
         return false;
     if (!(camera.name = gltf_name(gltf, object, &ok)) && ok)
         camera.name = gltf_name(gltf, gltf_list_item(gltf, "cameras", index), &ok);
-    // Scales of nodes do not count (section 3.10.1).
+    // The scale of nodes is ignored (section 3.10.1).
     lam_vec3 forward = v3_unit(mat4_vector(world, v3(0, 0, -1))), up = v3_unit(mat4_vector(world, v3(0, 1, 0)));
     if (v3_length(forward) == 0 || v3_length(up) == 0)
         return ok;

@@ -61,7 +61,7 @@ bool gltf_container_read(struct gltf *gltf, const uint8_t **text, size_t *size)
         } else if (chunk == 1 && type == CHUNK_BIN) {
             gltf->binary = source->bytes + begin;
             gltf->binary_size = length;
-        } // others belong to extensions
+        } // other chunks belong to extensions
         // The padding of the last chunk may be missing.
         size_t padded = ((size_t)length + 3) & ~(size_t)3;
         at = padded < end - begin ? begin + padded : end;

@@ -1,4 +1,4 @@
-// gltf_extensions.c: checks the extensions that a file names, and reports their support.
+// gltf_extensions.c: checks the extensions that a file uses, and reports their support.
 #include "gltf_extensions.h"
 
 #include "gltf_json.h"
@@ -37,7 +37,7 @@ static const struct {
     {"KHR_node_visibility", READ},
     {"KHR_materials_diffuse_transmission", IGNORED},
     {"KHR_materials_dispersion", IGNORED},
-    {"KHR_texture_basisu", SILENT}, // its textures have another picture, or the load ends
+    {"KHR_texture_basisu", SILENT}, // its textures have a fallback picture, or the load fails
     {"KHR_texture_transform", READ},
     {"KHR_xmp", SILENT},
     {"KHR_xmp_json_ld", SILENT},
@@ -51,7 +51,7 @@ lam_extension_support gltf_extension_support(const char *name)
     return LAM_EXTENSION_UNKNOWN;
 }
 
-// "2.0" as 2 and 0.
+// Parses "2.0" as 2 and 0.
 static bool take_version(struct gltf *gltf, const json_t *asset, const char *key, int version[2])
 {
     const json_t *value = json_object_get(asset, key);
@@ -77,7 +77,7 @@ bool gltf_check_asset(struct gltf *gltf)
     if (version[0] != 2)
         return fail(gltf->json.error, LAM_UNSUPPORTED, "%s: asset.version: this is glTF %d.%d, expected version 2",
                     gltf->source->name, version[0], version[1]);
-    // A file of version 2.1 that does not ask for more is read as 2.0 (section 3.2).
+    // A file of version 2.1 that does not require more is read as 2.0 (section 3.2).
     if (minimum[0] != 2 || minimum[1] > 0)
         return fail(gltf->json.error, LAM_UNSUPPORTED,
                     "%s: asset.minVersion: the file needs glTF %d.%d, expected at most 2.0", gltf->source->name,
@@ -85,7 +85,7 @@ bool gltf_check_asset(struct gltf *gltf)
     return true;
 }
 
-// Returns a list of texts; NULL if it is missing or, with *ok false, wrong.
+// Returns a list of strings, or NULL if it is missing or, with *ok false, wrong.
 static const json_t *take_names(struct gltf *gltf, const char *key, bool *ok)
 {
     const json_t *list = json_object_get(gltf->root, key);

@@ -1,5 +1,5 @@
-// gltf_file_info.c: collects information about the file: names, animation lengths, extensions. Values of a wrong type
-// count as missing, because they do not affect the picture.
+// gltf_file_info.c: collects information about the file: names, animation lengths, extensions. Values with a wrong type
+// are treated as missing, because they do not affect the picture.
 #include "gltf_file_info.h"
 
 #include "gltf_extensions.h"
@@ -9,7 +9,7 @@
 
 #define NEW(gltf, count, type) ((type *)arena_alloc_zeroed(&(gltf)->scene->arena, (size_t)(count) * sizeof(type)))
 
-// A copy of a text; *out NULL if there is none. Returns false if memory runs out.
+// Copies a string; *out is NULL if there is none. Returns false if memory runs out.
 static bool take(struct gltf *gltf, const json_t *object, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(object, key));
@@ -29,7 +29,7 @@ static bool take_names(struct gltf *gltf, const json_t *list, const char *const 
     return names;
 }
 
-// Returns the last key of the sampler that a channel names: the format demands that its accessor states it.
+// Returns the time of the last key of a channel's sampler, which its accessor must state.
 static double last_key(const struct gltf *gltf, const json_t *sampler)
 {
     const json_t *accessors = json_object_get(gltf->root, "accessors"), *input = json_object_get(sampler, "input");
@@ -60,7 +60,7 @@ static bool take_animations(struct gltf *gltf, lam_file_info *info)
     return animations;
 }
 
-// "image/png" says "png"; without a type the ending of the file's name does.
+// Gets "png" from "image/png"; without a type, the file extension is used.
 static bool take_format(struct gltf *gltf, const json_t *object, const lam_file_image *image, const char **out)
 {
     const char *type = json_string_value(json_object_get(object, "mimeType")), *format = NULL;
@@ -103,7 +103,7 @@ static bool holds(const json_t *list, const char *name)
     return false;
 }
 
-// gltf_check_extensions has seen that both lists are lists of texts.
+// Both lists contain only strings: gltf_check_extensions checked them.
 static bool take_extensions(struct gltf *gltf, lam_file_info *info)
 {
     const json_t *lists[2] = {json_object_get(gltf->root, "extensionsUsed"),

@@ -4,8 +4,8 @@
 
 #include "gltf.h"
 
-// Notes the file's facts in the scene; which scene is read is noted by gltf_nodes_read. Reads no buffers. Returns false
-// if memory runs out.
+// Stores the file's information in the scene; gltf_nodes_read stores the index of its scene. No buffers are read.
+// Returns false if memory runs out.
 bool gltf_file_info_note(struct gltf *gltf);
 
 #endif

@@ -14,7 +14,8 @@ bool gltf_no_memory(struct gltf *gltf, size_t bytes)
     return call_memory_error(gltf->source->call, bytes, gltf->json.error);
 }
 
-// Bytes that Jansson needs for the text: each value, which follows one of these characters, and the texts themselves.
+// Returns the bytes that Jansson needs for the text: for each value, which follows one of these characters, and for the
+// strings.
 static size_t tree_bytes(const uint8_t *text, size_t size)
 {
     enum { BYTES_OF_A_VALUE = 96 };
@@ -47,7 +48,7 @@ static bool check_lists(struct gltf *gltf)
 bool gltf_json_parse(struct gltf *gltf, const uint8_t *text, size_t size)
 {
     size_t bytes = tree_bytes(text, size);
-    while (size && !text[size - 1]) // some programs pad the chunk with zeros instead of blanks
+    while (size && !text[size - 1]) // some programs pad the chunk with zeros instead of spaces
         size--;
     if (!call_charge(gltf->source->call, bytes))
         return gltf_no_memory(gltf, bytes);

@@ -5,25 +5,25 @@
 #include "gltf.h"
 
 struct gltf_node {
-    int parent; // −1: a root
+    int parent; // −1 for a root
     // The transform as a matrix, or as translation, rotation (a unit quaternion x y z w) and scale.
     bool has_matrix;
     double matrix[16]; // column by column
     double translation[3], rotation[4], scale[3];
-    double *weights; // of morph targets; NULL: the mesh's
+    double *weights; // weights of morph targets; NULL means the mesh's weights
     size_t weight_count;
-    bool visible;   // KHR_node_visibility: of the node itself and all above it
-    bool in_scene;  // of the scene that is drawn
-    lam_mat4 world; // to the file's space
+    bool visible;   // KHR_node_visibility, of the node and all its ancestors
+    bool in_scene;  // part of the scene that is drawn
+    lam_mat4 world; // transform to the file's space
 };
 
-// Reads all nodes, checks that they are trees, and marks the nodes of the requested scene.
+// Reads all nodes, checks that they form trees, and marks the nodes of the requested scene.
 bool gltf_nodes_read(struct gltf *gltf);
 
 // Computes node->world and node->visible of all nodes.
 bool gltf_nodes_place(struct gltf *gltf);
 
-// Makes a quaternion's length 1; one of length 0 becomes no rotation.
+// Normalises a quaternion; a zero quaternion becomes the identity.
 void gltf_unit_quaternion(double q[4]);
 
 lam_mat4 gltf_transform(const double translation[3], const double rotation[4], const double scale[3]);

@@ -11,7 +11,8 @@
 
 #include "linear.h"
 
-// Adds the primitives of a mesh under a transform. A transform that squeezes space into a line or a point shows nothing.
+// Adds the primitives of a mesh with a transform. A singular transform, which flattens space to a line or a point,
+// shows nothing.
 static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char *name, const lam_mat4 *transform)
 {
     double cofactors[3][3], determinant = mat4_determinant3(transform);
@@ -31,7 +32,7 @@ static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char
         lam_object object = lam_object_default();
         object.mesh = mesh->primitives[i].mesh;
         object.name = name;
-        if (!mesh->primitives[i].skinned) // the transform of a skinned mesh's node does not count
+        if (!mesh->primitives[i].skinned) // the node transform of a skinned mesh is ignored
             object.transform = *transform;
         int32_t material = scene_mesh(gltf->scene, object.mesh)->parts->material;
         object.cull = gltf_material_is_double_sided(gltf, material) ? LAM_CULL_NONE : LAM_CULL_BACK;
@@ -41,13 +42,13 @@ static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char
     return true;
 }
 
-// A node's instances: 3, 4 and 3 numbers each; NULL: the attribute is not given.
+// A node's instances: 3, 4 and 3 numbers each; NULL means the attribute is missing.
 struct instances {
     const float *translation, *rotation, *scale;
     size_t count;
 };
 
-// Returns whether all instances are within the call's limits, before the first one is made.
+// Returns whether all instances are within the call's limits; nothing is made before that.
 static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, size_t count)
 {
     struct call_control *call = gltf->source->call;
@@ -70,7 +71,7 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
     return true;
 }
 
-// Returns false if the call must end. The clock is read once for this many objects.
+// Returns false if the call must end. The clock is read once per this many objects.
 static bool continues(struct gltf *gltf, size_t number)
 {
     struct call_control *call = gltf->source->call;

@@ -1,4 +1,4 @@
-// byte_masks.h: bit masks of the line ends, white space and special characters in 64 bytes of text. SSE2 where the
+// byte_masks.h: bit masks of the line ends, white space and special characters in 64 bytes of text. It uses SSE2 if the
 // compiler has it; the scalar version returns the same masks.
 #ifndef BYTE_MASKS_H
 #define BYTE_MASKS_H
@@ -19,7 +19,7 @@ struct byte_masks {
     uint64_t special; // '#' or '\\'
 };
 
-// Population count. Without the instruction, the compiler's builtin is a call that looks up a table.
+// Counts the set bits. Without the instruction, the compiler's builtin calls a function with a lookup table.
 static inline unsigned byte_masks_count(uint64_t bits)
 {
 #if defined(__POPCNT__) || defined(__aarch64__)
@@ -50,7 +50,7 @@ static inline struct byte_masks byte_masks_of(const uint8_t *at)
     return masks;
 }
 
-// Returns the newline mask alone.
+// Returns only the newline mask.
 static inline uint64_t byte_masks_newlines(const uint8_t *at)
 {
     const __m128i newline = _mm_set1_epi8('\n');

@@ -10,27 +10,28 @@
 #include <string.h>
 #include <strings.h>
 
-// One file while it is read.
+// The state of reading one file.
 struct reader {
     struct mtl_set *set;
     struct lam_scene *scene;
-    const char *name; // of the file, for messages
+    const char *name; // the file's name, for messages
     const uint8_t *begin, *end;
-    // Line number cache (line_of): `line` is the number of the line at `counted_to`.
+    // Line number cache (line_of): `line` is the line number of `counted_to`.
     const uint8_t *counted_to;
     size_t line;
     bool raw; // colours are not converted
-    // The current material and which of its statements were read.
+    // The current material, and the statements that were read for it.
     lam_material material;
     bool open, ka, kd, d;
-    const uint8_t *opacity, *exponent; // the statements that gave d or Tr, and Ns; NULL: none
-    // Warned of once per file: unknown statements, and statements before the first newmtl. The first of each.
-    const uint8_t *unknown, *stray, *wide; // wide: of highlights with the exponent 0
+    const uint8_t *opacity, *exponent; // the statements with d or Tr, and with Ns, or NULL
+    // The first occurrence of each kind that is warned of once per file: unknown statements, and statements before the
+    // first newmtl.
+    const uint8_t *unknown, *stray, *wide; // wide: highlights with the exponent 0
     size_t unknown_count, stray_count, wide_count;
 };
 
-// Returns the line number of `at`, for warnings. Counts on from the previous call: many warnings take one pass over the
-// file.
+// Returns the line number of `at`, for warnings. It continues counting from the previous call, so that many warnings
+// take one pass over the file.
 static size_t line_of(struct reader *reader, const uint8_t *at)
 {
     if (at < reader->counted_to || !reader->counted_to) {
@@ -42,7 +43,7 @@ static size_t line_of(struct reader *reader, const uint8_t *at)
     return reader->line;
 }
 
-// Reads up to `max` numbers and returns their count; −1, with a warning, if there are fewer than `min`.
+// Reads up to `max` numbers and returns their count, or −1 with a warning if there are fewer than `min`.
 static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int min, int max)
 {
     int count = 0;
@@ -67,19 +68,19 @@ static float within(struct reader *reader, const uint8_t *at, float x, float low
 {
     if (x >= low && x <= high)
         return x;
-    float to = x > high ? high : low; // NaN goes to the lower end
+    float to = x > high ? high : low; // NaN becomes the lower limit
     scene_warn(reader->scene, "%s:%zu: %s %g is out of range, %g is used", reader->name, line_of(reader, at), what,
                (double)x, (double)to);
     return to;
 }
 
-// Returns a channel as linear light. Values from 1 on, where sRGB ends, are kept unchanged.
+// Returns a channel as linear light. Values of 1 or more, outside the sRGB curve, are unchanged.
 static float linear(const struct reader *reader, float c)
 {
     return reader->raw || c >= 1 ? c : (float)srgb_linear((double)c);
 }
 
-// K… r [g b]; one number sets all three channels. False: ignored, with a warning.
+// Reads K… r [g b]; a single number sets all three channels. Returns false if the statement is ignored, with a warning.
 static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)
 {
     at = text_skip_white(at, end);
@@ -102,8 +103,8 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
 
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// Replaces a material whose colours are all 0: by white if a texture has the colour, otherwise (exporters write such
-// materials by mistake) by the neutral grey, with a warning.
+// Replaces the colour of a material whose colours are all 0: by white if a texture supplies the colour, otherwise by
+// the neutral grey, with a warning, since exporters write such materials by mistake.
 static void replace_black(struct reader *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
@@ -124,12 +125,14 @@ static void replace_black(struct reader *reader, lam_material *m)
 static void note_clear(struct reader *reader)
 {
     char shown[SHOWN_NAME_SIZE];
-    size_t line = reader->scene->clear_materials ? 0 : text_line(reader->begin, reader->opacity); // of the first one
+    // position of the first one
+    size_t line = reader->scene->clear_materials ? 0 : text_line(reader->begin, reader->opacity);
     scene_note_clear(reader->scene, "%s:%zu: material '%s' is fully transparent (%s)", reader->name, line,
                      shown_name(reader->material.name, shown), reader->d ? "d 0" : "Tr 1");
 }
 
-// With the exponent 0 a highlight covers all that is lit. MeshLab writes Ks 1 1 1 and Ns 0 for materials without one.
+// With the exponent 0, the highlight covers the whole lit area. MeshLab writes Ks 1 1 1 and Ns 0 for materials without
+// a highlight.
 static void remove_wide_highlight(struct reader *reader, lam_material *m)
 {
     if (!reader->exponent || m->shininess > 0 || is_black(m->specular))
@@ -151,7 +154,7 @@ static bool close_material(struct reader *reader, lam_error *error)
         m->diffuse.r = m->diffuse.g = m->diffuse.b = 1;
     if (!reader->ka)
         m->ambient = (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b};
-    if (m->illum == 0) { // the colour itself, unlit
+    if (m->illum == 0) { // the unlit colour
         m->emission =
             (lam_rgb){m->emission.r + m->diffuse.r, m->emission.g + m->diffuse.g, m->emission.b + m->diffuse.b};
         m->diffuse.r = m->diffuse.g = m->diffuse.b = 0;
@@ -223,7 +226,7 @@ static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at,
 {
     const uint8_t *name = skip_options(at, end), *last = name;
     if (name == end)
-        return true; // an empty map statement, as exporters write for "none"
+        return true; // an empty map statement, which exporters write for "none"
     while (last > at && text_white(last[-1]))
         last--;
     struct arena *arena = &reader->scene->arena;
@@ -240,11 +243,11 @@ enum statement {
     NEWMTL,
     TR,
     ILLUM,
-    MAP,                           // + enum lam_map
-    NOTHING = MAP + LAM_MAP_COUNT, // known, without a part in the classic models
+    MAP,                           // MAP + enum lam_map
+    NOTHING = MAP + LAM_MAP_COUNT, // known, but not supported by the classic models
     OTHER_MAP,
     UNKNOWN,
-    FIELD, // + the index of the material's field that it is the source of
+    FIELD, // FIELD + the index of the material's field that the statement sets
 };
 
 static const struct {
@@ -270,7 +273,8 @@ static const struct {
     {"map_refl", MAP + LAM_MAP_REFLECTION},
     {"map_pm", MAP + LAM_MAP_METALLIC},
     {"map_pr", MAP + LAM_MAP_ROUGHNESS},
-    // Refraction, the transmission filter, sharpness of reflections; and additions of physically based programs.
+    // Statements for refraction, the transmission filter and the sharpness of reflections, and extensions of physically
+    // based programs.
     {"ni", NOTHING},
     {"tf", NOTHING},
     {"kt", NOTHING},
@@ -301,7 +305,7 @@ static int statement_of(const uint8_t *at, const uint8_t *end)
     return map || text_is_word(at, end, "decal") ? OTHER_MAP : UNKNOWN;
 }
 
-// A colour (of one with an alpha the first three numbers), or a number brought into its range.
+// Reads a colour (only the first three numbers of one with an alpha), or a number, which is clamped to its range.
 static void read_material_field(struct reader *reader, int index, const uint8_t *at, const uint8_t *end)
 {
     const lam_field *field = lam_material_field(index);
@@ -309,7 +313,7 @@ static void read_material_field(struct reader *reader, int index, const uint8_t 
     double numbers[4];
     if (lam_field_get(field, m, numbers) == 1) {
         float number, max = field->max < 1e6 ? (float)field->max : 1e6f;
-        if (text_is_word(at, end, "-halo")) // of d
+        if (text_is_word(at, end, "-halo")) // an option of d
             at = text_skip_white(text_skip_word(at, end), end);
         if (read_numbers(reader, at, end, &number, 1, 1) != 1)
             return;
@@ -322,7 +326,7 @@ static void read_material_field(struct reader *reader, int index, const uint8_t 
     }
     lam_field_set(field, m, numbers);
     material_note_written(m, index);
-    if (field->offset == offsetof(lam_material, ambient)) // 1 1 1 is a habit, not a choice
+    if (field->offset == offsetof(lam_material, ambient)) // exporters write 1 1 1 by default
         reader->ka = !(numbers[0] == 1 && numbers[1] == 1 && numbers[2] == 1);
     reader->kd |= field->offset == offsetof(lam_material, diffuse);
     reader->d |= field->offset == offsetof(lam_material, diffuse.a);
@@ -357,7 +361,7 @@ static bool read_statement(struct reader *reader, const uint8_t *at, const uint8
         return true;
     }
     switch (statement) {
-    case TR: // d decides if both are present, in any order
+    case TR: // if both are present, in any order, d is used
         if (!reader->d && read_numbers(reader, at, end, &number, 1, 1) == 1) {
             m->diffuse.a = 1 - within(reader, at, number, 0, 1, "Tr");
             reader->opacity = word;

@@ -7,13 +7,13 @@
 
 // The materials of one model.
 struct mtl_set {
-    struct name_table by_name; // of the model; the value is the index in the scene
-    size_t other_maps;         // statements that name a texture which is not drawn
-    size_t reflection_maps;    // statements refl, which give one material surroundings of its own
+    struct name_table by_name; // maps the model's material names to indices in the scene
+    size_t other_maps;         // number of statements with a texture that is not drawn
+    size_t reflection_maps;    // number of refl statements, which assign an environment to one material
 };
 
-// Reads a file's materials into the scene and the set; of equal names the first is kept. Errors in the file become
-// warnings: only lack of memory or a cancelled call makes it fail.
+// Reads a file's materials into the scene and the set; duplicate names are ignored. Errors in the file become warnings:
+// the call fails only if memory runs out or it is cancelled.
 bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene,
               const struct companion *library, lam_error *error);
 

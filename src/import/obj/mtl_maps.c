@@ -1,4 +1,4 @@
-// mtl_maps.c: maps of MTL materials: their options, and pictures decoded together.
+// mtl_maps.c: reads the maps of MTL materials: their options, and their pictures, which are decoded together.
 #include "mtl_maps.h"
 
 #include "companion.h"
@@ -12,7 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
-// A picture that maps name: by its confined name, and whether its numbers are colours.
+// A picture of one or more maps, identified by its confined name and by whether its numbers are colours.
 struct picture {
     const char *name;
     lam_texture_values values;
@@ -39,13 +39,13 @@ static bool is_drawn(int slot) { return slot != LAM_MAP_DISPLACEMENT && slot != 
 
 struct options {
     const uint8_t *at, *end;
-    // For warnings: the option that is read, of which map of which material.
+    // For warnings: the current option, its map and its material.
     struct lam_scene *scene;
     const char *file, *material, *option;
     int slot;
 };
 
-enum { OPTION_MAX = 1000000 }; // of a number's magnitude: texture coordinates beyond have no digits left for a texel
+enum { OPTION_MAX = 1000000 }; // larger texture coordinates have no digits left to select a texel
 
 static void warn_option(const struct options *o, const char *found, const char *expected)
 {
@@ -55,7 +55,7 @@ static void warn_option(const struct options *o, const char *found, const char *
                o->option, lam_map_name((lam_map)o->slot), found, expected);
 }
 
-// Takes up to `most` numbers; returns how many there are.
+// Reads up to `most` numbers and returns their count.
 static int take_numbers(struct options *o, float *out, int most)
 {
     int count = 0;
@@ -69,7 +69,7 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
-// Reads numbers that affect the map: if one is out of range, all are ignored, with a warning.
+// Reads numbers that affect the map. If one is out of range, all are ignored with a warning.
 static int take_checked(struct options *o, float *out, int most)
 {
     float numbers[3];
@@ -94,8 +94,8 @@ static bool take_word(struct options *o, const char *word)
     return true;
 }
 
-// Takes the channel of -imfchan; m, l and z are the matte (alpha), the luminance and the depth. Returns false if it is
-// none of them.
+// Gets the channel of -imfchan; m, l and z are the matte (alpha), the luminance and the depth. Returns false for other
+// letters.
 static bool take_channel(struct options *o, int *channel)
 {
     static const char letters[] = "rgbmlz";
@@ -110,7 +110,7 @@ static bool take_channel(struct options *o, int *channel)
     return known;
 }
 
-// MTL's texture coordinates have t upwards; -s and -o change them first.
+// In MTL, t points up; -s and -o apply before the flip.
 static void set_transform(lam_texture_map *map, const float scale[2], const float offset[2])
 {
     const float m[2][3] = {{scale[0], 0, offset[0]}, {0, -scale[1], 1 - offset[1]}};
@@ -182,7 +182,7 @@ static bool can_do_without(const lam_error *error)
 
 // --- materials
 
-// Returns whether the pictures of two maps are the same file's same channel.
+// Returns whether the opacity map is the alpha of the diffuse map's picture.
 static bool is_own_alpha(const lam_material *m)
 {
     return m->map_names[LAM_MAP_OPACITY] && m->map_names[LAM_MAP_DIFFUSE] &&
@@ -201,16 +201,16 @@ static bool add_map(struct lam_scene *scene, const char *file, lam_material *mat
     // The opacity of a picture is its alpha, or its grey value if it has no alpha.
     if (slot == LAM_MAP_OPACITY && !channel_given)
         map->channel = picture->texture->opaque ? 0 : 3;
-    bool nothing = map->scale == 0 && map->offset == 0; // 0 would mean 1
+    bool nothing = map->scale == 0 && map->offset == 0; // a scale of 0 would mean 1
     if (nothing || (slot == LAM_MAP_OPACITY && map->channel == 3 && is_own_alpha(material)))
-        return true; // the alpha of the diffuse map counts already
+        return true; // the alpha of the diffuse map is already used
     material->maps[slot] = map;
     if (slot == LAM_MAP_DIFFUSE && material->illum == 0 && !material->map_names[LAM_MAP_EMISSION])
-        material->maps[LAM_MAP_EMISSION] = map; // the colour itself, unlit
+        material->maps[LAM_MAP_EMISSION] = map; // the unlit colour
     return scene_share_texture(scene, picture->texture, error);
 }
 
-// Calls that list pictures, and that give maps to materials.
+// Visits all maps, to list their pictures or to set the maps in materials.
 typedef bool map_fn(struct pictures *pictures, struct lam_scene *scene, lam_material *material, int slot,
                     lam_error *error);
 

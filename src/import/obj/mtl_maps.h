@@ -4,8 +4,8 @@
 
 #include "mtl.h"
 
-// Reads the textures of the scene's materials from `first` on (map_names, map_options), in parallel, and gives them
-// their maps. A picture that cannot be read is left out with a warning. `memory` is used only during the load.
+// Reads the textures of the scene's materials from index `first` on (map_names, map_options) in parallel, and sets
+// their maps. A picture that cannot be read is omitted with a warning. `memory` is used only during the load.
 bool mtl_maps_read(const struct import_source *source, struct lam_scene *scene, int first, struct arena *memory,
                    lam_error *error);
 

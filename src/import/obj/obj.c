@@ -19,7 +19,7 @@ static bool first_word_known(const uint8_t *at, const uint8_t *end)
     return false;
 }
 
-// Certain if all of the first statements are known and one of them occurs in no other format.
+// The format is certain if all of the first statements are known and one of them occurs in no other format.
 static int obj_probe(const uint8_t *bytes, size_t size)
 {
     enum { SAMPLE = 64 << 10, STATEMENTS = 32 };
@@ -78,7 +78,7 @@ static bool alloc_arrays(struct obj *obj, lam_error *error)
                                 alloc_array(obj, kept, &obj->normal_indices, corners, sizeof(uint32_t), error)));
 }
 
-// Old Macintosh programs end lines with '\r' alone: such a file is copied, with '\n' for '\r'.
+// Old Macintosh programs end lines with '\r' only: such a file is copied with '\n' instead of '\r'.
 static bool convert_line_ends(struct obj *obj, lam_error *error)
 {
     size_t size = (size_t)(obj->end - obj->begin);

@@ -23,7 +23,7 @@ enum {
     OBJ_CHUNK = 256 << 10,    // bytes: about a hundred microseconds of work
     OBJ_MISSING = UINT32_MAX, // a corner without this attribute
     OBJ_POLYGONS_PER_PIECE = 1024,
-    OBJ_LIBRARIES_MAX = 256, // names of material files that are tried
+    OBJ_LIBRARIES_MAX = 256, // most names of material files that are tried
 };
 
 // Kinds of statements.
@@ -33,37 +33,37 @@ enum obj_kind {
     OBJ_TEXCOORD,
     OBJ_NORMAL,
     OBJ_FACE,
-    OBJ_OTHER, // recorded; obj_groups.c reads it
+    OBJ_OTHER, // recorded for obj_groups.c
 };
 
 struct obj_counts {
     uint64_t positions, texcoords, normals;
-    uint64_t triangles, polygons; // polygons: faces of more than three corners
+    uint64_t triangles, polygons; // polygons: faces with more than three corners
     uint64_t others;              // statements of OBJ_OTHER
 };
 
 struct obj_chunk {
-    const uint8_t *begin, *end; // whole lines
-    // Elements in this chunk. While a stream is parsed (obj_stream.c): the capacity of its arrays.
+    const uint8_t *begin, *end; // complete lines
+    // The elements in this chunk. While a stream is parsed (obj_stream.c), the capacity of its arrays.
     struct obj_counts counts;
-    struct obj_counts before; // elements in the chunks before this one
-    // Pass one: some vertex has a colour; the text contains a '/'.
+    struct obj_counts before; // elements in all previous chunks
+    // Pass one: whether a vertex has a colour, and whether the text contains a '/'.
     bool colors, slashes;
     // Pass two. Bounding box of the positions; low > high if there are none.
     float low[3], high[3];
     double low_exact[3], high_exact[3]; // in double, if an origin is needed
     float brightest;                    // the largest colour channel
-    // Some corner names, or does not name, a texture coordinate or a normal.
+    // Whether some corners have, or lack, a texture coordinate or a normal.
     bool texcoord_used, texcoord_missing, normal_used, normal_missing;
-    // Some corner names one although the file contains none.
+    // Whether a corner refers to one although the file contains none.
     bool texcoord_unknown, normal_unknown;
-    uint64_t short_faces;                              // of one or two corners
+    uint64_t short_faces;                              // the number of faces with one or two corners
     uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
     const uint8_t *first_short_face, *first_nonfinite; // the first of each
 };
 
-// A face of more than three corners: its `count` corners are stored at indices[3 * first_triangle] and after, in the
-// range of its triangles, until obj_faces.c triangulates it.
+// A face with more than three corners. Its `count` corners are stored from indices[3 * first_triangle], in the range of
+// its triangles, until obj_faces.c triangulates it.
 struct obj_polygon {
     uint32_t first_triangle, count;
 };
@@ -75,20 +75,20 @@ struct obj_statement {
     uint32_t positions, texcoords;
 };
 
-// Lines or points: two corners of each line, one of each point.
+// Lines or points: two corners for each line, one for each point.
 struct obj_strokes {
-    uint32_t *positions, *texcoords; // of each corner; OBJ_MISSING: none
+    uint32_t *positions, *texcoords; // per corner; OBJ_MISSING: none
     size_t corners;
-    bool textured; // a corner names a texture coordinate
-    size_t empty;  // statements without one
+    bool textured; // a corner has a texture coordinate
+    size_t empty;  // number of statements without corners
     lam_part *parts;
     uint32_t part_count;
 };
 
-// The material files that were named so far.
+// The material files named so far.
 struct obj_libraries {
-    struct name_table tried; // by confined names; the value: 1 read, 0 missing
-    bool named, missing;     // any was; some could not be opened, or was left out
+    struct name_table tried; // keys: confined names; values: 1 read, 0 missing
+    bool named, missing;     // whether any was named; whether some could not be opened or were skipped
     bool left_out;           // there are more than OBJ_LIBRARIES_MAX
 };
 
@@ -102,29 +102,29 @@ struct obj {
     size_t chunk_count;
     struct obj_counts total;
     bool colors_present;
-    bool streamed;       // obj_stream.c: the text before the current piece is not in memory
-    bool line_requested; // a message needs a line number, which a stream does not have
+    bool streamed;       // obj_stream.c: the text before the current chunk is not in memory
+    bool line_requested; // a message needs a line number, which is unknown in a stream
 
     float *positions, *texcoords, *normals, *colors; // colors: RGBA
     uint32_t *indices, *texcoord_indices, *normal_indices;
     struct obj_polygon *polygons;
     struct obj_statement *statements;
     uint32_t *smoothing_groups;
-    uint8_t *inner_edges; // as lam_mesh.inner_edges; NULL: not asked for, or no polygons
+    uint8_t *inner_edges; // same as lam_mesh.inner_edges; NULL if not requested or there are no polygons
     lam_part *parts;
     uint32_t part_count;
-    const char *object_name;       // if the file has one object; else NULL
+    const char *object_name;       // set if the file has exactly one object; else NULL
     struct obj_strokes strokes[2]; // points, lines
 
     double origin[3];
     bool has_origin;
-    float color_scale; // 1/255 if some channel is above 1
+    float color_scale; // 1/255 if a channel is above 1
 
     struct mtl_set materials;
     struct obj_libraries libraries;
 };
 
-// obj_scan.c. The begin of the next logical line, or `end`. A backslash before '\n' continues a line.
+// obj_scan.c. Returns the start of the next logical line, or `end`. A backslash before '\n' continues a line.
 const uint8_t *obj_next_line(const uint8_t *at, const uint8_t *end);
 // Returns the next word of the statement, or its end ('\n' or `end`). Skips white space, line continuations and a
 // comment.
@@ -136,25 +136,25 @@ bool obj_scan(struct obj *obj, lam_error *error); // pass one
 struct obj_reader {
     struct obj *obj;
     struct obj_chunk *chunk;
-    const uint8_t *end;      // of the file
+    const uint8_t *end;      // the end of the file
     struct obj_counts next;  // index of the next element of each kind
     struct obj_counts limit; // end of the chunk's index ranges
     float low[4], high[4];   // bounding box of the positions; the fourth component is unused
     lam_error *error;
 };
 
-// obj_lines.c, compiled for several instruction sets: reads lines up to the first with a continuation. Returns the
-// start of the next line, at most `end`; NULL: error.
+// obj_lines.c, compiled for several instruction sets: reads lines up to the first one with a continuation. Returns the
+// start of the next line, at most `end`, or NULL on error.
 typedef const uint8_t *obj_lines_reader(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
 obj_lines_reader obj_read_lines_scalar, obj_read_lines_avx512;
 
-// obj_line.c. Reads one logical line of any kind and returns the start of the next; NULL: error.
+// obj_line.c. Reads one logical line of any kind and returns the start of the next, or NULL on error.
 const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);
 // obj_parse.c
 bool obj_parse(struct obj *obj, lam_error *error); // pass two
 // Parses one chunk into the index ranges that its counts give. `error` may be NULL.
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error);
-// Chooses the origin; reads positions far from zero again, in double.
+// Chooses the origin; reads positions far from zero again, as doubles.
 bool obj_find_origin(struct obj *obj, lam_error *error);
 bool obj_convert_colors(struct obj *obj, lam_error *error);
 
@@ -166,15 +166,16 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 // obj_groups.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
 
-// obj_strokes.c. The corners that a statement l (lines) or p makes, so many of which are reserved, with parts; then
-// each statement is read in turn, and in the end both are added to the scene. `texcoords`: the file's.
+// obj_strokes.c. The first function returns the number of corners for a statement l (lines) or p, which is then
+// reserved along with the parts. Each statement is then read in turn, and finally both meshes are added to the scene.
+// `texcoords` are the file's.
 size_t obj_strokes_corners(const struct obj *obj, const uint8_t *at, bool lines);
 bool obj_strokes_reserve(struct obj *obj, bool lines, size_t corners, size_t parts, lam_error *error);
 bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bool lines, lam_error *error);
 bool obj_strokes_add(struct obj *obj, const float *texcoords, lam_error *error);
 
-// obj_libraries.c. Reads the file of a mtllib statement at `at`: its name, possibly with spaces, or several names. One
-// that cannot be opened is a warning.
+// obj_libraries.c. Reads the files of a mtllib statement at `at`: one name, possibly with spaces, or several names. A
+// file that cannot be opened is a warning.
 bool obj_read_libraries(struct obj *obj, const char *names, const uint8_t *at, lam_error *error);
 
 // obj_stream.c: the importer's load_stream.
@@ -187,20 +188,20 @@ bool obj_complete(struct obj *obj, lam_error *error);
 bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
                       lam_error *error);
 
-// The line number of `at`; in a stream 0, and line_requested is set.
+// Returns the line number of `at`. In a stream it returns 0 and sets line_requested.
 size_t obj_line_number(struct obj *obj, const uint8_t *at);
 
 static inline bool obj_white(uint8_t c) { return c <= ' ' && c != '\n' && c != 0; }
 
 static inline const uint8_t *obj_next_word(const uint8_t *at, const uint8_t *end)
 {
-    while (obj_white(*at)) // ends at the zero padding after the file
+    while (obj_white(*at)) // stops at the zero padding after the file
         at++;
-    // Digits, signs and '.' lie above '#'.
+    // Digits, signs and '.' are above '#' in ASCII.
     return *at > '#' && *at != '\\' ? at : obj_next_word_slow(at, end);
 }
 
-// Returns whether `at` is the statement's end, after obj_next_word.
+// Returns whether the statement ends at `at`, after obj_next_word.
 static inline bool obj_at_line_end(const uint8_t *at, const uint8_t *end) { return *at == '\n' || at >= end; }
 
 // Returns whether a word ends at `at`.

@@ -1,5 +1,5 @@
-// obj_faces.c: completes an OBJ file's faces after all vertices are read: triangulates polygons, and adds normals and
-// texture coordinates for corners without.
+// obj_faces.c: completes the faces of an OBJ file after all vertices are read: triangulates polygons, and adds missing
+// normals and texture coordinates.
 #include "obj.h"
 
 #include "linear.h"
@@ -19,7 +19,7 @@ struct triangulation {
 
 enum { SMALL_POLYGON = 64 };
 
-// Writes the polygon's corners to `at` in the order of its triangles. `corners`: a copy of the polygon at `at`.
+// Writes the polygon's corners to `at` in the order of its triangles. `corners` is a copy of the polygon at `at`.
 static void reorder_corners(uint32_t *at, const uint32_t *corners, const uint32_t *triples, uint32_t corner_count)
 {
     for (uint32_t i = 0; i < corner_count; i++)
@@ -108,9 +108,9 @@ bool obj_triangulate_polygons(struct obj *obj, lam_error *error)
     return true;
 }
 
-// --- attributes that some corners name and others do not
+// --- attributes that only some corners have
 
-// Copies the array with capacity for `more` elements after its `count`.
+// Copies the array and reserves space for `more` elements after its `count`.
 static float *grow(struct obj *obj, const float *array, size_t count, size_t more, size_t width, lam_error *error)
 {
     float *larger = arena_array(&obj->scene->arena, count + more, width * sizeof *larger);
@@ -122,7 +122,7 @@ static float *grow(struct obj *obj, const float *array, size_t count, size_t mor
     return larger;
 }
 
-// Corners without texture coordinates get (0, 0).
+// Gives (0, 0) to corners without texture coordinates.
 bool obj_complete_texcoords(struct obj *obj, lam_error *error)
 {
     bool used = false, missing = false;
@@ -157,8 +157,8 @@ static bool lacks_normal(const uint32_t *corners)
     return corners[0] == OBJ_MISSING || corners[1] == OBJ_MISSING || corners[2] == OBJ_MISSING;
 }
 
-// Computes smooth normals for the triangles with a corner without normal, from these triangles alone, and appends them
-// to the file's.
+// Computes smooth normals for the triangles that have a corner without a normal, from these triangles only, and appends
+// them to the file's normals.
 static bool make_missing_normals(struct obj *obj, lam_error *error)
 {
     const struct import_source *source = obj->source;

@@ -1,8 +1,8 @@
-// obj_groups.c: reads an OBJ file's statements between vertices and faces, in file order: object, group, material,
+// obj_groups.c: reads the statements between vertices and faces of an OBJ file, in file order: object, group, material,
 // smoothing group, material files, lines and points, and elements that are not drawn.
 //
-// A part is a run of triangles of the same object, group and material. Its name is "object/group", or the one of the
-// two that the file gives. A new object ends the group.
+// A part is a range of triangles with the same object, group and material. Its name is "object/group", or the one of
+// the two that exists. A new object ends the group.
 #include "obj.h"
 
 #include "mtl_maps.h"
@@ -23,7 +23,7 @@ enum statement {
     LINES,
     POINTS,
     FREE_FORM, // curves and surfaces with their points and parameters
-    IGNORED,   // known, without effect here
+    IGNORED,   // known, but without effect
     UNKNOWN,
     STATEMENTS,
 };
@@ -54,15 +54,15 @@ struct state {
     struct obj *obj;
     const char *object, *group;
     int32_t material;
-    const char *part_object, *part_group; // of the last part
+    const char *part_object, *part_group; // names of the last part
     const char *part_name;                // "object/group"
     uint32_t smoothing, smoothing_from;   // the smoothing group, and its first triangle
     uint32_t objects;
-    struct stroke_part strokes[2];    // of points, of lines
-    size_t counts[STATEMENTS];        // of each kind
-    const uint8_t *first[STATEMENTS]; // of each kind
+    struct stroke_part strokes[2];    // the parts of points and of lines
+    size_t counts[STATEMENTS];        // number of each kind
+    const uint8_t *first[STATEMENTS]; // first of each kind
     size_t unknown_materials;
-    const char *unknown_material; // the first one
+    const char *unknown_material; // the name of the first one
     const uint8_t *unknown_material_at;
 };
 
@@ -80,7 +80,7 @@ static enum statement statement_of(const uint8_t *at, const uint8_t *end)
     return UNKNOWN;
 }
 
-// Reads the rest of a statement as a name, trimmed; lines joined by a backslash are separated by spaces. *out is NULL
+// Reads the rest of a statement as a trimmed name; lines joined by a backslash are separated by spaces. *out is NULL
 // for an empty name.
 static bool read_name(struct state *state, const uint8_t *at, const char **out, lam_error *error)
 {
@@ -95,7 +95,7 @@ static bool read_name(struct state *state, const uint8_t *at, const char **out, 
     char *name = text_name(&state->obj->scene->arena, at, (size_t)(end - at));
     if (!name)
         return no_memory(state, (size_t)(end - at), error);
-    // Line continuations, "\\\n", have become "\\?": replace them by spaces.
+    // Line continuations, "\\\n", have become "\\?"; replace them by spaces.
     for (const uint8_t *c = at; c < end; c++) {
         if (*c == '\n') {
             for (char *back = name + (c - at); back >= name && (*back == '?' || *back == '\\'); back--)
@@ -110,7 +110,7 @@ static bool same_name(const char *a, const char *b) { return a == b || (a && b &
 
 // --- parts
 
-// *name: "object/group", or whichever is given.
+// Makes *name: "object/group", or the one that exists.
 static bool join_names(const struct state *state, const char *object, const char *group, const char **out,
                        lam_error *error)
 {
@@ -121,7 +121,7 @@ static bool join_names(const struct state *state, const char *object, const char
     char *name = arena_alloc(&state->obj->scene->arena, length + rest + 2);
     if (!name)
         return no_memory(state, length + rest, error);
-    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the text after it has its zero
+    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the text appended after it ends with zero
     memcpy(name, object, length);
     name[length] = '/';
     memcpy(name + length + 1, group, rest + 1);
@@ -129,7 +129,7 @@ static bool join_names(const struct state *state, const char *object, const char
     return true;
 }
 
-// Ends the run of triangles before `triangle`, of the state's object, group and material.
+// Ends the range of triangles before `triangle` with the state's object, group and material.
 static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
 {
     struct obj *obj = state->obj;
@@ -155,14 +155,15 @@ static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
     return true;
 }
 
-// Reads lines or points, into the last part of their own if that has the state's object, group and material.
+// Reads lines or points into their last part if it has the state's object, group and material, otherwise into a new
+// part.
 static bool read_strokes(struct state *state, const struct obj_statement *s, bool lines, lam_error *error)
 {
     struct obj *obj = state->obj;
     struct obj_strokes *strokes = &obj->strokes[lines];
     struct stroke_part *of = &state->strokes[lines];
     size_t before = strokes->corners;
-    if (obj->streamed) { // the vertices that it names are counted in the whole text alone
+    if (obj->streamed) { // vertex indices are only known for the whole text
         obj->line_requested = true;
         return true;
     }
@@ -218,7 +219,7 @@ static bool use_material(struct state *state, const uint8_t *at, lam_error *erro
 
 // --- the statements in order
 
-// Returns the group of an "s" statement; 0: off.
+// Returns the group of an "s" statement; 0 means off.
 static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
 {
     const uint8_t *end = text_line_end(at, obj->end);
@@ -277,7 +278,7 @@ static void warn_elements(struct state *state)
                    state->counts[UNKNOWN]);
 }
 
-// The error for a file that contains other elements alone. load.c reports files without any.
+// Reports a file that contains only unsupported elements. load.c reports empty files.
 static bool fail_without_faces(struct state *state, lam_error *error)
 {
     struct obj *obj = state->obj;
@@ -348,7 +349,7 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
             corners[kinds[i] == LINES] += obj_strokes_corners(obj, obj->statements[i].at, kinds[i] == LINES);
         // If all groups are off, the file defines no smoothing groups.
         smoothing |= kinds[i] == SMOOTHING && read_smoothing(obj, obj->statements[i].at) != 0;
-        // All material files are read first: some programs name them after the first use.
+        // All material files are read first, because some programs name them after the first use.
         if (kinds[i] == LIBRARY && !read_libraries(&state, obj->statements[i].at, error))
             return false;
     }

@@ -1,13 +1,13 @@
 // obj_libraries.c: reads the material files that an OBJ file names. Each is read once, however often and in whatever
-// way it is named, and at most OBJ_LIBRARIES_MAX names are tried: a small file cannot cause many large files to be
-// read.
+// form it is named, and at most OBJ_LIBRARIES_MAX names are tried: a small file cannot make the program read many large
+// files.
 #include "obj.h"
 
 #include "fail.h"
 
 #include <string.h>
 
-// The outcome of reading a library's name.
+// The result of reading a library.
 enum attempt { READ, MISSING, MISSING_BEFORE, LEFT_OUT };
 
 static bool no_memory(const struct obj *obj, size_t bytes, lam_error *error)
@@ -21,7 +21,7 @@ static bool note(struct obj *obj, const char *confined, bool read, lam_error *er
     return (kept && name_table_add(&obj->libraries.tried, kept, read)) || no_memory(obj, strlen(confined), error);
 }
 
-// Opens and reads one file. `why` says why it is missing.
+// Opens and reads one file. `why` receives the reason if it is missing.
 static bool try_library(struct obj *obj, const char *name, enum attempt *attempt, lam_error *why, lam_error *error)
 {
     struct obj_libraries *libraries = &obj->libraries;
@@ -29,7 +29,7 @@ static bool try_library(struct obj *obj, const char *name, enum attempt *attempt
     struct companion file;
     bool cut;
     if (!companion_name(obj->source, name, confined, &cut))
-        confined[0] = 0; // invalid names are equivalent
+        confined[0] = 0; // all invalid names are treated alike
     int before = name_table_find(&libraries->tried, confined);
     *attempt = before > 0 ? READ : before == 0 ? MISSING_BEFORE : LEFT_OUT;
     if (before >= 0 || libraries->tried.count == OBJ_LIBRARIES_MAX)

@@ -1,4 +1,4 @@
-// obj_line.c: reads one line of an OBJ file of any kind: vertex, texture coordinate, normal, face.
+// obj_line.c: reads one line of any kind in an OBJ file: vertex, texture coordinate, normal, face.
 #include "obj.h"
 
 #include "number_scan.h"
@@ -18,13 +18,13 @@ size_t obj_line_number(struct obj *obj, const uint8_t *at)
     return lines;
 }
 
-// Expected where pass two finds more elements than pass one counted.
+// The expected text if pass two finds more elements than pass one counted.
 static const char changed[] = "the text of a moment ago: the file has changed while it was read";
 
 // Fills the reader's error: "found 'x', expected …". Returns NULL.
 static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at, const char *expected)
 {
-    if (!reader->error) // the line number costs a pass over the text
+    if (!reader->error) // the line number takes a pass over the text
         return NULL;
     char found[TEXT_FOUND_SIZE];
     struct obj *obj = reader->obj;
@@ -33,8 +33,8 @@ static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at
     return NULL;
 }
 
-// Reads `count` numbers; those after the first `min` are optional and 0 by default. Returns the next word; NULL: error.
-// `expected` describes a number for the message.
+// Reads `count` numbers; those after the first `min` are optional and 0 by default. Returns the next word, or NULL on
+// error. `expected` describes a number in the message.
 static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int min, int count,
                                           const char *expected)
 {
@@ -55,7 +55,7 @@ static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8
 
 static float non_negative(float x) { return x > 0 ? x : 0; } // NaN becomes 0
 
-// Reads the numbers after x y z: none; w, which only rational curves use; or r g b, possibly with more.
+// Reads the numbers after x y z: none; w, which only rational curves use; or r g b and possibly more.
 static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, float *color)
 {
     const uint8_t *end = reader->end;
@@ -94,7 +94,7 @@ static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at
         reader->high[i] = to[i] > reader->high[i] ? to[i] : reader->high[i];
         sum += to[i] - to[i];
     }
-    if (__builtin_expect(sum != 0, 0)) { // inf − inf and nan are not 0
+    if (__builtin_expect(sum != 0, 0)) { // inf − inf and nan differ from 0
         const uint8_t *word = begin + 1;
         for (int i = 0; i < 3; i++) {
             word = obj_next_word(word, reader->end);
@@ -122,8 +122,8 @@ static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at
     return at;
 }
 
-// Reads a texture coordinate or a normal. Vectors with numbers that are not finite become 0, with one warning: some
-// exporters write "nan".
+// Reads a texture coordinate or a normal. Vectors with numbers that are not finite become 0 with one warning, because
+// some exporters write "nan".
 static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *at, bool normal)
 {
     struct obj *obj = reader->obj;
@@ -154,8 +154,8 @@ static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *a
     return obj_skip_line(at, reader->end);
 }
 
-// Reads an index of a corner: 1 is the first element, −1 the last of the `so_far` before this line. `what`: the kind of
-// element, for messages. NULL: error.
+// Reads an index of a corner: 1 is the first element, −1 the last of the `so_far` elements before this line. `what` is
+// the kind of element for messages. Returns NULL on error.
 static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t *at, uint64_t total, uint64_t so_far,
                                         const char *what, uint32_t *out)
 {
@@ -163,7 +163,7 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
     unsigned digits = number_digit_count(eight);
     uint64_t index = number_digits_value(eight, digits) - 1;
     const uint8_t *next = at + digits;
-    if (__builtin_expect(digits - 1 >= 7, 0)) { // a sign, eight digits or more, or no number
+    if (__builtin_expect(digits - 1 >= 7, 0)) { // a sign, eight digits or more, or not a number
         int64_t value;
         next = number_int(at, reader->end, &value);
         if (!next)
@@ -177,7 +177,7 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
         char found[TEXT_FOUND_SIZE];
         int64_t value = 0;
         number_int(at, reader->end, &value);
-        const char *name = what + 2; // without the article
+        const char *name = what + 2; // skips the article
         struct obj *obj = reader->obj;
         size_t line = obj_line_number(obj, at);
         text_found(at, next, found);
@@ -195,8 +195,8 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
     return next;
 }
 
-// Returns the index of a corner's texture coordinate or normal. If the elements of its kind are not kept (not `kept`),
-// it is skipped, and *unknown is set.
+// Reads the index of a corner's texture coordinate or normal. If such elements are not kept (`kept` is false), it is
+// skipped and *unknown is set.
 static inline const uint8_t *read_further_index(struct obj_reader *reader, const uint8_t *at, bool kept, uint64_t total,
                                                 uint64_t so_far, const char *what, bool *unknown, uint32_t *out)
 {
@@ -212,7 +212,7 @@ static inline const uint8_t *read_further_index(struct obj_reader *reader, const
 
 static const char name_position[] = "a vertex", name_texcoord[] = "a texture coordinate", name_normal[] = "a normal";
 
-// Reads a face: v, v/t, v//n or v/t/n for each corner; the forms may be mixed.
+// Reads a face with v, v/t, v//n or v/t/n for each corner; the forms may be mixed.
 static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
 {
     struct obj *obj = reader->obj;

@@ -17,7 +17,7 @@
 
 // Constants of the loop over the lines.
 struct constants {
-    uint32_t index_limit; // indices of faces are below it
+    uint32_t index_limit; // indices of faces are below this limit
 };
 static inline struct constants constants_of(uint32_t index_limit) { return (struct constants){index_limit}; }
 
@@ -56,7 +56,7 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
             return false;
     }
     float sum = (out[0] - out[0]) + (out[1] - out[1]) + (out[2] - out[2]);
-    return at + (*at == '\r') == line_end && sum == 0; // all are finite
+    return at + (*at == '\r') == line_end && sum == 0; // all numbers are finite
 }
 
 #endif
@@ -133,7 +133,7 @@ static inline bool append_position(struct output *output, const struct constants
     return true;
 }
 
-// Line ends are found 64 bytes at a time: reading a line does not depend on the numbers of the line before.
+// Line ends are found 64 bytes at a time, so that reading a line does not depend on the previous line.
 const uint8_t *JOIN(obj_read_lines_, ISA)(struct obj_reader *reader, const uint8_t *line, const uint8_t *end)
 {
     const struct obj *obj = reader->obj;

@@ -1,8 +1,8 @@
-// obj_lines_avx512.h: the readers of obj_lines.c for AVX-512 with VBMI, which moves bytes within a register.
+// obj_lines_avx512.h: the line parsers of obj_lines.c for AVX-512 with VBMI, which moves bytes within a register.
 //
-// A line is loaded into one register, and bit masks of its digits, spaces and points are made. The numbers' begins and
-// ends, packed into bytes, give the index from which each byte of a lane is permuted: every number gets a lane of its
-// own, right-aligned, with leading zeros.
+// A line is loaded into one register, and bit masks of its digits, spaces and points are computed. The starts and ends
+// of the numbers, packed into bytes, give the index for permuting each byte of a lane: every number gets its own lane,
+// right-aligned with leading zeros.
 #ifndef OBJ_LINES_AVX512_H
 #define OBJ_LINES_AVX512_H
 
@@ -25,14 +25,14 @@ static inline uint32_t pack(unsigned a, unsigned b, unsigned c) { return a | b <
 // Constants that stay in registers from line to line; the compiler would otherwise reload each before its use.
 struct constants {
     __m512i newline, zero, nine, space, point, minus, one;
-    __m512i lanes_of_8, lanes_of_16;       // shuffle: byte k of a packed number to each byte of lane k
+    __m512i lanes_of_8, lanes_of_16;       // shuffle: copies byte k of a packed number to each byte of lane k
     __m512i back_8, back_16;               // each byte's offset from its lane's end, negative
     __m512i tens, hundreds, ten_thousands; // pairs of weights
     __m512d tenths_to_6, tenths_to_14;     // 10 to the power of 1 − i
     __m256i cut, middle, doubt;            // number_rounds_surely
     __m256i hundred_millions;
     __m128 sign;
-    __m128i one_32, index_limit; // index_limit: of faces
+    __m128i one_32, index_limit; // index_limit: for faces
 };
 static inline struct constants constants_of(uint32_t index_limit)
 {
@@ -64,7 +64,7 @@ static inline struct constants constants_of(uint32_t index_limit)
         .one_32 = _mm_set1_epi32(1),
         .index_limit = _mm_set1_epi32((int)index_limit),
     };
-    // Opaque to the compiler from here on.
+    // Hides the values from the compiler, so that it keeps them in registers.
     __asm__("" : "+v"(c.newline), "+v"(c.zero), "+v"(c.nine), "+v"(c.space), "+v"(c.point), "+v"(c.minus));
     __asm__("" : "+v"(c.lanes_of_8), "+v"(c.lanes_of_16), "+v"(c.back_8), "+v"(c.back_16));
     __asm__("" : "+v"(c.tens), "+v"(c.hundreds), "+v"(c.ten_thousands), "+v"(c.tenths_to_6), "+v"(c.tenths_to_14));
@@ -128,8 +128,8 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     uint64_t spaces = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->space)) & inside;
     uint64_t points = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->point)) & inside;
     uint64_t starts = spaces << 1 | 1, signs = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->minus)) & starts & inside;
-    // No other bytes; runs of digits begin only at a number's begin or after its sign or point; the separators are
-    // point, space, point, space, point.
+    // There must be no other bytes; digits begin only at the start of a number or after its sign or point; the
+    // separators are point, space, point, space, point.
     uint64_t between = spaces | points, invalid = (digits | signs | between) ^ inside;
     invalid |= (digits & ~(digits << 1)) ^ ((starts & ~signs) | (signs | points) << 1);
     if (invalid | (_pext_u64(points, between) ^ 21) | (_pext_u64(spaces, between) ^ 10))

@@ -64,7 +64,7 @@ static bool add_mesh(struct obj *obj, lam_error *error)
 bool obj_complete(struct obj *obj, lam_error *error)
 {
     call_progress(obj->source->call, 0.7, "read");
-    const float *texcoords = obj->texcoords; // vertices that no face uses are dropped
+    const float *texcoords = obj->texcoords; // unused vertices are dropped
     if (!obj_triangulate_polygons(obj, error) || !obj_read_statements(obj, error) ||
         !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
         return false;

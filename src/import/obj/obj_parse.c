@@ -61,9 +61,9 @@ bool obj_parse(struct obj *obj, lam_error *error)
     return parallel_rows_run(obj->source, obj->chunk_count, parse_chunk, obj, error);
 }
 
-// --- positions far from zero: read again, as doubles
+// --- positions far from zero are read again as doubles
 
-// Calls `visit` for each position of the chunk, in order. The text has been parsed without error before.
+// Calls `visit` for each position of the chunk, in order. The text has already been parsed without error.
 static void each_position(struct obj *obj, struct obj_chunk *chunk,
                           void (*visit)(struct obj *, struct obj_chunk *, uint64_t, const double[3]))
 {
@@ -168,7 +168,7 @@ static bool convert_piece(void *user, size_t index, lam_error *error)
     for (size_t v = first; v < last; v++) {
         float *color = obj->colors + 4 * v;
         for (int i = 0; i < 3; i++) {
-            float c = color[i] < 0 ? 1 : color[i] * obj->color_scale; // a vertex without a colour is white
+            float c = color[i] < 0 ? 1 : color[i] * obj->color_scale; // vertices without a colour are white
             c = c > 1 ? 1 : c;
             color[i] = raw ? c : (float)srgb_linear((double)c);
         }

@@ -39,7 +39,7 @@ const uint8_t *obj_next_word_slow(const uint8_t *at, const uint8_t *end)
             at++;
         if (at >= end)
             return end;
-        if (*at == '#') // a comment ends with its line and has no continuation
+        if (*at == '#') // a comment ends with its line and cannot be continued
             return newline_or(at, end);
         if (*at != '\\' || !obj_at_word_end(at))
             return at;
@@ -60,9 +60,9 @@ bool obj_split(struct obj *obj, size_t chunk_bytes, lam_error *error)
         size_t nominal = (i + 1) * chunk_bytes;
         if (nominal >= size)
             at = obj->end;
-        else if (obj->begin + nominal > at) // else a long line leaves this chunk empty
+        else if (obj->begin + nominal > at) // otherwise a long line leaves this chunk empty
             at = obj_next_line(obj->begin + nominal, obj->end);
-        // obj_next_line may have begun after the backslash of a line continuation.
+        // obj_next_line may have started after the backslash of a line continuation.
         while (at < obj->end && continued(obj->begin, at - 1))
             at = obj_next_line(at, obj->end);
         obj->chunks[i].end = at;
@@ -78,7 +78,7 @@ static void count_face(struct obj_counts *counts, uint64_t corners)
     counts->polygons += corners > 3;
 }
 
-// Counts a statement with a comment or a continuation, or the last one. Returns the start of the next line.
+// Counts a statement that contains a comment or a continuation, or the last one. Returns the start of the next line.
 static const uint8_t *count_slowly(struct obj_chunk *chunk, const uint8_t *at, const uint8_t *end)
 {
     while (at < end && obj_white(*at))
@@ -121,17 +121,17 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
     struct obj *obj = user;
     struct obj_chunk *chunk = &obj->chunks[index];
     const uint8_t *line = chunk->begin, *end = chunk->end;
-    // A local copy, which the compiler keeps in registers.
+    // A local copy that the compiler keeps in registers.
     struct obj_counts counts = {0};
     chunk->counts = counts;
     bool colors = false;
     uint64_t slashes = 0;
     while (line < end) {
-        // At a line's begin: the byte before counts as white space.
+        // At the start of a line, the byte before counts as white space.
         const uint8_t *block = line;
         uint64_t white_before = 1, special_before = 0;
-        uint64_t words = 0, words_at_line = 0; // words that begin before the block; before the line
-        bool leave = false;                    // this run of blocks, at a slow line or the chunk's end
+        uint64_t words = 0, words_at_line = 0; // number of words that begin before the block, and before the line
+        bool leave = false;                    // leave the loop over blocks, at a slow line or at the chunk's end
         for (;; block += 64) {
             struct byte_masks masks = byte_masks_of(block);
             uint64_t begins = ~masks.white & (masks.white << 1 | white_before);
@@ -215,7 +215,7 @@ bool obj_scan(struct obj *obj, lam_error *error)
         slashes |= chunk->slashes;
     }
     obj->total = sum;
-    if (!slashes) // no face names a texture coordinate or a normal
+    if (!slashes) // no face has texture coordinates or normals
         obj->total.texcoords = obj->total.normals = 0;
     const char *name = obj->source->name;
     uint64_t largest = sum.positions > sum.texcoords ? sum.positions : sum.texcoords;

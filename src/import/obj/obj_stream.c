@@ -1,11 +1,11 @@
-// obj_stream.c: reads large OBJ files piece by piece.
+// obj_stream.c: reads large OBJ files chunk by chunk.
 //
-// Each thread reads a piece of the text and parses it into scratch arrays, all within the second-level cache. Once the
-// pieces before it are counted, its elements' indices are known, and it copies them to the final arrays. So the text is
-// read once, and the file is never in memory as a whole. The final arrays reserve the address space that a file of this
-// size could fill; pages that were not touched are released.
-// obj.c reads all other files: those with vertex colours, a mix of corners with and without normals, relative indices,
-// lines and points, or text lines longer than TAIL, and all files with errors or with warnings that name a line.
+// Each thread reads a chunk of the text and parses it into scratch arrays, all within the second-level cache. Once the
+// previous chunks are counted, the indices of its elements are known, and it copies them to the final arrays. The text
+// is thus read once, and the file is never in memory as a whole. The final arrays reserve the address space that a file
+// of this size could fill; untouched pages are released. obj.c reads all other files: files with vertex colours, a mix
+// of corners with and without normals, relative indices, lines and points, or text lines longer than TAIL, and all
+// files with errors or with warnings that name a line.
 #include "loop_status.h"
 #include "obj.h"
 #include "origin.h"
@@ -16,9 +16,9 @@
 
 enum {
     PIECE = 256 << 10,          // bytes
-    TAIL = 16 << 10,            // bytes read after a piece, for its last line
-    STATEMENTS = 4096,          // per piece, at most
-    COUNT_MAX = UINT32_MAX - 1, // elements of a kind, at most
+    TAIL = 16 << 10,            // bytes read after a chunk, for its last line
+    STATEMENTS = 4096,          // most statements per chunk
+    COUNT_MAX = UINT32_MAX - 1, // most elements of a kind
 };
 
 enum array { POSITIONS, TEXCOORDS, NORMALS, CORNERS, CORNER_TEXCOORDS, CORNER_NORMALS, POLYGONS, ARRAYS };
@@ -39,12 +39,12 @@ struct piece_scratch {
     uint8_t *text;
     void *arrays[ARRAYS];
     struct obj_statement statements[STATEMENTS];
-    bool texcoords, normals; // faces name them
+    bool texcoords, normals; // faces use them
     uint32_t index_max[3];   // largest index of a face: position, texture coordinate, normal
 };
 
 struct stream_statement {
-    size_t offset; // in the texts
+    size_t offset; // offset in the texts
     uint32_t triangle;
 };
 
@@ -52,17 +52,17 @@ struct stream {
     struct obj *obj;
     const struct file_parts *file;
     struct loop_status loop;
-    int unsupported; // atomic; the file must be left to obj.c
+    int unsupported; // atomic; obj.c must read the file
     struct piece_scratch *scratch;
     uint8_t *arrays[ARRAYS];
     size_t reserved[ARRAYS];
-    size_t next_piece; // atomic; the piece to be counted next. Only its thread accesses the members below.
+    size_t next_piece; // atomic; the next chunk to count. Only the thread of that chunk accesses the members below.
     struct obj_counts total;
     size_t charged;
-    int layout; // 1 + texture coordinates + 2 · normals in the faces; 0: no face so far
+    int layout; // 1 + texture coordinates + 2 · normals in the faces; 0 means no face so far
     float low[3], high[3];
     struct stream_statement *statements;
-    uint8_t *texts; // of the statements, concatenated
+    uint8_t *texts; // the texts of the statements, concatenated
     size_t statements_capacity, texts_used, texts_capacity;
 };
 
@@ -82,9 +82,9 @@ static uint64_t count_of(const struct obj_counts *counts, enum array kind)
 
 static size_t rows_max(enum array kind, size_t bytes) { return bytes / array_kinds[kind].line + 1; }
 
-// --- one piece
+// --- one chunk
 
-// Reads the whole lines that begin in the piece.
+// Reads the complete lines that begin in the chunk.
 static bool read_text(const struct stream *stream, struct piece_scratch *scratch, size_t index, struct obj_chunk *piece)
 {
     size_t size = stream->file->size, nominal = index * PIECE, from = index ? nominal - 1 : 0;
@@ -109,7 +109,7 @@ static bool read_text(const struct stream *stream, struct piece_scratch *scratch
     }
     if (first > last)
         return false;
-    // The last line may continue in the next piece.
+    // The last line may continue in the next chunk.
     if (last - first >= 3 && (last[-2] == '\\' || last[-3] == '\\'))
         return false;
     *piece = (struct obj_chunk){.begin = first, .end = last};
@@ -138,14 +138,14 @@ static bool parse(struct piece_scratch *scratch, struct obj_chunk *piece)
             return false;
         if (!piece->texcoord_unknown && !piece->normal_unknown)
             break;
-        scratch->texcoords |= piece->texcoord_unknown; // the thread's first faces name them: parse again
+        scratch->texcoords |= piece->texcoord_unknown; // the thread's first faces use them: parse again
         scratch->normals |= piece->normal_unknown;
     }
     return !piece->colors && !piece->short_faces && !piece->nonfinite_numbers &&
            !(scratch->texcoords && piece->texcoord_missing) && !(scratch->normals && piece->normal_missing);
 }
 
-// --- copying a piece to the final arrays
+// --- copying a chunk to the final arrays
 
 static bool grow(struct arena *arena, void *array, size_t *capacity, size_t used, size_t more, size_t item)
 {
@@ -184,7 +184,7 @@ static bool append_statements(struct stream *stream, const struct piece_scratch 
     return true;
 }
 
-// Adds the piece to the totals, in the order of the pieces. *before: the totals before it.
+// Adds the chunk to the totals, in the order of the chunks. *before receives the totals of the previous chunks.
 static bool count_piece(struct stream *stream, struct piece_scratch *scratch, size_t index,
                         const struct obj_chunk *piece, struct obj_counts *before)
 {
@@ -272,7 +272,7 @@ static void load_piece(void *user, size_t index, int thread)
         __atomic_store_n(&stream->unsupported, 1, __ATOMIC_RELAXED);
 }
 
-// --- all pieces
+// --- all chunks
 
 static bool alloc_scratch(struct stream *stream)
 {
@@ -335,7 +335,7 @@ static bool indices_valid(const struct stream *stream)
            total->triangles <= call_triangle_limit(stream->obj->source->call);
 }
 
-// Trims the array to its elements and passes its ownership to the arena. Returns NULL if memory runs out.
+// Trims the array to its elements and moves its ownership to the arena. Returns NULL if memory runs out.
 static void *pass_to_arena(struct stream *stream, enum array kind, struct arena *arena)
 {
     size_t bytes = (size_t)count_of(&stream->total, kind) * array_kinds[kind].row;

@@ -9,14 +9,14 @@
 // --- vertices of a statement
 
 // One statement, and its context.
-struct reading {
+struct stroke_parser {
     struct obj *obj;
     const struct obj_statement *statement;
     const char *item; // "line", "point"
     lam_error *error;
 };
 
-static const uint8_t *fail_word(const struct reading *r, const uint8_t *at, const char *expected)
+static const uint8_t *fail_word(const struct stroke_parser *r, const uint8_t *at, const char *expected)
 {
     char found[TEXT_FOUND_SIZE];
     struct obj *obj = r->obj;
@@ -25,8 +25,8 @@ static const uint8_t *fail_word(const struct reading *r, const uint8_t *at, cons
     return NULL;
 }
 
-// Returns an index from 1, or counted back from `so_far`. NULL: error.
-static const uint8_t *read_index(const struct reading *r, const uint8_t *at, uint64_t total, uint64_t so_far,
+// Reads an index that counts from 1, or backwards from `so_far`. Returns NULL on error.
+static const uint8_t *read_index(const struct stroke_parser *r, const uint8_t *at, uint64_t total, uint64_t so_far,
                                  const char *name, uint32_t *out)
 {
     struct obj *obj = r->obj;
@@ -51,8 +51,8 @@ static const uint8_t *read_index(const struct reading *r, const uint8_t *at, uin
     return next;
 }
 
-// Returns the next vertex of a statement; *found false: there is no more.
-static const uint8_t *read_vertex(const struct reading *r, const uint8_t *at, uint32_t *position, uint32_t *texcoord,
+// Returns the next vertex of a statement; *found is false if there are no more.
+static const uint8_t *read_vertex(const struct stroke_parser *r, const uint8_t *at, uint32_t *position, uint32_t *texcoord,
                                   bool *found)
 {
     struct obj *obj = r->obj;
@@ -78,7 +78,7 @@ size_t obj_strokes_corners(const struct obj *obj, const uint8_t *at, bool lines)
     size_t words = 0;
     for (at = obj_next_word(at + 1, obj->end); !obj_at_line_end(at, obj->end); at = obj_next_word(at, obj->end)) {
         words++;
-        do // a zero byte is none, and obj_strokes_read reports it
+        do // a zero byte is not a vertex; obj_strokes_read reports it
             at++;
         while (at < obj->end && !obj_at_word_end(at));
     }
@@ -109,7 +109,7 @@ static void add_corner(struct obj_strokes *s, uint32_t position, uint32_t texcoo
 
 bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bool lines, lam_error *error)
 {
-    struct reading r = {obj, statement, lines ? "line" : "point", error};
+    struct stroke_parser r = {obj, statement, lines ? "line" : "point", error};
     struct obj_strokes *s = &obj->strokes[lines];
     const uint8_t *at = statement->at + 1;
     uint32_t previous[2] = {0, 0}, position, texcoord;
@@ -186,7 +186,7 @@ bool obj_strokes_add(struct obj *obj, const float *texcoords, lam_error *error)
                        lines ? "lines of fewer than two vertices are" : "points without a vertex are");
         if (!s->corners)
             continue;
-        obj->scene->shared_arrays = true; // the meshes have their positions and colours in common
+        obj->scene->shared_arrays = true; // the meshes share positions and colours
         if (!add_mesh(obj, lines, texcoords, error))
             return false;
     }

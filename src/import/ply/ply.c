@@ -10,7 +10,7 @@ static int ply_probe(const uint8_t *bytes, size_t size)
     return size >= 4 && memcmp(bytes, "ply", 3) == 0 && text_white(bytes[3]) ? 2 : 0;
 }
 
-// The elements that are used.
+// The elements that Lambent uses.
 enum { VERTICES, FACES, STRIPS, EDGES, WANTED };
 static const char *const element_names[WANTED] = {"vertex", "face", "tristrips", "edge"};
 
@@ -19,9 +19,9 @@ struct reader {
     struct lam_scene *scene;
     struct arena *scratch;
     struct ply_header header;
-    const struct ply_element *elements[WANTED]; // NULL: missing or without rows
+    const struct ply_element *elements[WANTED]; // NULL if missing or without rows
     int lists[WANTED];                          // the property with the corners
-    size_t offsets[WANTED];                     // of the elements in the file
+    size_t offsets[WANTED];                     // offsets of the elements in the file
     struct ply_table tables[WANTED];
 };
 
@@ -32,7 +32,7 @@ static bool fail_header(const struct reader *reader, const struct ply_element *e
                      expected);
 }
 
-// Edges name their ends by two numbers; others are not drawn.
+// Edges refer to their ends by two numbers; other edges are not drawn.
 static void check_edges(struct reader *reader)
 {
     static const char *const ends[] = {"vertex1", "vertex2"};
@@ -48,7 +48,7 @@ static void check_edges(struct reader *reader)
     }
 }
 
-// Finds the elements and the list of corners in each.
+// Finds the elements and their lists of corners.
 static bool choose_elements(struct reader *reader, lam_error *error)
 {
     for (int i = 0; i < reader->header.element_count; i++) {
@@ -62,7 +62,7 @@ static bool choose_elements(struct reader *reader, lam_error *error)
         }
     }
     if (reader->elements[FACES])
-        reader->elements[STRIPS] = NULL; // the same surface again
+        reader->elements[STRIPS] = NULL; // strips repeat the surface of the faces
     for (int kind = 0; kind < WANTED; kind++) {
         const struct ply_element *element = reader->elements[kind];
         reader->lists[kind] = -1;
@@ -83,7 +83,7 @@ static bool choose_elements(struct reader *reader, lam_error *error)
     return true;
 }
 
-// Refuses faces and edges without vertices.
+// Rejects faces and edges without vertices.
 static bool check_vertices(const struct reader *reader, lam_error *error)
 {
     bool surface = reader->elements[FACES] || reader->elements[STRIPS];
@@ -131,7 +131,7 @@ static void warn_rest(const struct reader *reader, size_t at)
                    source->name, text_line(source->bytes, rest), text_found(rest, end, found));
 }
 
-// Reads the elements in the order of the file, up to the last one that is used.
+// Reads the elements in the order of the file, up to the last used one.
 static bool read_elements(struct reader *reader, lam_error *error)
 {
     int last = 0;

@@ -1,14 +1,16 @@
 // ply.h: internals of the PLY importer.
 //
-//   ply.c            reads the elements in order and builds the mesh
-//   ply_header.c     the header: elements and their properties
-//   ply_binary.c     rows of an element of a binary file, as a ply_table
-//   ply_ascii.c      rows of an element of an ASCII file, as a ply_table
-//   ply_positions.c  positions from the columns of a table
-//   ply_columns.c    normals, tangents, texture coordinates and colours from the columns of a table
-//   ply_faces.c      triangles from faces and strips
-//   ply_edges.c      lines from edges
-//   ply_stream.c     large files of the usual layout, part by part
+//
+//  ply.c            reads the elements in order and builds the mesh
+//  ply_header.c     the header: elements and their properties
+//  ply_binary.c     rows of an element of a binary file, as a ply_table
+//  ply_ascii.c      rows of an element of an ASCII file, as a ply_table
+//  ply_positions.c  positions from the columns of a table
+//  ply_columns.c    normals, tangents, texture coordinates and colours from the columns of a table
+//  ply_faces.c      triangles from faces and strips
+//  ply_edges.c      lines from edges
+//  ply_stream.c     large files of the usual layout, in parts
+//
 #ifndef PLY_H
 #define PLY_H
 
@@ -19,20 +21,20 @@ enum ply_format { PLY_ASCII, PLY_LITTLE, PLY_BIG };
 
 struct ply_property {
     const char *name;
-    enum ply_type type; // of the items, for a list
+    enum ply_type type; // type of the list's items, for a list
     bool list;
-    enum ply_type count_type; // of a list
+    enum ply_type count_type; // the type of a list's count
 };
 
 struct ply_element {
     const char *name;
     uint64_t count;
-    size_t line; // of the header
+    size_t line; // line in the header
     const struct ply_property *properties;
     int property_count;
     int list_count;      // properties that are lists
-    size_t scalar_bytes; // of a binary row without its lists
-    size_t min_bytes;    // of a binary row with empty lists
+    size_t scalar_bytes; // bytes of a binary row without its lists
+    size_t min_bytes;    // bytes of a binary row with empty lists
 };
 
 struct ply_header {
@@ -40,7 +42,7 @@ struct ply_header {
     const struct ply_element *elements;
     int element_count;
     size_t body; // offset of the first byte after the header
-    // Lines that are none of the format's: their number, and the first one's line and word.
+    // Unknown lines: their number, and the line number and first word of the first one.
     size_t unknown_count, unknown_line;
     const uint8_t *unknown;
 };
@@ -56,25 +58,25 @@ size_t ply_type_size(enum ply_type type);
 const char *ply_type_name(enum ply_type type);
 static inline bool ply_type_is_integer(enum ply_type type) { return type < PLY_F32; }
 
-// Index of a property of that name, list or scalar, or −1 if there is none.
+// Returns the index of a property with this name, list or scalar, or −1 if there is none.
 int ply_find(const struct ply_element *element, bool list, const char *name);
 
-// The type of x, y and z in a table. The declared types of an ASCII file say little about its decimals: positions are
-// read as floats, and again as doubles if the model lies far from zero.
+// The type of x, y and z in a table. The declared types of an ASCII file do not determine its decimals, so positions
+// are read as floats, and again as doubles if the model is far from zero.
 enum ply_positions_as { PLY_AS_DECLARED, PLY_AS_FLOAT, PLY_AS_DOUBLE };
 
 // An element's rows in memory.
 struct ply_table {
     const struct ply_element *element;
     size_t count;
-    const uint8_t *rows; // count · stride bytes; NULL: scalars were not requested
+    const uint8_t *rows; // count · stride bytes; NULL means scalars were not requested
     size_t stride;
-    bool swapped;               // the byte order is not the machine's
-    const uint32_t *offsets;    // of each scalar property in a row
-    const enum ply_type *types; // of each property in `rows`
+    bool swapped;               // the byte order differs from the machine's
+    const uint32_t *offsets;    // the offset of each scalar property in a row
+    const enum ply_type *types; // the type of each property in `rows`
     enum ply_positions_as positions;
-    // The requested list, indices checked: row r has items[starts[r]] … items[starts[r + 1] − 1]; three items per row
-    // if `starts` is NULL.
+    // The requested list with checked indices: row r has items[starts[r]] … items[starts[r + 1] − 1]; three items per
+    // row if `starts` is NULL.
     const uint32_t *items;
     const uint32_t *starts;
 };
@@ -82,11 +84,11 @@ struct ply_table {
 // The data to read from an element.
 struct ply_request {
     bool scalars;
-    int list;            // index of the property; −1: none
+    int list;            // index of the property, or −1
     uint32_t item_limit; // items must be below it
     bool restarts;       // item −1 is valid and becomes PLY_RESTART
     enum ply_positions_as positions;
-    struct arena *keep, *scratch; // of items of lists; of the rest
+    struct arena *keep, *scratch; // memory for items of lists, and for the rest
 };
 #define PLY_RESTART UINT32_MAX
 
@@ -101,13 +103,13 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
 // ply_rows.c. Sets offsets, types and stride for rows without their lists.
 bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
                    struct ply_table *table, lam_error *error);
-// The error for a file that ends within the element's row `row`, counted from 0.
+// Reports a file that ends within the element's row `row`, counted from 0.
 bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
                         lam_error *error);
-// The error for more elements than 32-bit indices can address: LAM_LIMIT.
+// Reports more elements than 32-bit indices can address: LAM_LIMIT.
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error);
 
-// Finds the scalar properties of these names (−1: none). Returns whether all exist.
+// Finds the scalar properties with these names (−1 if missing). Returns whether all exist.
 bool ply_find_all(const struct ply_table *table, const char *const *names, int count, int *properties);
 // Returns whether the properties are adjacent floats in the machine's byte order, so that memcpy can copy them.
 bool ply_contiguous(const struct ply_table *table, const int *properties, int count);
@@ -117,13 +119,13 @@ bool ply_find_colors(const struct ply_table *table, int properties[4]);
 void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor, float *out,
                      size_t step);
 
-// Sets origin, positions (from `arena`) and vertex_count of the mesh. *needs_doubles: the table stores an ASCII file's
-// positions as floats, which are not exact enough; the caller must read them again as doubles.
+// Sets origin, positions (from `arena`) and vertex_count of the mesh. Sets *needs_doubles if the table stores an ASCII
+// file's positions as floats, which are not precise enough; the caller must read them again as doubles.
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                    lam_mesh *mesh, bool *needs_doubles, lam_error *error);
 
-// Other columns, from `arena`; *out stays NULL if the element does not have them. Numbers that are not finite become 0.
-// False: error.
+// Read other columns, allocated from `arena`; *out is NULL if the element does not have them. Numbers that are not
+// finite become 0. Return false on error.
 bool ply_normals(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                  const float **out, lam_error *error);
 bool ply_tangents(const struct import_source *source, const struct ply_table *table, struct arena *arena,
@@ -133,14 +135,14 @@ bool ply_texcoords(const struct import_source *source, const struct ply_table *t
 bool ply_colors(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                 const void **out, lam_colors_format *format, lam_error *error);
 
-// Set indices and triangle_count of a mesh with positions: from faces, with colours and normals of the faces if the
-// vertices have none, or from strips.
+// Sets indices and triangle_count of a mesh with positions, from faces or from strips. Colours and normals of the faces
+// are used if the vertices have none.
 bool ply_faces(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
                lam_mesh *mesh, lam_error *error);
 bool ply_strips(const struct import_source *source, const struct ply_table *strips, struct lam_scene *scene,
                 lam_mesh *mesh, lam_error *error);
 
-// Sets indices and line_count, with colours of the edges if the vertices have none.
+// Sets indices and line_count. Colours of the edges are used if the vertices have none.
 bool ply_edges(const struct import_source *source, const struct ply_table *edges, struct lam_scene *scene,
                lam_mesh *mesh, lam_error *error);
 

@@ -1,8 +1,8 @@
 // ply_ascii.c: converts the rows of one element of an ASCII PLY to a table of binary rows.
 //
-// Numbers are separated by white space of any kind, and a row may continue on the next line; but it ends where its line
-// ends: numbers left over belong to no property. A first, serial pass finds the start of each piece of rows and the
-// lengths of its lists; then the pieces are read in parallel.
+// Numbers are separated by white space, and a row may continue on the next line; but it ends at the end of its last
+// line: further numbers there are ignored. A first, serial pass finds the start of each chunk of rows and the lengths
+// of its lists; then the chunks are read in parallel.
 #include "fail.h"
 #include "number.h"
 #include "ply_rows.h"
@@ -23,14 +23,14 @@ static bool fail_number(const struct ply_reader *reader, size_t row, int propert
                      shown_name(reader->element->properties[property].name, shown[1]), expected);
 }
 
-// Reads a word that is an integer, or NULL if it is none.
+// Reads a word that is an integer. Returns NULL if it is not one.
 static const uint8_t *read_integer(const struct ply_reader *reader, const uint8_t *at, int64_t *value)
 {
     const uint8_t *next = number_int(at, reader->end, value);
     return next && (next == reader->end || text_white(*next)) ? next : NULL;
 }
 
-// Reads one scalar and writes it in binary; NULL: error.
+// Reads one scalar and writes it in binary. Returns NULL on error.
 static const uint8_t *read_scalar(const struct ply_reader *reader, size_t row, int property, const uint8_t *at,
                                   uint8_t *out, lam_error *error)
 {
@@ -91,7 +91,7 @@ static const uint8_t *read_item(const struct ply_reader *reader, size_t row, con
     return next;
 }
 
-// Returns the first word that follows on the line, or NULL if there is none.
+// Returns the first word on the rest of the line, or NULL if there is none.
 static const uint8_t *rest_of_line(const uint8_t *at, const uint8_t *end)
 {
     while (at < end && text_white(*at) && *at != '\n' && *at != '\r')
@@ -110,7 +110,7 @@ static bool fail_rest(const struct ply_reader *reader, size_t row, const uint8_t
                      shown_name(element->properties[element->property_count - 1].name, shown[1]));
 }
 
-// Runs the serial pass: sets the start of each piece and the starts of the list, and *at to the end of the last row.
+// Runs the serial pass: sets the start of each chunk and the starts of the list, and *at to the end of the last row.
 static bool index_rows(struct ply_reader *reader, const uint8_t **at, lam_error *error)
 {
     const struct ply_element *element = reader->element;
@@ -128,7 +128,7 @@ static bool index_rows(struct ply_reader *reader, const uint8_t **at, lam_error 
                 int64_t items = 0;
                 if (!read_integer(reader, word, &items) || items < 0)
                     return fail_number(reader, row, i, word, "the number of items", error);
-                if (items > (end - next) / 2) // each takes at least two bytes
+                if (items > (end - next) / 2) // each item needs at least two bytes
                     return ply_fail_truncated(reader->source, element, row, error);
                 for (int64_t item = 0; item < items; item++) {
                     next = text_skip_white(next, end);
@@ -151,7 +151,7 @@ static bool index_rows(struct ply_reader *reader, const uint8_t **at, lam_error 
     return true;
 }
 
-// Reads a row and returns its end; NULL: an error. `scalars` and `items` NULL: the numbers are only checked.
+// Reads a row and returns its end, or NULL on error. If `scalars` and `items` are NULL, the numbers are only checked.
 static const uint8_t *read_row(const struct ply_reader *reader, size_t row, const uint8_t *at, uint8_t *scalars,
                                uint32_t *items, lam_error *error)
 {
@@ -168,7 +168,7 @@ static const uint8_t *read_row(const struct ply_reader *reader, size_t row, cons
             continue;
         }
         int64_t count = 0;
-        at = read_integer(reader, at, &count); // checked by index_rows
+        at = read_integer(reader, at, &count); // index_rows has checked it
         for (int64_t item = 0; at && item < count; item++) {
             at = text_skip_white(at, end);
             at = i != reader->request->list ? text_skip_word(at, end)
@@ -178,21 +178,21 @@ static const uint8_t *read_row(const struct ply_reader *reader, size_t row, cons
     return at;
 }
 
-static bool read_piece(void *user, size_t index, lam_error *error)
+static bool read_chunk(void *user, size_t index, lam_error *error)
 {
     const struct ply_reader *reader = user;
     size_t first, last;
     if (reader->element->property_count == 0)
-        return true; // rows without a word have no beginning
+        return true; // empty rows have no start
     parallel_rows_range(reader->table->count, index, &first, &last);
-    const uint8_t *at = reader->pieces[index];
+    const uint8_t *at = reader->chunks[index];
     for (size_t row = first; at && row < last; row++)
         at = read_row(reader, row, at, reader->rows ? reader->rows + row * reader->table->stride : NULL,
                       reader->items ? reader->items + reader->starts[row] : NULL, error);
     return at != NULL;
 }
 
-// After an error of index_rows: an error in the numbers of the rows before is the file's first one.
+// Called after an error of index_rows: an error in the numbers of earlier rows is the file's first one.
 static void check_rows_before(const struct ply_reader *reader, lam_error *error)
 {
     const uint8_t *at = reader->first;
@@ -211,14 +211,14 @@ static bool read_rows(struct ply_reader *reader, struct arena *keep, struct aren
         check_rows_before(reader, error);
         return false;
     }
-    return ply_read_rows(reader, read_piece, keep, scratch, error);
+    return ply_read_rows(reader, read_chunk, keep, scratch, error);
 }
 
 bool ply_read_ascii(const struct import_source *source, const struct ply_element *element,
                     const struct ply_request *request, size_t *at, struct ply_table *table, lam_error *error)
 {
-    // Check the file's size before any allocation: a number takes at least two bytes, a digit and white space, which
-    // only the last number can lack.
+    // Check the file's size before any allocation: a number takes at least two bytes, a digit and white space; only the
+    // last number may lack the white space.
     uint64_t left = (uint64_t)(source->size - *at) + 1, row_bytes = 2 * (uint64_t)element->property_count;
     if (row_bytes > 0 && element->count > left / row_bytes)
         return ply_fail_truncated(source, element, left / row_bytes, error);

@@ -1,8 +1,8 @@
 // ply_binary.c: reads the rows of one element of a binary PLY as a table.
 //
 // Rows without lists have a fixed stride and are used in place. Rows with lists are indexed by a serial pass; then
-// pieces of them are read in parallel. In nearly all files, faces are one list of three corners: where the number of
-// remaining bytes suggests this layout, the rows are read at its fixed stride and checked.
+// chunks of them are read in parallel. In nearly all files, faces are one list of three corners: if the number of
+// remaining bytes suggests this layout, the rows are read with its fixed stride and checked.
 #include "fail.h"
 #include "shown_name.h"
 #include "ply_load.h"
@@ -38,7 +38,7 @@ static bool read_items(const struct ply_reader *reader, size_t row, const uint8_
     return true;
 }
 
-// Reads a piece of rows with three items each, at a fixed stride.
+// Reads a chunk of rows with three items each, at a fixed stride.
 static bool read_triangles(void *user, size_t index, lam_error *error)
 {
     struct ply_reader *reader = user;
@@ -98,7 +98,7 @@ static bool may_be_triangles(const struct ply_reader *reader, const struct ply_h
     return left == 0;
 }
 
-// Reads the rows as triangles. *done: all rows have three items.
+// Reads the rows as triangles. Sets *done to whether all rows have three items.
 static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct arena *scratch, bool *done,
                           lam_error *error)
 {
@@ -117,7 +117,7 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
     lam_error wrong;
     bool good = parallel_rows_run(reader->source, parallel_rows_count(count), read_triangles, reader, &wrong);
     if (reader->mixed)
-        return true; // errors found at the wrong stride do not count
+        return true; // errors found with the wrong stride are meaningless
     if (!good) {
         if (error)
             *error = wrong;
@@ -133,7 +133,7 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
     return true;
 }
 
-// Runs the serial pass: sets the start of each piece and the starts of the list, and *end to the end of the last row.
+// Runs the serial pass: sets the start of each chunk and the starts of the list, and *end to the end of the last row.
 static bool index_rows(struct ply_reader *reader, const uint8_t **end, lam_error *error)
 {
     const struct ply_element *element = reader->element;
@@ -170,13 +170,13 @@ static bool index_rows(struct ply_reader *reader, const uint8_t **end, lam_error
     return true;
 }
 
-static bool read_piece(void *user, size_t index, lam_error *error)
+static bool read_chunk(void *user, size_t index, lam_error *error)
 {
     const struct ply_reader *reader = user;
     const struct ply_element *element = reader->element;
     size_t first, last;
     parallel_rows_range(reader->table->count, index, &first, &last);
-    const uint8_t *at = reader->pieces[index];
+    const uint8_t *at = reader->chunks[index];
     for (size_t row = first; row < last; row++) {
         for (int i = 0; i < element->property_count; i++) {
             const struct ply_property *property = &element->properties[i];
@@ -234,7 +234,7 @@ bool ply_read_binary(const struct import_source *source, const struct ply_header
         if (may_be_triangles(&reader, header) && !try_triangles(&reader, keep, scratch, &done, error))
             return false;
         if (!done && !(ply_start_rows(&reader, scratch, error) && index_rows(&reader, &end, error) &&
-                       ply_read_rows(&reader, read_piece, keep, scratch, error)))
+                       ply_read_rows(&reader, read_chunk, keep, scratch, error)))
             return false;
         if (done)
             end = reader.first + table->count * reader.stride;

@@ -1,5 +1,5 @@
 // ply_columns.c: converts columns of a PLY table to normals, tangents, texture coordinates and colours, in parallel
-// pieces.
+// chunks.
 #include "parallel_rows.h"
 #include "srgb.h"
 #include "linear.h"
@@ -63,9 +63,9 @@ enum kind { NORMALS, TANGENTS, TEXCOORDS, COLORS, COLORS_RAW };
 struct vectors {
     const struct ply_table *table;
     enum kind kind;
-    int properties[4]; // −1: the constant 1
+    int properties[4]; // −1 means the constant 1
     float divisors[4];
-    int width; // numbers in each vector
+    int width; // numbers per vector
     bool contiguous;
     float *out;
 };
@@ -77,7 +77,7 @@ static void clean_vector(const struct vectors *vectors, float *v)
             v[c] = v[c] >= 0.0f ? (v[c] <= FLT_MAX ? v[c] : FLT_MAX) : 0.0f; // NaN becomes 0
             if (c == 3)
                 v[c] = v[c] < 1.0f ? v[c] : 1.0f;
-            else if (vectors->kind == COLORS && v[c] <= 1.0f) // above 1, sRGB is not defined: linear
+            else if (vectors->kind == COLORS && v[c] <= 1.0f) // sRGB is not defined above 1, so the value is linear
                 v[c] = (float)srgb_linear((double)v[c]);
         }
         return;
@@ -96,7 +96,7 @@ static void clean_vector(const struct vectors *vectors, float *v)
     }
 }
 
-static bool vector_piece(void *user, size_t index, lam_error *error)
+static bool vector_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct vectors *vectors = user;
@@ -141,7 +141,7 @@ static bool read_vectors(const struct import_source *source, struct vectors *vec
     if (!vectors->out)
         return call_memory_error(source->call, bytes, error);
     *out = vectors->out;
-    return parallel_rows_run(source, parallel_rows_count(vectors->table->count), vector_piece, vectors, error);
+    return parallel_rows_run(source, parallel_rows_count(vectors->table->count), vector_chunk, vectors, error);
 }
 
 bool ply_normals(const struct import_source *source, const struct ply_table *table, struct arena *arena,
@@ -190,7 +190,7 @@ struct bytes {
     uint8_t *out;
 };
 
-static bool byte_piece(void *user, size_t index, lam_error *error)
+static bool byte_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct bytes *bytes = user;
@@ -243,14 +243,14 @@ bool ply_colors(const struct import_source *source, const struct ply_table *tabl
             return call_memory_error(source->call, 4 * table->count, error);
         *out = bytes.out;
         *format = raw ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
-        return parallel_rows_run(source, parallel_rows_count(table->count), byte_piece, &bytes, error);
+        return parallel_rows_run(source, parallel_rows_count(table->count), byte_chunk, &bytes, error);
     }
 
     struct vectors vectors = {.table = table, .kind = raw ? COLORS_RAW : COLORS, .width = 4};
     memcpy(vectors.properties, found, sizeof found);
     for (int c = 0; c < numbers; c++) {
         enum ply_type type = table->types[found[c]];
-        // Programs that write colours as int or uint mean 0…255.
+        // For colours of type int or uint, programs use 0…255.
         vectors.divisors[c] = type == PLY_I32 || type == PLY_U32 ? 255.0f : divisor_of(type);
     }
     const float *floats = NULL;

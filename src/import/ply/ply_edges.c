@@ -1,4 +1,4 @@
-// ply_edges.c: reads lines from the element `edge`, whose rows name the vertices of both ends.
+// ply_edges.c: reads lines from the element `edge`, whose rows contain the vertices of both ends.
 #include "fail.h"
 #include "ply_load.h"
 #include "shown_name.h"
@@ -16,7 +16,7 @@ bool ply_edges(const struct import_source *source, const struct ply_table *edges
 {
     static const char *const names[] = {"vertex1", "vertex2"};
     int ends[2];
-    ply_find_all(edges, names, 2, ends); // ply.c has seen both
+    ply_find_all(edges, names, 2, ends); // ply.c has checked that both exist
     if (edges->count > UINT32_MAX / 2)
         return fail(error, LAM_LIMIT, "%s: the file has %zu edges, expected at most %u", source->name, edges->count,
                     UINT32_MAX / 2);

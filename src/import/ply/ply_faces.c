@@ -20,10 +20,10 @@ struct polygons {
     const struct import_source *source;
     const struct ply_table *faces;
     const float *positions;
-    uint32_t *first_triangles; // of each piece
+    uint32_t *first_triangles; // the first triangle of each chunk
     uint32_t *indices;
-    uint32_t *face_of;    // each triangle's face; NULL: not needed
-    uint8_t *inner_edges; // as lam_mesh.inner_edges; NULL: not needed
+    uint32_t *face_of;    // the face of each triangle; NULL if not needed
+    uint8_t *inner_edges; // same as lam_mesh.inner_edges; NULL if not needed
 };
 
 static uint32_t corners_of(const struct ply_table *faces, size_t face)
@@ -31,7 +31,7 @@ static uint32_t corners_of(const struct ply_table *faces, size_t face)
     return faces->starts[face + 1] - faces->starts[face];
 }
 
-static bool triangulate_piece(void *user, size_t index, lam_error *error)
+static bool triangulate_chunk(void *user, size_t index, lam_error *error)
 {
     const struct polygons *polygons = user;
     const struct ply_table *faces = polygons->faces;
@@ -72,10 +72,10 @@ static bool triangulate_polygons(struct polygons *polygons, bool want_faces, str
 {
     const struct import_source *source = polygons->source;
     const struct ply_table *faces = polygons->faces;
-    size_t pieces = parallel_rows_count(faces->count), degenerate = 0;
-    polygons->first_triangles = arena_array(scratch, pieces, sizeof *polygons->first_triangles);
+    size_t chunks = parallel_rows_count(faces->count), degenerate = 0;
+    polygons->first_triangles = arena_array(scratch, chunks, sizeof *polygons->first_triangles);
     if (!polygons->first_triangles)
-        return call_memory_error(source->call, pieces * sizeof *polygons->first_triangles, error);
+        return call_memory_error(source->call, chunks * sizeof *polygons->first_triangles, error);
     uint64_t triangles = 0;
     for (size_t face = 0; face < faces->count; face++) {
         if (face % PARALLEL_ROWS == 0)
@@ -99,7 +99,7 @@ static bool triangulate_polygons(struct polygons *polygons, bool want_faces, str
         if (!polygons->inner_edges)
             return call_memory_error(source->call, triangles, error);
     }
-    if (!parallel_rows_run(source, pieces, triangulate_piece, polygons, error))
+    if (!parallel_rows_run(source, chunks, triangulate_chunk, polygons, error))
         return false;
     mesh->indices = polygons->indices;
     mesh->inner_edges = polygons->inner_edges;
@@ -188,9 +188,9 @@ bool ply_faces(const struct import_source *source, const struct ply_table *faces
     return done;
 }
 
-// Writes the triangles of a strip to `out` (may be NULL) and returns their number. Each item from the third on makes a
-// triangle with the two before it, with the winding of every second one reversed. Triangles with equal corners only
-// join pieces of a strip and are skipped.
+// Writes the triangles of a strip to `out` (may be NULL) and returns their number. Each item from the third on forms a
+// triangle with the two items before it; the winding of every second triangle is reversed. Triangles with equal corners
+// only connect parts of a strip and are skipped.
 static size_t strip_triangles(const uint32_t *items, size_t count, uint32_t *out)
 {
     size_t triangles = 0, length = 0; // items of the strip so far

@@ -43,11 +43,11 @@ struct lines {
     struct arena *arena;
     const uint8_t *at, *end; // the rest of the current line
     const uint8_t *next;     // the next line
-    size_t number;           // of the current line
+    size_t number;           // the number of the current line
     char ending;             // '\n' (a '\r' before it is white space) or '\r'
 };
 
-// Goes to the next line; false at the end of the file.
+// Advances to the next line. Returns false at the end of the file.
 static bool next_line(struct lines *lines)
 {
     const uint8_t *end = lines->source->bytes + lines->source->size;
@@ -67,7 +67,7 @@ static bool is_word(const uint8_t *word, const uint8_t *end, const char *expecte
     return (size_t)(end - word) == strlen(expected) && memcmp(word, expected, (size_t)(end - word)) == 0;
 }
 
-// Reads the next word of the line; empty at its end.
+// Reads the next word of the line, which is empty at the end.
 static void next_word(struct lines *lines, const uint8_t **word, const uint8_t **end)
 {
     *word = text_skip_white(lines->at, lines->end);
@@ -160,7 +160,7 @@ static bool read_property(struct lines *lines, struct ply_element *element, stru
 
 enum keyword { BLANK, REMARK, FORMAT, ELEMENT, PROPERTY, END, UNKNOWN };
 
-// Reads a line's first word, and sets *word to it.
+// Reads a line's first word into *word and returns its keyword.
 static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
 {
     static const struct {
@@ -179,7 +179,7 @@ static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
     return UNKNOWN;
 }
 
-// Begins at the second line, after "ply".
+// Starts at the second line, after "ply".
 static struct lines start(const struct import_source *source, struct arena *arena)
 {
     struct lines lines = {.source = source, .arena = arena, .next = source->bytes, .ending = '\n'};

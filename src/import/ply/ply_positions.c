@@ -15,7 +15,7 @@ struct positions {
     struct box {
         double minimum[3], maximum[3];
         bool finite;
-    } *boxes; // one for each piece
+    } *boxes; // one per chunk
     double origin[3];
 };
 
@@ -25,7 +25,7 @@ static bool fail_position(const struct positions *positions, size_t row, int axi
     const uint8_t *at = table->rows + row * table->stride + table->offsets[positions->properties[axis]];
     const struct import_source *source = positions->source;
     uintptr_t offset = (uintptr_t)at - (uintptr_t)source->bytes;
-    if (offset < source->size) // a binary row within the file
+    if (offset < source->size) // binary rows point into the file
         return fail_byte(error, source, offset, "vertex %zu of %zu: found %s as %c, expected a finite number", row + 1,
                          table->count, found, "xyz"[axis]);
     return fail(error, LAM_CANNOT_READ, "%s: vertex %zu of %zu: found %s as %c, expected a finite number", source->name,
@@ -43,7 +43,7 @@ static double position_at(const struct positions *positions, size_t row, int axi
 static bool is_finite(double value) { return value >= -DBL_MAX && value <= DBL_MAX; }
 
 // Copies floats, and integers that floats represent exactly.
-static bool copy_piece(void *user, size_t index, lam_error *error)
+static bool copy_chunk(void *user, size_t index, lam_error *error)
 {
     const struct positions *positions = user;
     const struct ply_table *table = positions->table;
@@ -65,7 +65,7 @@ static bool copy_piece(void *user, size_t index, lam_error *error)
         memcpy(&bits, &positions->out[i], sizeof bits);
         nonfinite |= (bits & 0x7fffffff) + 0x00800000;
     }
-    if (positions->boxes) { // an ASCII file: choose_origin decides whether floats are exact enough
+    if (positions->boxes) { // an ASCII file: choose_origin decides whether floats are precise enough
         struct box *box = &positions->boxes[index];
         box->finite = !(nonfinite & 0x80000000);
         for (int axis = 0; axis < 3; axis++) {
@@ -90,8 +90,8 @@ static bool copy_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Doubles and 32-bit integers take two passes: their bounding box, which decides the origin, then the rounding.
-static bool measure_piece(void *user, size_t index, lam_error *error)
+// Doubles and 32-bit integers take two passes: their bounding box, which determines the origin, then the rounding.
+static bool measure_chunk(void *user, size_t index, lam_error *error)
 {
     const struct positions *positions = user;
     size_t first, last;
@@ -110,7 +110,7 @@ static bool measure_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-static bool round_piece(void *user, size_t index, lam_error *error)
+static bool round_chunk(void *user, size_t index, lam_error *error)
 {
     const struct positions *positions = user;
     size_t first, last;
@@ -126,11 +126,11 @@ static bool round_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Unites the pieces' boxes and chooses the origin. Returns whether floats are not exact enough.
-static bool choose_origin(struct positions *positions, size_t pieces)
+// Unites the chunks' boxes and chooses the origin. Returns whether floats are not precise enough.
+static bool choose_origin(struct positions *positions, size_t chunks)
 {
     struct box all = positions->boxes[0];
-    for (size_t i = 1; i < pieces; i++) {
+    for (size_t i = 1; i < chunks; i++) {
         const struct box *box = &positions->boxes[i];
         for (int axis = 0; axis < 3; axis++) {
             if (box->minimum[axis] < all.minimum[axis])
@@ -161,7 +161,7 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
         enum ply_type type = table->types[positions.properties[axis]];
         exact |= type == PLY_I32 || type == PLY_U32 || type == PLY_F64;
     }
-    size_t pieces = parallel_rows_count(table->count);
+    size_t chunks = parallel_rows_count(table->count);
     positions.contiguous = ply_contiguous(table, positions.properties, 3);
     positions.out = arena_array(arena, table->count, 3 * sizeof(float));
     if (!positions.out)
@@ -171,17 +171,17 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
     arena_start(&scratch, source->call);
     bool done = true;
     if (exact || table->positions == PLY_AS_FLOAT) {
-        positions.boxes = arena_array(&scratch, pieces, sizeof *positions.boxes);
-        done = positions.boxes || call_memory_error(source->call, pieces * sizeof *positions.boxes, error);
+        positions.boxes = arena_array(&scratch, chunks, sizeof *positions.boxes);
+        done = positions.boxes || call_memory_error(source->call, chunks * sizeof *positions.boxes, error);
     }
     if (exact) {
-        done = done && parallel_rows_run(source, pieces, measure_piece, &positions, error);
-        if (done && pieces > 0)
-            choose_origin(&positions, pieces);
-        done = done && parallel_rows_run(source, pieces, round_piece, &positions, error);
+        done = done && parallel_rows_run(source, chunks, measure_chunk, &positions, error);
+        if (done && chunks > 0)
+            choose_origin(&positions, chunks);
+        done = done && parallel_rows_run(source, chunks, round_chunk, &positions, error);
     } else {
-        done = done && parallel_rows_run(source, pieces, copy_piece, &positions, error);
-        *needs_doubles = done && positions.boxes && pieces > 0 && choose_origin(&positions, pieces);
+        done = done && parallel_rows_run(source, chunks, copy_chunk, &positions, error);
+        *needs_doubles = done && positions.boxes && chunks > 0 && choose_origin(&positions, chunks);
     }
     arena_free(&scratch);
     memcpy(mesh->origin, positions.origin, sizeof mesh->origin);

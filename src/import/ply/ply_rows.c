@@ -50,10 +50,10 @@ bool ply_plan_rows(const struct import_source *source, const struct ply_request 
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error)
 {
     struct call_control *call = reader->source->call;
-    size_t count = reader->table->count, pieces = parallel_rows_count(count);
-    reader->pieces = arena_array(scratch, pieces, sizeof *reader->pieces);
-    if (!reader->pieces)
-        return call_memory_error(call, pieces * sizeof *reader->pieces, error);
+    size_t count = reader->table->count, chunks = parallel_rows_count(count);
+    reader->chunks = arena_array(scratch, chunks, sizeof *reader->chunks);
+    if (!reader->chunks)
+        return call_memory_error(call, chunks * sizeof *reader->chunks, error);
     if (reader->request->list >= 0) {
         reader->starts = arena_array(scratch, count + 1, sizeof *reader->starts);
         if (!reader->starts)
@@ -65,8 +65,8 @@ bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error 
 bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error)
 {
     if (row % PARALLEL_ROWS == 0) {
-        if (reader->pieces)
-            reader->pieces[row / PARALLEL_ROWS] = at;
+        if (reader->chunks)
+            reader->chunks[row / PARALLEL_ROWS] = at;
         if (!call_should_continue(reader->source->call))
             return call_error(reader->source->call, error);
     }
@@ -75,7 +75,7 @@ bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam
     return true;
 }
 
-bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_piece, struct arena *keep, struct arena *scratch,
+bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_chunk, struct arena *keep, struct arena *scratch,
                    lam_error *error)
 {
     struct ply_table *table = reader->table;
@@ -93,7 +93,7 @@ bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_piece, st
         if (!reader->rows)
             return call_memory_error(call, table->count * table->stride, error);
     }
-    if (!parallel_rows_run(reader->source, parallel_rows_count(table->count), read_piece, reader, error))
+    if (!parallel_rows_run(reader->source, parallel_rows_count(table->count), read_chunk, reader, error))
         return false;
     table->rows = reader->rows;
     table->items = reader->items;

@@ -1,5 +1,5 @@
-// ply_rows.h: reads the rows of one element, for ply_ascii.c and ply_binary.c: a serial pass finds the start of each
-// piece of rows and the lengths of its lists; then the pieces are read in parallel.
+// ply_rows.h: reads the rows of one element, for ply_ascii.c and ply_binary.c. A serial pass finds the start of each
+// chunk of rows and the lengths of its lists; then the chunks are read in parallel.
 #ifndef PLY_ROWS_H
 #define PLY_ROWS_H
 
@@ -12,25 +12,25 @@ struct ply_reader {
     const struct ply_request *request;
     struct ply_table *table;
     const uint8_t *first;     // row 0
-    const uint8_t **pieces;   // start of each piece
-    uint32_t *items, *starts; // of the requested list
-    uint8_t *rows;            // scalars; NULL: not requested
+    const uint8_t **chunks;   // start of each chunk
+    uint32_t *items, *starts; // the contents of the requested list
+    uint8_t *rows;            // scalars; NULL if not requested
     uint64_t total;           // items of the requested list so far
-    bool has_other_counts;    // some row has not three of them
+    bool has_other_counts;    // a row has more or fewer than three items
     // ply_ascii.c
-    const uint8_t *end; // of the file
+    const uint8_t *end; // the end of the file
     size_t indexed;     // rows that passed index_rows
     // ply_binary.c: rows with three items each
     size_t list_offset, stride;
-    int mixed; // atomic; some row has another number of items
+    int mixed; // atomic; a row has another number of items
 };
 
 // Allocates the arrays that the serial pass fills.
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error);
 
-// Runs the serial pass at the start of a row. Returns false if the call must end.
+// Records the start of a row in the serial pass. Returns false if the call must end.
 bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error);
-// Runs the serial pass at a row's requested list.
+// Records the length of a row's requested list in the serial pass.
 static inline void ply_count_items(struct ply_reader *reader, int64_t items)
 {
     reader->total += (uint64_t)items;
@@ -38,7 +38,7 @@ static inline void ply_count_items(struct ply_reader *reader, int64_t items)
 }
 
 // Reads the rows after the serial pass and fills the table.
-bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_piece, struct arena *keep, struct arena *scratch,
+bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_chunk, struct arena *keep, struct arena *scratch,
                    lam_error *error);
 
 #endif

@@ -1,8 +1,8 @@
-// ply_stream.c: reads large PLY files of the usual layout part by part: binary, little-endian, vertices without lists,
-// then faces that are one list of three corners each.
+// ply_stream.c: reads large PLY files of the usual layout in parts: binary, little-endian, vertices without lists, then
+// faces with one list of three corners each.
 //
-// A part is converted while it is in the second-level cache, and the file is never in memory as a whole, which takes
-// half the memory and half the traffic. ply.c reads files of other layouts and files with errors.
+// A part is converted while it is in the second-level cache, and the file is never in memory as a whole, which halves
+// memory and memory traffic. ply.c reads files of other layouts and files with errors.
 #include "loop_status.h"
 #include "ply_load.h"
 
@@ -10,15 +10,15 @@ enum {
     FACE = 13, // bytes: a count, and three 32-bit corners
     PART_FACES = 8192,
     PART_VERTICES = 16384,
-    TRIANGLES_MAX = 1431655765, // as in ply_faces.c
+    TRIANGLES_MAX = 1431655765, // same as in ply_faces.c
 };
 
 struct stream {
     const struct import_source *source;
     const struct file_parts *file;
     struct loop_status loop;
-    int unsupported;  // atomic; the file must be left to ply.c
-    size_t begin;     // of the element in the file
+    int unsupported;  // atomic; ply.c must read the file
+    size_t begin;     // the start of the element in the file
     uint8_t *buffers; // PART_FACES · FACE bytes per thread
     // Vertices
     uint8_t *rows;
@@ -47,7 +47,7 @@ static void read_vertices(void *user, size_t index, int thread)
     uint8_t *to = stream->rows + first * stream->stride;
     if (!file_read_part(stream->file, stream->begin + first * stream->stride, to, count * stream->stride))
         set_unsupported(stream);
-    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
+    uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
     for (size_t i = 0; stream->floats && i < count * stream->stride; i += 4)
         nonfinite |= (ply_load_32(to + i, false) & 0x7fffffff) + 0x00800000;
     if (nonfinite & 0x80000000)
@@ -97,7 +97,7 @@ static bool has_usual_layout(const struct ply_header *header, size_t size, const
            faces->count <= (body - vertices->count * vertices->scalar_bytes) / FACE;
 }
 
-// Rows of positions alone are read into the mesh; other rows are converted column by column.
+// Rows that contain only positions are read directly into the mesh; other rows are converted column by column.
 static bool load_vertices(struct stream *stream, const struct ply_element *element, struct lam_scene *scene,
                           struct arena *scratch, lam_mesh *mesh)
 {

@@ -15,12 +15,12 @@ static uint32_t declared_facets(const uint8_t *bytes)
 
 enum { SAMPLE = 1024 }; // bytes that are inspected
 
-// Text contains no zero byte; a binary STL does: up to 16 million facets, the number of facets has one.
+// Text contains no zero byte. A binary STL does: the number of facets has one up to 16 million facets.
 static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
-// ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the start. "solid" alone
-// proves nothing: many binary files begin with it too. With a zero byte it is a text if the words of a facet surround
-// it; the reader of texts then reports the byte.
+// ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the start. "solid" alone is
+// not enough: many binary files begin with it too. A file with a zero byte is text if the words of a facet surround the
+// byte; the text reader then reports the byte.
 static bool looks_ascii(const uint8_t *bytes, size_t size)
 {
     const uint8_t *end = bytes + (size < SAMPLE ? size : SAMPLE), *at = bytes;
@@ -36,8 +36,8 @@ static bool looks_ascii(const uint8_t *bytes, size_t size)
            (size < SAMPLE || text_count_word(at, end, "facet") || text_count_word(at, end, "endsolid"));
 }
 
-// Tests the size first. A text cannot have 84 + 50 · count bytes by chance: its characters, read as the count, give
-// more than 10⁸.
+// Tests the size first. A text cannot have 84 + 50 · count bytes by chance, because its characters, read as the count,
+// give more than 10⁸.
 static enum kind detect_kind(const uint8_t *bytes, size_t size)
 {
     bool has_header = size >= STL_FACETS;
@@ -55,7 +55,7 @@ static int stl_probe(const uint8_t *bytes, size_t size)
     case BINARY_EXACT:
     case ASCII:
         return 2;
-    // truncated, or with bytes after the last facet: the file's extension decides
+    // The file is truncated or has bytes after the last facet, so its extension decides.
     case BINARY_LOOSE:
         return 1;
     default:

@@ -5,7 +5,7 @@
 #include "fail.h"
 #include "importer.h"
 
-// A binary STL is a header of 80 bytes, the number of facets (32 bits, little-endian), and the facets of 50 bytes each:
+// A binary STL consists of a header of 80 bytes, the number of facets (32 bits, little-endian), and 50 bytes per facet:
 // normal and three corners (three floats each) and an attribute of 16 bits.
 enum {
     STL_HEADER = 80,
@@ -15,7 +15,7 @@ enum {
     STL_ATTRIBUTE = 48, // offset in a facet
 };
 
-// Each sets all members of the mesh except its name; triangle_count stays 0 for a file without facets.
+// Each function sets all members of the mesh except its name; triangle_count stays 0 for a file without facets.
 bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
 bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
 

@@ -1,15 +1,17 @@
 // stl_ascii.c: reads ASCII STL: solids become named parts; each facet gets three separate vertices.
 //
-//   solid NAME
-//     facet normal NX NY NZ
-//       outer loop
-//         vertex X Y Z      three of them
-//       endloop
-//     endfacet
-//   endsolid NAME
 //
-// Keywords may be in any case and line breaks between any words, because programs differ; a name ends with its line.
-// The facets' normals are ignored: they follow from the corners, and some programs write nan.
+//  solid NAME
+//    facet normal NX NY NZ
+//      outer loop
+//        vertex X Y Z      three of them
+//      endloop
+//    endfacet
+//  endsolid NAME
+//
+//
+// Keywords may be in upper or lower case, with line breaks between any words, because programs differ; a name ends with
+// its line. The facets' normals are ignored: they follow from the corners, and some programs write nan.
 #include "stl.h"
 #include "fail.h"
 #include "number.h"
@@ -24,14 +26,15 @@ struct reader {
     struct lam_scene *scene;
     const uint8_t *start, *at, *end;
     float *positions;   // 3 per corner
-    double *exact;      // the same in the second pass, for a part far from zero; NULL in the first pass
-    bool needs_doubles; // first pass: a number is outside a float's range
+    double *exact;      // positions in the second pass, for a part far from zero; NULL in the first pass
+    bool needs_doubles; // first pass: a number exceeds the range of a float
     float minimum[3], maximum[3];
     lam_part *parts;
     uint32_t part_count;
     uint32_t facets;
-    const uint8_t *solid; // the statement that began the current solid; NULL: none is open
-    // Solids without an end, and the first of them: its statement, and where "endsolid" was expected.
+    const uint8_t *solid; // the statement that began the current solid, or NULL
+    // Number of solids without an end. For the first of them: its statement, and the position at which "endsolid" was
+    // expected.
     uint32_t unclosed;
     const uint8_t *first_unclosed, *end_expected;
 };
@@ -50,7 +53,7 @@ static bool next_is(struct reader *reader, const char *word)
     return text_is_word(reader->at, reader->end, word);
 }
 
-// Skips the next word if it is `word`. Returns whether it is.
+// Skips the next word if it is `word`. Returns whether it was skipped.
 static bool accept_word(struct reader *reader, const char *word)
 {
     if (!next_is(reader, word))
@@ -87,7 +90,7 @@ static bool read_corner(struct reader *reader, size_t corner, lam_error *error)
             reader->exact[3 * corner + (size_t)axis] = exact;
         } else {
             if (!(value >= -FLT_MAX && value <= FLT_MAX))
-                reader->needs_doubles = true; // the second pass, in doubles, reads or reports it
+                reader->needs_doubles = true; // the second pass reads or reports it
             if (value < reader->minimum[axis])
                 reader->minimum[axis] = value;
             if (value > reader->maximum[axis])
@@ -119,7 +122,7 @@ static bool read_facet(struct reader *reader, lam_error *error)
     return true;
 }
 
-// Reads a solid's name: the rest of the line, trimmed. It also ends before "facet normal", for files of one line.
+// Reads a solid's name: the rest of the line, trimmed. In files of a single line, it ends before "facet normal".
 static void read_name(struct reader *reader, const uint8_t **name, size_t *length)
 {
     const uint8_t *line_end = text_line_end(reader->at, reader->end);
@@ -149,7 +152,7 @@ static bool begin_part(struct reader *reader, const uint8_t *name, size_t length
     return part->name || call_memory_error(reader->source->call, length, error);
 }
 
-// A solid begins (`at`), or none: the one that was open should have ended.
+// Opens a solid at `at` (NULL means there is no statement). A solid that is still open has no end.
 static void open_solid(struct reader *reader, const uint8_t *at)
 {
     if (reader->solid && reader->unclosed++ == 0) {
@@ -258,7 +261,7 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
     if (zero)
         return fail_line(error, source, text_line(source->bytes, zero), "found a zero byte, expected text");
 
-    // Upper bounds: each corner has the word "vertex", and each part after the first follows "solid" or "endsolid".
+    // Upper bounds: each corner has the word "vertex", and each part after the first one follows "solid" or "endsolid".
     // Names may contain these words too.
     size_t corners = text_count_word(reader.start, reader.end, "vertex");
     size_t parts =

@@ -2,13 +2,15 @@
 //
 // Two dialects store a colour of 3 × 5 bits in a facet's attribute word:
 //
-//   VisCAM, SolidView   bits 0–4 blue, 5–9 green, 10–14 red
-//                       bit 15 set: the facet has a colour
-//   Materialise Magics  bits 0–4 red, 5–9 green, 10–14 blue
-//                       bit 15 clear: the facet has its own colour
-//                       the header contains "COLOR=" and four bytes RGBA, the colour of the other facets
 //
-// The words of other programs are counters or undefined; see colors_of for the rule.
+//  VisCAM, SolidView   bits 0–4 blue, 5–9 green, 10–14 red
+//                      bit 15 set: the facet has a colour
+//  Materialise Magics  bits 0–4 red, 5–9 green, 10–14 blue
+//                      bit 15 clear: the facet has its own colour
+//                      the header contains "COLOR=" and four bytes RGBA, the colour of the other facets
+//
+//
+// Other programs store counters or undefined words; colors_of decides which it is.
 #include "stl.h"
 #include "parallel_rows.h"
 #include "fail.h"
@@ -16,12 +18,12 @@
 
 #include <string.h>
 
-// Statistics of the attribute words of a piece.
+// Statistics of the attribute words of a chunk.
 struct words {
     uint32_t marked;          // words with bit 15 set
-    uint32_t unmarked_values; // distinct nonzero words without bit 15: 0, 1, or 2 for more than one
+    uint32_t unmarked_values; // distinct nonzero words without bit 15: 0, 1, or 2 for more
     uint16_t unmarked;        // the first of them
-    bool any;                 // some word is not 0
+    bool any;                 // a word is not 0
 };
 
 struct reader {
@@ -29,10 +31,10 @@ struct reader {
     const uint8_t *facets;
     size_t count;
     float *positions;
-    struct words *words; // one per piece
-    // For the pass over colours
+    struct words *words; // one per chunk
+    // For the pass that reads colours.
     uint8_t *colors;
-    uint8_t fallback[4]; // of facets without a colour of their own
+    uint8_t fallback[4]; // the colour of facets without a colour of their own
     bool magics;
 };
 
@@ -74,13 +76,13 @@ static bool fail_not_finite(const struct reader *reader, size_t first, size_t la
     return false;
 }
 
-static bool read_piece(void *user, size_t index, lam_error *error)
+static bool read_chunk(void *user, size_t index, lam_error *error)
 {
     const struct reader *reader = user;
     size_t first, last;
     parallel_rows_range(reader->count, index, &first, &last);
     struct words words = {0};
-    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
+    uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
     const uint8_t *facet = reader->facets + first * STL_FACET;
     float *corners = reader->positions + 9 * first;
     for (size_t i = first; i < last; i++, facet += STL_FACET, corners += 9) {
@@ -97,7 +99,7 @@ static bool read_piece(void *user, size_t index, lam_error *error)
 
 static uint8_t five_bits(unsigned value) { return (uint8_t)((value * 255 + 15) / 31); }
 
-static bool color_piece(void *user, size_t index, lam_error *error)
+static bool color_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct reader *reader = user;
@@ -113,9 +115,10 @@ static bool color_piece(void *user, size_t index, lam_error *error)
     return true;
 }
 
-// Returns whether facets have colours; sets dialect and fallback. With "COLOR=" in the header they have, unless all
-// words are zero: the header's colour then applies to the whole file (*uniform). Without "COLOR=" it has if some words
-// have bit 15 set and the others are zero or equal, a default; more varied words are not colours.
+// Returns whether facets have colours, and sets dialect and fallback. If the header contains "COLOR=", they are
+// colours, unless all words are zero: the header's colour then applies to the whole file (*uniform). Otherwise they
+// have if some words have bit 15 set and all others are zero or equal, which is a default; more varied words are not
+// colours.
 static bool colors_of(struct reader *reader, const struct words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";
@@ -134,7 +137,7 @@ static bool colors_of(struct reader *reader, const struct words *words, bool *un
     return words->marked > 0 && words->unmarked_values < 2;
 }
 
-// The colour of the whole file is the default material's, so that options replace it.
+// A colour of the whole file is stored in the default material, so that options can replace it.
 static bool set_material(struct reader *reader, struct lam_scene *scene, lam_error *error)
 {
     bool raw = reader->source->params->color == LAM_COLOR_RAW;
@@ -151,12 +154,12 @@ static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh
 {
     struct words all = {0};
     for (size_t i = 0; i < parallel_rows_count(reader->count); i++) {
-        const struct words *piece = &reader->words[i];
-        all.any |= piece->any;
-        all.marked |= piece->marked;
-        if (piece->unmarked_values)
-            add_word(&all, piece->unmarked);
-        if (piece->unmarked_values == 2)
+        const struct words *chunk = &reader->words[i];
+        all.any |= chunk->any;
+        all.marked |= chunk->marked;
+        if (chunk->unmarked_values)
+            add_word(&all, chunk->unmarked);
+        if (chunk->unmarked_values == 2)
             all.unmarked_values = 2;
     }
     bool uniform = false;
@@ -165,7 +168,7 @@ static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh
     reader->colors = arena_array(&scene->arena, reader->count, 4);
     if (!reader->colors)
         return call_memory_error(reader->source->call, 4 * reader->count, error);
-    if (!parallel_rows_run(reader->source, parallel_rows_count(reader->count), color_piece, reader, error))
+    if (!parallel_rows_run(reader->source, parallel_rows_count(reader->count), color_chunk, reader, error))
         return false;
     mesh->colors = reader->colors;
     mesh->color_count = (uint32_t)reader->count;
@@ -195,13 +198,13 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
     struct arena scratch;
     arena_start(&scratch, source->call);
     struct reader reader = {.source = source, .facets = source->bytes + STL_FACETS, .count = declared};
-    size_t pieces = parallel_rows_count(declared);
+    size_t chunks = parallel_rows_count(declared);
     reader.positions = arena_array(&scene->arena, declared, 9 * sizeof(float));
-    reader.words = arena_array(&scratch, pieces, sizeof *reader.words);
+    reader.words = arena_array(&scratch, chunks, sizeof *reader.words);
     bool done = reader.positions && reader.words;
     if (!done)
         call_memory_error(source->call, declared * 9 * sizeof(float), error);
-    done = done && parallel_rows_run(source, pieces, read_piece, &reader, error) &&
+    done = done && parallel_rows_run(source, chunks, read_chunk, &reader, error) &&
            read_colors(&reader, scene, mesh, error);
     arena_free(&scratch);
     if (!done)

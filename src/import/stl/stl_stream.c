@@ -1,4 +1,4 @@
-// stl_stream.c: reads large binary STL files without colours part by part.
+// stl_stream.c: reads large binary STL files without colours in parts.
 //
 // A part is converted while it is in the second-level cache, and the file is never in memory as a whole. stl_binary.c
 // reads files with colours and files with errors.
@@ -12,7 +12,7 @@ enum { PART_FACETS = 4096 };
 struct stream {
     const struct file_parts *file;
     struct loop_status loop;
-    int unsupported;  // atomic; the file must be left to stl_binary.c
+    int unsupported;  // atomic; stl_binary.c must read the file
     uint8_t *buffers; // PART_FACETS · STL_FACET bytes per thread
     float *positions;
     size_t count;
@@ -28,7 +28,7 @@ static void read_facets(void *user, size_t index, int thread)
     const uint8_t *facet = stream->buffers + (size_t)thread * PART_FACETS * STL_FACET;
     bool read =
         file_read_part(stream->file, STL_FACETS + first * STL_FACET, (uint8_t *)(uintptr_t)facet, count * STL_FACET);
-    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
+    uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
     uint16_t words = 0;
     float *out = stream->positions + 9 * first;
     for (size_t i = 0; read && i < count; i++, facet += STL_FACET, out += 9) {

@@ -7,14 +7,15 @@
 
 #include <string.h>
 
-// A ZIP archive that names a model part and the relationships that lead to it; names are not compressed.
+// Recognises a ZIP archive that contains a model part and the relationships that lead to it; file names are not
+// compressed.
 static int threemf_probe(const uint8_t *bytes, size_t size)
 {
     static const char relationships[] = "_rels/.rels", model[] = ".model";
     bool found = size > 4 && memcmp(bytes, "PK\3\4", 4) == 0 &&
                  memmem(bytes, size, relationships, sizeof relationships - 1) &&
                  memmem(bytes, size, model, sizeof model - 1);
-    return found ? 2 : size >= 2 && memcmp(bytes, "PK", 2) == 0; // any ZIP archive, if it is called so
+    return found ? 2 : size >= 2 && memcmp(bytes, "PK", 2) == 0; // any ZIP archive with the extension .3mf
 }
 
 #ifdef HAVE_3MF
@@ -23,7 +24,7 @@ static int threemf_probe(const uint8_t *bytes, size_t size)
 
 enum { IN_RELATIONSHIPS, IN_RELATIONSHIP };
 
-// Keeps the target of the relationship to the model: xml->user is where it goes.
+// Stores the target of the relationship to the model in xml->user.
 static bool begin_relationship(struct threemf_xml *xml, const char *const *attributes)
 {
     static const char wanted[] = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
@@ -58,7 +59,7 @@ static const char *find_model(struct threemf *file)
     return model;
 }
 
-// --- the load
+// --- loading
 
 static bool report_skipped(struct threemf *file, const struct threemf_part *root)
 {
@@ -125,7 +126,7 @@ static bool threemf_load(const struct import_source *source, struct lam_scene *s
     return ok;
 }
 
-#else // built without the headers of libzip and expat
+#else // the build lacks the headers of libzip and expat
 
 static bool threemf_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
 {

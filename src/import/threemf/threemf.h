@@ -1,15 +1,16 @@
 // threemf.h: internals of the 3MF importer.
 //
-// A 3MF file is a ZIP archive with model parts in XML. The steps are: threemf_package.c opens the archive (libzip), threemf_xml.c parses a
-// part (expat), threemf_model.c takes its elements, with threemf_properties.c, threemf_layers.c and threemf_display.c, threemf_mesh.c makes meshes of its objects, and threemf_build.c
-// places them as the build items and their components say.
+// A 3MF file is a ZIP archive with model parts in XML. threemf_package.c opens the archive (libzip), and threemf_xml.c
+// parses a part (expat). threemf_model.c reads its elements, with threemf_properties.c, threemf_layers.c and
+// threemf_display.c. threemf_mesh.c makes meshes of its objects, and threemf_build.c places them according to the build
+// items and their components.
 #ifndef THREEMF_H
 #define THREEMF_H
 
 #include "importer.h"
 #include "name_table.h"
 
-// A growing array. It is freed with the file that it belongs to.
+// A growing array. It is freed with its file.
 struct threemf_rows {
     void *items;
     size_t count, capacity, bytes; // bytes: charged to the call
@@ -25,46 +26,49 @@ enum resource_kind {
     RESOURCE_DISPLAY // display properties
 };
 
-// The kinds of resources: an <object>, a group of properties, or a texture of a model part.
+// A resource of a model part: an <object>, a group of properties, or a texture.
 struct threemf_resource {
     enum resource_kind kind;
-    // Groups of properties: their elements in the part's lists: colours (BASE, COLORS), texture coordinates, pairs (MULTI).
+    // For groups of properties, the range of their elements in the part's lists of colours (BASE, COLORS), texture
+    // coordinates or pairs (MULTI).
     uint32_t first, count;
-    int material;                  // BASE: of its first element; TEXCOORDS, MULTI: with the texture; −1: none
-    bool faulty;                   // it cannot be read: triangles are drawn without it
-    int32_t base;                  // of composite materials: index of the resource whose colours they mix
+    // The material of the first element (BASE) or the material with the texture (TEXCOORDS, MULTI), or −1.
+    int material;
+    bool faulty;                   // the picture cannot be read, so triangles are drawn without it
+    int32_t base;                  // composite materials: index of the resource with the mixed colours
     struct threemf_object *object; // OBJECT
     struct threemf_layers *layers; // MULTI
-    lam_texture_map map;           // TEXTURE: how it is read; `texture` NULL: its picture could not be read
+    lam_texture_map map;           // TEXTURE: its settings; `texture` NULL: its picture could not be read
 };
 
-// The groups that an element of multiproperties takes one index of each.
+// The groups of multiproperties; each element has one index for each group.
 enum { LAYERS_MAX = 16 };
 struct threemf_layers {
     int count;
     int32_t groups[LAYERS_MAX]; // indices of resources
-    bool multiply[LAYERS_MAX];  // the layer multiplies those below; false: it covers them by its alpha
-    int texture;                // the first layer that is a texture; −1: none is
+    // Whether the layer multiplies the layers below. Otherwise it covers them by its alpha.
+    bool multiply[LAYERS_MAX];
+    int texture; // the first layer that is a texture, or −1
     int texture_count;
-    int base;                    // the base material whose surface the mixed layers have; −1: none
-    uint32_t colors[LAYERS_MAX]; // of the first element: indices into the part's colours
-    bool varies; // another element has other colours, or textures lie at other coordinates than the first
+    int base;                    // the base material whose surface the mixed layers use, or −1
+    uint32_t colors[LAYERS_MAX]; // colours of the first element: indices into the part's colours
+    bool varies; // another element has other colours, or textures use other coordinates than the first one
 };
 
-// An element of multiproperties: indices into the part's colours and texture coordinates.
+// An element of multiproperties, as indices into the part's colours and texture coordinates.
 struct threemf_pair {
     uint32_t color, texcoord;
 };
 
-// A reference to an object and where it is: a component, or an item of the build.
+// A reference to an object, with its transform: a component, or an item of the build.
 struct threemf_component {
-    const char *path; // of another model part; NULL: the same
+    const char *path; // path of another model part; NULL means the same part
     int32_t id;
     lam_mat4 transform;
     size_t line;
 };
 
-// A triangle's group of properties (an id; 0: none) and the index of each corner in it.
+// A triangle's group of properties (an id, or 0) and the index of each corner in the group.
 struct threemf_property {
     int32_t group;
     uint32_t index[3];
@@ -74,30 +78,30 @@ struct threemf_object {
     const char *name;
     int32_t id;
     size_t line;
-    int32_t group; // id of the group that triangles without one of their own have; 0: none
+    int32_t group; // id of the group for triangles without one of their own, or 0
     uint32_t index;
     float *positions;
     uint32_t *indices;
-    struct threemf_property *properties; // NULL: no triangle has one of its own
+    struct threemf_property *properties; // NULL means no triangle has a group of its own
     uint32_t vertex_count, triangle_count;
     struct threemf_component *components;
     size_t component_count;
-    int mesh;      // in the scene; −1: not yet made, or it has no triangles
+    int mesh;      // index in the scene; −1 if not made yet, or without triangles
     bool made;     // `mesh` is final
-    bool visiting; // it is being placed: a component that refers to it makes a circle
+    bool visiting; // set while it is placed: a component that refers to it then forms a cycle
 };
 
 // A model part.
 struct threemf_part {
     const char *path;
-    double unit_m; // metres of a unit of its lengths
+    double unit_m; // metres per unit of length
     struct name_table ids;
     struct threemf_rows resources; // struct threemf_resource
-    struct threemf_rows colors;    // 4 floats, linear; 0 is white, 1 the default material's
+    struct threemf_rows colors;    // 4 floats, linear; 0 is white, 1 is the default material's colour
     struct threemf_rows texcoords; // 2 floats
     struct threemf_rows pairs;     // struct threemf_pair
     struct threemf_rows items;     // struct threemf_component: the build
-    // The same in the scene's arena, once the part is read. Its meshes share them.
+    // The same lists in the scene's arena, after the part is read. Its meshes share them.
     const float *scene_colors, *scene_texcoords;
 };
 
@@ -113,40 +117,40 @@ struct threemf {
     struct expat_library *expat;
     struct name_table part_names;
     struct threemf_rows parts; // struct threemf_part *
-    uint64_t expanded;         // bytes of all parts that were read
-    uint64_t placed;           // components and items that were followed
-    size_t flattened;          // instances whose transform has no volume
-    size_t multiplied_layers;  // multiproperties whose layers are drawn as a product
-    size_t beams, sliced;      // beams, and objects with slices
+    uint64_t expanded;         // total bytes of all parts
+    uint64_t placed;           // number of components and items that were followed
+    size_t flattened;          // number of instances whose transform is singular
+    size_t multiplied_layers;  // number of multiproperties that are drawn as a product
+    size_t beams, sliced;      // number of beams, and of objects with slices
 };
 
-// Room for `count` rows of `size` bytes each. False: out of memory, and the error says so.
+// Reserves space for `count` rows of `size` bytes each. Returns false and fills the error if memory runs out.
 bool threemf_reserve(struct threemf *file, struct threemf_rows *rows, size_t size, size_t count);
-// Returns a zeroed row at the end of a list. NULL: out of memory, and the error says so.
+// Appends a zeroed row to a list. Returns NULL and fills the error if memory runs out.
 void *threemf_add(struct threemf *file, struct threemf_rows *rows, size_t size);
 void threemf_rows_free(struct threemf *file, struct threemf_rows *rows);
 bool threemf_no_memory(struct threemf *file, size_t bytes);
 
 // --- threemf_package.c
 
-// Opens libzip, and the archive within its bounds. LAM_UNSUPPORTED: libzip is not installed.
+// Opens libzip, and the archive within its limits. Fails with LAM_UNSUPPORTED if libzip is not installed.
 bool threemf_package_open(struct threemf *file);
 void threemf_package_close(struct threemf *file);
 
-// Reads a part of the archive in pieces. `name`: with or without the '/' at its start.
-typedef bool threemf_piece_fn(void *user, const void *bytes, size_t size, bool last);
-bool threemf_package_read(struct threemf *file, const char *name, threemf_piece_fn *take, void *user);
-// Reads all of it into memory of the scratch arena.
+// Reads a part of the archive in chunks. `name` may have a '/' at its start.
+typedef bool threemf_chunk_fn(void *user, const void *bytes, size_t size, bool last);
+bool threemf_package_read(struct threemf *file, const char *name, threemf_chunk_fn *take, void *user);
+// Reads a whole part into memory of the scratch arena.
 bool threemf_package_read_whole(struct threemf *file, const char *name, const uint8_t **bytes, size_t *size);
 
 // --- the model
 
-// Returns the part of this path, read when it is first asked for. Returns NULL and sets the error.
+// Returns the part with this path, which is read on first use. Returns NULL and fills the error on failure.
 struct threemf_part *threemf_part_at(struct threemf *file, const char *path);
 // Returns a resource of a part by its id, or NULL if there is none.
 struct threemf_resource *threemf_resource_at(const struct threemf_part *part, int32_t id);
 
-// threemf_properties.c: the colour of an element of a group, linear.
+// threemf_properties.c: returns the linear colour of an element of a group.
 const float *threemf_color(const struct threemf_part *part, const struct threemf_resource *group, uint32_t index);
 
 // threemf_mesh.c: adds an object's triangles to the scene as a mesh (object->mesh).

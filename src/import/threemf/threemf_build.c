@@ -1,4 +1,4 @@
-// threemf_build.c: the items of the build and the components of their objects as objects of the scene.
+// threemf_build.c: adds objects to the scene for the items of the build and the components of their objects.
 #include "threemf.h"
 
 #include "fail.h"
@@ -9,7 +9,7 @@
 
 enum { DEPTH_MAX = 100 };
 
-// A part, the object in it that is placed, and where.
+// An object in a part, and its transform.
 struct instance {
     struct threemf_part *part;
     struct threemf_object *object;
@@ -25,7 +25,7 @@ static bool fail_reference(struct threemf *file, const struct threemf_part *part
                 shown_name(part->path, shown), component->line, component->id, sentence);
 }
 
-// Returns whether one more reference may be followed. References that lead to nothing count as objects too.
+// Returns whether one more reference may be followed. References to nothing count as objects too.
 static bool check_limits(struct threemf *file)
 {
     struct call_control *call = file->source->call;
@@ -68,7 +68,7 @@ static bool add_object(struct threemf *file, const struct instance *instance)
     return scene_adopt_object(file->scene, &object, file->error) >= 0;
 }
 
-// Places an object and, below it, its components. // NOLINTNEXTLINE(misc-no-recursion): bounded by DEPTH_MAX
+// Places an object and, recursively, its components. // NOLINTNEXTLINE(misc-no-recursion): bounded by DEPTH_MAX
 static bool place(struct threemf *file, const struct instance *instance)
 {
     struct threemf_object *object = instance->object;

@@ -1,4 +1,5 @@
-// threemf_display.c: display properties of the materials extension: base materials as metals and dielectrics.
+// threemf_display.c: reads display properties of the materials extension, which turn base materials into metals and
+// dielectrics.
 #include "threemf_model.h"
 
 #include "fail.h"
@@ -10,7 +11,7 @@
 // The surface that an element of display properties describes.
 struct display {
     float metallic, roughness;
-    bool specular; // `f0` instead of `metallic`
+    bool specular; // `f0` is used instead of `metallic`
     float f0[4];
 };
 
@@ -22,7 +23,7 @@ bool begin_display(struct threemf_xml *xml, const char *const *attributes)
     return group != NULL;
 }
 
-// A number from 0 to 1 that may be missing. Returns false if it is another one, and a warning says so.
+// Gets an optional number from 0 to 1. Returns false with a warning if it is out of range.
 static bool take_share(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out)
 {
     if (!threemf_attribute(attributes, name))
@@ -72,7 +73,7 @@ static void apply(const struct display *display, lam_material *material)
     material->physical = true;
     material->metallic = display->metallic;
     material->roughness = display->roughness;
-    if (display->specular) { // a dielectric that reflects everything but for its colour, as in glTF
+    if (display->specular) { // a dielectric whose reflectance is its colour, as in glTF
         material->ior = 0;
         material->f0_color = (lam_rgb){display->f0[0], display->f0[1], display->f0[2]};
         material->specular_glossiness = 1;
@@ -85,12 +86,12 @@ void display_finish(struct model_reader *reader)
     lam_material *materials = reader->file->scene->materials.items;
     for (size_t i = 0; i < reader->wishes.count; i++) {
         const struct threemf_resource *group = threemf_resource_at(reader->part, (int32_t)wishes[i].id);
-        // Translucent ones, and those of textures, are not drawn.
+        // Display properties that are translucent or use textures are not drawn.
         if (group && group->kind == RESOURCE_DISPLAY && wishes[i].index < group->count)
             apply((const struct display *)reader->displays.items + group->first + wishes[i].index,
                   &materials[wishes[i].material]);
     }
-    // Mixed layers over a base material have its surface.
+    // Mixed layers over a base material use its surface.
     for (size_t i = 0; i < reader->part->resources.count && reader->wishes.count; i++) {
         const struct threemf_resource *group = model_resource(reader->part, (int32_t)i);
         if (group->kind != RESOURCE_MULTI || !group->layers || group->layers->base < 0 || group->faulty)

@@ -1,4 +1,4 @@
-// threemf_extensions.c: the extensions that a model names by the name spaces that it declares, and those that it requires.
+// threemf_extensions.c: lists the extensions for which a model declares name spaces, and checks the required ones.
 #include "threemf_model.h"
 
 #include "fail.h"
@@ -20,7 +20,7 @@ static const struct known {
     {MICROSOFT "production/2015/06", LAM_EXTENSION_READ},
     {CONSORTIUM "trianglesets/2021/07", LAM_EXTENSION_NO_EFFECT},
     {MICROSOFT "trianglesets/2021/07", LAM_EXTENSION_NO_EFFECT},
-    // The objects' triangles are drawn: not their slices, beams and displacements.
+    // The objects' triangles are drawn, without their slices, beams and displacements.
     {MICROSOFT "slice/2015/07", LAM_EXTENSION_IGNORED},
     {MICROSOFT "beamlattice/2017/02", LAM_EXTENSION_IGNORED},
     {MICROSOFT "beamlattice/balls/2020/07", LAM_EXTENSION_IGNORED},
@@ -28,7 +28,7 @@ static const struct known {
     {CONSORTIUM "productionalternatives/2021/04", LAM_EXTENSION_IGNORED},
 };
 
-// A prefix and its name space, as the model element declares it.
+// A prefix and its name space, declared by the model element.
 struct declared {
     const char *prefix, *uri;
 };
@@ -71,7 +71,7 @@ static bool check_required(struct threemf_xml *xml, const lam_file_extension *ex
 {
     struct threemf *file = xml->file;
     char shown[SHOWN_NAME_SIZE];
-    // The end of the name tells extensions apart.
+    // The end of the name distinguishes extensions.
     const char *name = strlen(extension->name) > SHOWN_CHARACTERS
                            ? extension->name + strlen(extension->name) - (SHOWN_CHARACTERS - 1)
                            : extension->name;
@@ -102,7 +102,7 @@ bool extensions_check(struct threemf_xml *xml, const char *const *attributes)
     lam_file_info *info = &file->scene->file;
     info->extensions = list;
     for (size_t i = 0; i < count; i++) {
-        if (strcmp(spaces[i].uri, known[0].uri) == 0) // the core
+        if (strcmp(spaces[i].uri, known[0].uri) == 0) // the core specification
             continue;
         lam_file_extension *extension = &list[info->extension_count++];
         extension->name = spaces[i].uri;

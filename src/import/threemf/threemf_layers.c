@@ -1,7 +1,8 @@
-// threemf_layers.c: multiproperties of the materials extension: elements of several groups laid over one another.
+// threemf_layers.c: reads multiproperties of the materials extension, which combine elements of several groups as
+// layers.
 //
-// A layer of colours that is the same colour in all elements, and textures that all lie at the same coordinates, are mixed into one
-// texture. Other layers become one colour for each element, which multiplies the first texture.
+// Layers are mixed into one texture if each layer of colours has the same colour in all elements and all textures use
+// the same coordinates. Other layers become one colour per element, which multiplies the first texture.
 #include "threemf_model.h"
 
 #include "fail.h"
@@ -35,7 +36,7 @@ static bool take_layers(struct threemf_xml *xml, const char *list, struct threem
     return true;
 }
 
-// The methods of the second layer on.
+// Reads the blend methods of the layers from the second one on.
 static void take_methods(const char *blend, struct threemf_layers *layers)
 {
     for (int i = 1; blend && i < layers->count && !model_at_end(blend); i++) {
@@ -87,10 +88,10 @@ static void blend_layer(float below[4], const float color[4], bool multiply)
 static const lam_texture_map *map_of(const struct threemf *file, const struct threemf_resource *layer)
 {
     return lam_scene_material(file->scene, layer->material)
-        ->maps[LAM_MAP_DIFFUSE]; // NULL: the picture could not be read
+        ->maps[LAM_MAP_DIFFUSE]; // NULL means the picture could not be read
 }
 
-// Notes whether the element takes the same colours and texture coordinates of the layers as the first one does of its own.
+// Checks whether the element has the same colours and texture coordinates in its layers as the first element.
 static void compare_with_first(struct threemf_part *part, struct threemf_layers *layers, const uint32_t *indices,
                                bool is_first)
 {
@@ -114,7 +115,7 @@ static void compare_with_first(struct threemf_part *part, struct threemf_layers 
     }
 }
 
-// The colours of an element's layers become one, which multiplies the texture if there is one.
+// Combines the colours of an element's layers into one, which multiplies the texture if there is one.
 bool begin_multi(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
@@ -123,7 +124,7 @@ bool begin_multi(struct threemf_xml *xml, const char *const *attributes)
     const char *list = threemf_attribute(attributes, "pindices"), *at = list ? list : "";
     char shown[SHOWN_NAME_SIZE];
     float color[4] = {1, 1, 1, 1};
-    uint32_t indices[LAYERS_MAX] = {0}; // 0 of layers that the list leaves out
+    uint32_t indices[LAYERS_MAX] = {0}; // layers that the list omits use index 0
     if (group->faulty)
         return true;
     struct threemf_layers *layers = group->layers;
@@ -149,15 +150,15 @@ bool begin_multi(struct threemf_xml *xml, const char *const *attributes)
     return true;
 }
 
-// --- layers as one texture
+// --- mixing layers into one texture
 
 struct mixed_layer {
-    const lam_texture_map *map; // NULL: the colour
+    const lam_texture_map *map; // NULL means the layer is a colour
     texel color;
     bool multiply;
 };
 
-// As blend_layer.
+// Blends one texel as blend_layer does.
 static texel blend_texel(texel below, texel color, bool multiply)
 {
     texel mixed = below + color[3] * (color - below);
@@ -165,7 +166,7 @@ static texel blend_texel(texel below, texel color, bool multiply)
     return multiply ? below * color : mixed;
 }
 
-// The layers at a texel of a picture of this size.
+// Returns the mix of the layers at a texel of a picture of this size.
 static texel mix_texel(const struct mixed_layer *layers, int count, int x, int y, int width, int height)
 {
     texel out = {1, 1, 1, 1};
@@ -183,7 +184,7 @@ static texel mix_texel(const struct mixed_layer *layers, int count, int x, int y
     return out;
 }
 
-// Each texel is what the layers are there, at the size of the largest picture. The scene owns the texture.
+// Mixes the layers texel by texel, at the size of the largest picture. The scene owns the texture.
 static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, int count, lam_texture **out)
 {
     const struct picture_file picture = {NULL, 0, file->source->name, file->source->call};
@@ -195,7 +196,7 @@ static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, 
         width = texture && texture->levels[0].width > width ? texture->levels[0].width : width;
         height = texture && texture->levels[0].height > height ? texture->levels[0].height : height;
     }
-    // Any number of groups may name one texture: what they become counts as what the file expands to.
+    // Any number of groups may use one texture, so the mixed textures count towards the expansion limit.
     file->expanded += (uint64_t)width * (uint64_t)height * 4;
     if (!call_check_expanded(picture.call, file->source->name, file->expanded, file->error) ||
         !picture_make(&picture, (uint32_t)width, (uint32_t)height, LAM_RGBA8, &image, file->error))
@@ -218,7 +219,7 @@ static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, 
     return *out && scene_adopt_texture(file->scene, *out, file->error);
 }
 
-// Returns whether a product is what the layers are: one texture, and no layer is mixed with those below it.
+// Returns whether a product is exact: there is one texture, and no layer is blended with the layers below it.
 static bool needs_no_mixing(const struct threemf_layers *layers)
 {
     bool mixes = layers->texture_count > 1;
@@ -227,7 +228,7 @@ static bool needs_no_mixing(const struct threemf_layers *layers)
     return !mixes;
 }
 
-// Collects the layers. Returns false if they cannot be one texture.
+// Collects the layers. Returns false if they cannot be mixed into one texture.
 static bool collect_layers(struct model_reader *reader, const struct threemf_layers *layers, struct mixed_layer *out)
 {
     const lam_texture_map *first = NULL;
@@ -247,7 +248,8 @@ static bool collect_layers(struct model_reader *reader, const struct threemf_lay
     return !layers->varies;
 }
 
-// Returns a material with the mixed texture, and otherwise that of a base material in the first layer.
+// Adds a material with the mixed texture; its other fields come from a base material in the first layer, if there is
+// one.
 static int add_mixed_material(struct threemf *file, const lam_texture_map *like, lam_texture *texture, int base)
 {
     lam_material material = base >= 0 ? *lam_scene_material(file->scene, base) : lam_material_default();

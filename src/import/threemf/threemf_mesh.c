@@ -1,4 +1,4 @@
-// threemf_mesh.c: the triangles of an object as a mesh of the scene, with a part for each material.
+// threemf_mesh.c: converts the triangles of an object to a mesh of the scene, with a part for each material.
 #include "threemf.h"
 
 #include "fail.h"
@@ -12,11 +12,11 @@
 enum { WHITE, NEUTRAL }; // the first colours of each part
 enum { PLAIN = -1 };     // material of triangles without a base material or a texture
 
-// The surface that the properties of a triangle describe.
+// The surface for the properties of a triangle.
 struct surface {
     int material;
     uint32_t colors[3], texcoords[3];
-    bool colored, textured; // it has colours, texture coordinates of its own
+    bool colored, textured; // whether it has colours and texture coordinates of its own
 };
 
 struct mesh_maker {
@@ -24,8 +24,8 @@ struct mesh_maker {
     const struct threemf_part *part;
     const struct threemf_object *object;
     struct arena *scratch;
-    int *materials;               // of each triangle
-    uint32_t *colors, *texcoords; // 3 for each triangle
+    int *materials;               // per triangle
+    uint32_t *colors, *texcoords; // 3 per triangle
     bool colored, textured;
 };
 
@@ -74,7 +74,7 @@ static bool resolve(const struct mesh_maker *maker, const struct threemf_propert
     return true;
 }
 
-// Finds what each triangle is made of. Triangles with the properties of the one before are not looked up again.
+// Finds the surface of each triangle. Triangles with the same properties as the previous one are not looked up again.
 static bool resolve_all(struct mesh_maker *maker)
 {
     const struct threemf_object *object = maker->object;
@@ -121,7 +121,7 @@ static uint64_t *order_triangles(const struct mesh_maker *maker, size_t count, s
     return order;
 }
 
-// Moves three numbers of each triangle to its new place.
+// Moves three numbers of each triangle to its new position.
 static bool move_triangles(const struct mesh_maker *maker, const uint64_t *order, size_t count, uint32_t *list)
 {
     uint32_t *old = arena_array(maker->scratch, 3 * count, sizeof *old);

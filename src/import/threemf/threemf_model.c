@@ -1,5 +1,5 @@
-// threemf_model.c: model parts: objects with their meshes and components, and the build (3MF core 1.3, production extension 1.1).
-// https://github.com/3MFConsortium/spec_core
+// threemf_model.c: reads model parts: objects with their meshes and components, and the build (3MF core 1.3, production
+// extension 1.1). https://github.com/3MFConsortium/spec_core
 #include "threemf_model.h"
 
 #include "fail.h"
@@ -100,7 +100,7 @@ static bool begin_vertex(struct threemf_xml *xml, const char *const *attributes)
            threemf_take_float(xml, attributes, "z", &position[2]);
 }
 
-// The properties of a triangle: p2 and p3 get the property of p1 if the file does not give them.
+// Gets the properties of a triangle; p2 and p3 default to p1.
 static bool take_property(struct threemf_xml *xml, const char *const *attributes, struct threemf_property *property)
 {
     struct model_reader *reader = reader_of(xml);
@@ -143,7 +143,7 @@ static bool begin_triangle(struct threemf_xml *xml, const char *const *attribute
     return take_property(xml, attributes, property);
 }
 
-// Copies rows into an arena, or NULL if there are none, or memory is out.
+// Copies rows into an arena. Returns NULL if there are none, or memory runs out.
 static void *keep_rows(struct model_reader *reader, struct arena *arena, const struct threemf_rows *rows, size_t size,
                        bool *ok)
 {
@@ -223,7 +223,7 @@ static bool begin_item(struct threemf_xml *xml, const char *const *attributes)
     return !reader_of(xml)->is_root || add_component(xml, attributes, &reader_of(xml)->part->items);
 }
 
-// Beams are counted, not drawn.
+// Counts a beam; beams are not drawn.
 static bool begin_beam(struct threemf_xml *xml, const char *const *attributes)
 {
     (void)attributes;
@@ -254,7 +254,7 @@ static const struct threemf_element elements[IN_COUNT] = {
     [IN_COMPOSITE] = {NS_MATERIALS, "composite", IN_COMPOSITES, begin_composite, NULL},
     [IN_MULTIS] = {NS_MATERIALS, "multiproperties", IN_RESOURCES, begin_multis, end_multis},
     [IN_MULTI] = {NS_MATERIALS, "multi", IN_MULTIS, begin_multi, NULL},
-    [IN_CORE_MULTI] = {NS_CORE, "multi", IN_MULTIS, begin_multi, NULL}, // as samples of the consortium have it
+    [IN_CORE_MULTI] = {NS_CORE, "multi", IN_MULTIS, begin_multi, NULL}, // as in samples of the 3MF consortium
     [IN_METALLIC_GROUP] = {NS_MATERIALS, "pbmetallicdisplayproperties", IN_RESOURCES, begin_display, end_group},
     [IN_METALLIC] = {NS_MATERIALS, "pbmetallic", IN_METALLIC_GROUP, begin_metallic, NULL},
     [IN_SPECULAR_GROUP] = {NS_MATERIALS, "pbspeculardisplayproperties", IN_RESOURCES, begin_display, end_group},
@@ -268,7 +268,7 @@ static const struct threemf_element elements[IN_COUNT] = {
 
 // --- parts
 
-// The lists that meshes share go to the scene.
+// Moves the lists that meshes share to the scene.
 static bool keep_lists(struct model_reader *reader)
 {
     struct threemf_part *part = reader->part;

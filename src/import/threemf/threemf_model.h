@@ -46,21 +46,21 @@ struct model_reader {
     struct threemf *file;
     struct threemf_part *part;
     bool is_root;
-    struct threemf_rows spaces; // the name spaces that the model element declares (threemf_extensions.c)
-    bool in_model;              // the model element is open
-    // The object that is open.
+    struct threemf_rows spaces; // name spaces declared by the model element (threemf_extensions.c)
+    bool in_model;              // inside the model element
+    // The current object.
     struct threemf_object *object;
     struct threemf_rows positions, indices, properties, components;
     bool has_properties;
-    // The group of properties that is open; −1: none.
+    // The current group of properties, or −1.
     int32_t group;
-    uint32_t bases[LAYERS_MAX]; // composite materials: the indices of the base materials that they mix
+    uint32_t bases[LAYERS_MAX]; // composite materials: the indices of the mixed base materials
     int base_count;
-    uint32_t display; // id of the display properties of the open base materials
+    uint32_t display; // id of the display properties of the current base materials
     bool has_display;
     struct threemf_rows wishes, displays; // threemf_display.c
     struct threemf_rows text;
-    const char **wanted_text; // where the text of a metadata element goes
+    const char **wanted_text; // receives the text of a metadata element
 };
 
 static inline struct model_reader *reader_of(struct threemf_xml *xml) { return xml->user; }
@@ -69,24 +69,24 @@ static inline struct model_reader *reader_of(struct threemf_xml *xml) { return x
 struct threemf_resource *model_add_resource(struct threemf_xml *xml, const char *const *attributes,
                                             enum resource_kind kind);
 
-// Returns a resource by its number; the group that is open.
+// Return a resource by its index, and the current group.
 struct threemf_resource *model_resource(struct threemf_part *part, int32_t index);
 struct threemf_resource *model_group(struct model_reader *reader);
 bool model_add_color(struct threemf *file, struct threemf_part *part, const float color[4]);
 // Reads the next whole number below `limit` of a list in an attribute. Returns false if there is none.
 bool model_next_number(const char **at, uint32_t limit, uint32_t *out);
-bool model_at_end(const char *at); // only spaces are left
+bool model_at_end(const char *at); // whether only spaces are left
 
-// A base material that names an element of display properties.
+// A base material that refers to an element of display properties.
 struct display_wish {
     int material;
     uint32_t id, index;
 };
 
-// Keeps the wish of a base material for the display properties that its element or its group names.
+// Remembers that a base material uses the display properties that its element or its group names.
 bool model_want_display(struct threemf_xml *xml, const char *const *attributes, int material, uint32_t index);
 
-// threemf_extensions.c: keeps a name space; checks the extensions that the model element requires.
+// threemf_extensions.c: records a name space, and checks the extensions that the model element requires.
 void extensions_declare(struct threemf_xml *xml, const char *prefix, const char *uri);
 bool extensions_check(struct threemf_xml *xml, const char *const *attributes);
 
@@ -94,18 +94,19 @@ bool extensions_check(struct threemf_xml *xml, const char *const *attributes);
 threemf_begin_fn begin_base_materials, begin_base, begin_color_group, begin_color, begin_texture, begin_texcoord_group,
     begin_texcoord, begin_composites, begin_composite;
 threemf_end_fn end_group;
-// "#RRGGBB" or "#RRGGBBAA" of an attribute, sRGB, as linear numbers.
+// Parses "#RRGGBB" or "#RRGGBBAA" of an attribute, sRGB, to linear numbers.
 bool properties_take_color(struct threemf_xml *xml, const char *const *attributes, const char *name, float out[4]);
 // threemf_layers.c: multiproperties.
 threemf_begin_fn begin_multis, begin_multi;
 threemf_end_fn end_multis;
-// threemf_display.c: display properties. display_finish grants the wishes at the end of the part, since the properties may follow the
+// threemf_display.c: display properties. display_finish applies them at the end of the part, since they may follow the
 // materials.
 threemf_begin_fn begin_display, begin_metallic, begin_specular;
 void display_finish(struct model_reader *reader);
-// A fault of properties does not stop the load: a warning "FILE: PART:LINE: sentence", and the open group is faulty. Returns true.
+// Reports a fault of properties, which does not stop the load: adds a warning "FILE: PART:LINE: sentence" and marks the
+// current group as faulty. Returns true.
 bool properties_fault(struct threemf_xml *xml, const char *format, ...) __attribute__((format(printf, 2, 3)));
-// White and the colour of parts without a material, which a part's colours begin with.
+// Adds white and the colour of parts without a material, with which a part's colours begin.
 bool properties_start(struct threemf *file, struct threemf_part *part);
 
 #endif

@@ -1,4 +1,4 @@
-// threemf_package.c: the ZIP archive of a 3MF file, read by libzip, which is opened when a file needs it.
+// threemf_package.c: reads the ZIP archive of a 3MF file with libzip, which is opened on demand.
 #include "threemf.h"
 
 #include "fail.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <zip.h>
 
-// Of Debian 12 and of Debian 13: what is called here is the same in both.
+// The libraries of Debian 12 and of Debian 13; the functions used here are the same in both.
 #define LIBRARY       "libzip.so.4"
 #define NEWER_LIBRARY "libzip.so.5"
 
@@ -24,15 +24,15 @@
 struct zip_library {
     void *handle;
     zip_t *archive;
-    size_t charged; // of what libzip takes for the list of entries
+    size_t charged; // bytes charged for libzip's list of entries
 #define MEMBER(name) __typeof__(&name) name;
     FUNCTIONS(MEMBER)
 };
 
-// --- the archive's claims, before libzip takes memory for them
+// --- checking the declared size before libzip allocates memory
 
 enum { END_BYTES = 22, COMMENT_MAX = 65535, LOCATOR_BYTES = 20, END64_BYTES = 56, ENTRY_BYTES = 46 };
-// Bytes that libzip takes for an entry of the list, beside its name.
+// Bytes that libzip uses for an entry of the list, beside its name.
 enum { ENTRY_MEMORY = 512 };
 
 static uint64_t little(const uint8_t *at, int bytes)
@@ -43,7 +43,7 @@ static uint64_t little(const uint8_t *at, int bytes)
     return value;
 }
 
-// The entries that the record at `end`, which closes an archive, says there are.
+// Returns the number of entries in the record at `end`, which closes an archive.
 static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
 {
     uint64_t count = little(bytes + end + 10, 2);
@@ -57,7 +57,8 @@ static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
     return large > count ? large : count;
 }
 
-// The largest number of entries that any closing record claims; libzip may believe any. Returns false if there is none.
+// Finds the largest number of entries in any closing record, since libzip may use any of them. Returns false if there
+// is no record.
 static bool claimed_entries(const uint8_t *bytes, size_t size, uint64_t *out)
 {
     bool found = false;
@@ -155,7 +156,7 @@ void threemf_package_close(struct threemf *file)
     library_close(file->zip->handle);
 }
 
-// --- its parts
+// --- parts of the archive
 
 static bool fail_part(struct threemf *file, const char *name, const char *why)
 {
@@ -164,8 +165,8 @@ static bool fail_part(struct threemf *file, const char *name, const char *why)
                 shown_name(name, shown), why);
 }
 
-// Returns the index of a part. Names differ in capitals between programs, but a list of many entries is searched by the
-// hash of its names alone.
+// Returns the index of a part. The case of names differs between programs, but a list of many entries is only searched
+// by the hash of exact names.
 static zip_int64_t locate(const struct zip_library *zip, const char *name)
 {
     enum { FEW = 1000 };
@@ -175,31 +176,31 @@ static zip_int64_t locate(const struct zip_library *zip, const char *name)
                : index;
 }
 
-static bool read_pieces(struct threemf *file, const char *name, zip_file_t *part, threemf_piece_fn *take, void *user)
+static bool read_chunks(struct threemf *file, const char *name, zip_file_t *part, threemf_chunk_fn *take, void *user)
 {
-    enum { PIECE = 128 << 10 };
+    enum { CHUNK = 128 << 10 };
     const struct zip_library *zip = file->zip;
     struct call_control *call = file->source->call;
-    uint8_t *piece = arena_alloc(file->scratch, PIECE);
+    uint8_t *chunk = arena_alloc(file->scratch, CHUNK);
     char shown[SHOWN_NAME_SIZE];
-    if (!piece)
-        return threemf_no_memory(file, PIECE);
+    if (!chunk)
+        return threemf_no_memory(file, CHUNK);
     for (;;) {
-        zip_int64_t got = zip->zip_fread(part, piece, PIECE);
+        zip_int64_t got = zip->zip_fread(part, chunk, CHUNK);
         if (got < 0)
             return fail(file->error, LAM_CANNOT_READ, "%s: its part %s is damaged: %s", file->source->name,
                         shown_name(name, shown), zip->zip_error_strerror(zip->zip_file_get_error(part)));
         file->expanded += (uint64_t)got;
         if (!call_check_expanded(call, file->source->name, file->expanded, file->error) ||
             (!call_should_continue(call) && !call_error(call, file->error)) ||
-            !take(user, piece, (size_t)got, got == 0))
+            !take(user, chunk, (size_t)got, got == 0))
             return false;
         if (got == 0)
             return true;
     }
 }
 
-bool threemf_package_read(struct threemf *file, const char *name, threemf_piece_fn *take, void *user)
+bool threemf_package_read(struct threemf *file, const char *name, threemf_chunk_fn *take, void *user)
 {
     const struct zip_library *zip = file->zip;
     name += *name == '/';
@@ -209,7 +210,7 @@ bool threemf_package_read(struct threemf *file, const char *name, threemf_piece_
     zip_file_t *part = zip->zip_fopen_index(zip->archive, (zip_uint64_t)index, 0);
     if (!part)
         return fail_part(file, name, zip->zip_error_strerror(zip->zip_get_error(zip->archive)));
-    bool ok = read_pieces(file, name, part, take, user);
+    bool ok = read_chunks(file, name, part, take, user);
     zip->zip_fclose(part);
     return ok;
 }
@@ -219,7 +220,7 @@ struct whole {
     struct threemf_rows bytes;
 };
 
-static bool keep_piece(void *user, const void *bytes, size_t size, bool last)
+static bool keep_chunk(void *user, const void *bytes, size_t size, bool last)
 {
     struct whole *whole = user;
     (void)last;
@@ -237,7 +238,7 @@ bool threemf_package_read_whole(struct threemf *file, const char *name, const ui
 {
     struct whole whole = {.file = file};
     uint8_t *copy = NULL;
-    bool ok = threemf_package_read(file, name, keep_piece, &whole);
+    bool ok = threemf_package_read(file, name, keep_chunk, &whole);
     if (ok) {
         copy = arena_alloc(file->scratch, whole.bytes.count);
         ok = copy || threemf_no_memory(file, whole.bytes.count);

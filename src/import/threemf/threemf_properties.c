@@ -1,5 +1,6 @@
-// threemf_properties.c: groups of properties: base materials of the core, and colours, textures and composite materials of the materials
-// extension 1.2 (multiproperties: threemf_layers.c; display properties: threemf_display.c). https://github.com/3MFConsortium/spec_materials
+// threemf_properties.c: reads groups of properties: base materials of the core, and colours, textures and composite
+// materials of the materials extension 1.2 (multiproperties: threemf_layers.c; display properties: threemf_display.c).
+// https://github.com/3MFConsortium/spec_materials
 #include "threemf_model.h"
 
 #include "fail.h"
@@ -131,7 +132,7 @@ static bool can_do_without(const lam_error *error)
     return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
 }
 
-// Decodes a picture of the package. The scene owns it. *out NULL: it could not be read, and a warning says so.
+// Decodes a picture of the package, which the scene then owns. *out is NULL, with a warning, if it could not be read.
 static bool decode_picture(struct threemf *file, const char *path, lam_texture **out)
 {
     const uint8_t *bytes;
@@ -179,7 +180,7 @@ bool begin_texture(struct threemf_xml *xml, const char *const *attributes)
     return true;
 }
 
-// Returns a white material with the texture. The default, without it, if its picture could not be read.
+// Returns a white material with the texture, or the default material if its picture could not be read.
 static int add_textured_material(struct threemf *file, const lam_texture_map *map)
 {
     lam_material material = lam_material_default();
@@ -224,7 +225,7 @@ bool begin_texcoord(struct threemf_xml *xml, const char *const *attributes)
     return true;
 }
 
-// --- composite materials: base materials mixed by shares
+// --- composite materials: weighted mixtures of base materials
 
 bool begin_composites(struct threemf_xml *xml, const char *const *attributes)
 {

@@ -1,4 +1,4 @@
-// threemf_resources.c: the resources of a model part, by their ids.
+// threemf_resources.c: finds the resources of a model part by their ids.
 #include "threemf_model.h"
 
 #ifdef HAVE_3MF

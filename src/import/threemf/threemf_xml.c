@@ -1,7 +1,7 @@
-// threemf_xml.c: XML parts, parsed by expat, which is opened when a file needs it.
+// threemf_xml.c: parses XML parts with expat, which is opened on demand.
 //
-// Bounds: an element may be TOKEN_BYTES long and DEPTH_MAX deep; document types, whose entities can unfold to any size, are refused, as 3MF
-// demands; what expat takes is charged to the call.
+// Limits: an element may be TOKEN_BYTES long and DEPTH_MAX deep. Document types, whose entities can expand to any size,
+// are rejected, as 3MF requires. The memory of expat is charged to the call.
 #include "threemf_xml.h"
 
 #include "fail.h"
@@ -35,9 +35,9 @@ struct expat_library {
 enum { DEPTH_MAX = 256, TOKEN_BYTES = 1 << 20, SPACES_MAX = 256 };
 enum { AT_ROOT = -1, SKIPPED = -2 };
 
-// A prefix of a name space, in force in the element that declares it.
+// A name space prefix, which is valid inside the element that declares it.
 struct declaration {
-    size_t prefix; // where its text begins in xml_parser.prefixes; "": names without a prefix
+    size_t prefix; // where its text begins in xml_parser.prefixes; "" means names without a prefix
     enum threemf_namespace space;
     int depth;
 };
@@ -49,7 +49,7 @@ struct xml_parser {
     int depth;
     int rows[DEPTH_MAX + 1];                      // the table's row of each open element; rows[0] is AT_ROOT
     bool failed;                                  // the error is filled
-    enum threemf_namespace spaces[DEPTH_MAX + 1]; // of the open elements
+    enum threemf_namespace spaces[DEPTH_MAX + 1]; // the name spaces of the open elements
     struct threemf_rows declarations, prefixes;   // struct declaration, char
 };
 
@@ -63,11 +63,11 @@ static const char *const uris[] = {
     [NS_SLICES] = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07",
 };
 
-// --- expat's memory, charged to the call of the thread that parses
+// --- expat's memory is charged to the call of the parsing thread
 
 static __thread struct call_control *parsing_call;
 
-// Each block begins with its size, in as many bytes as keep the rest aligned.
+// Each block begins with its size, padded to keep the rest aligned.
 enum { BLOCK_HEAD = 16 };
 
 static void *resize_block(void *old, size_t size)
@@ -124,7 +124,7 @@ bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...)
 
 // --- name spaces
 //
-// They are found here and not by expat, which refuses a prefix that nothing declares: samples of the consortium have one.
+// This file resolves them, because expat rejects undeclared prefixes, which occur in samples of the 3MF consortium.
 
 static enum threemf_namespace space_of_uri(const char *uri)
 {
@@ -151,7 +151,7 @@ static bool declare(struct threemf_xml *xml, const char *prefix, const char *uri
     return true;
 }
 
-// The name space of an element's or attribute's name. Returns false if its prefix is not declared.
+// Finds the name space of an element's or attribute's name. Returns false if its prefix is not declared.
 static bool find_space(const struct xml_parser *parser, const char *name, enum threemf_namespace *out)
 {
     const char *colon = strchr(name, ':');
@@ -175,8 +175,8 @@ static bool refuse_prefix(struct threemf_xml *xml, const char *name)
                             shown_name(name, shown));
 }
 
-// Takes what the element declares, and finds its own name space. A prefix that nothing declares is refused; with --lenient it has the name
-// space of the element around it.
+// Reads the declarations of an element and finds its name space. An undeclared prefix is an error; with --lenient it
+// means the name space of the parent element.
 static bool take_spaces(struct threemf_xml *xml, const char *name, const char *const *attributes,
                         enum threemf_namespace *out)
 {
@@ -307,7 +307,7 @@ void threemf_xml_close(struct threemf *file)
         library_close(file->expat->handle);
 }
 
-// Expat looks again at an element of which only a part is there, so that long ones take time that grows with their square.
+// Expat rescans an incomplete element on each call, so that long elements take quadratic time.
 static bool check_token(struct threemf_xml *xml)
 {
     const struct xml_parser *parser = xml->parser;
@@ -316,7 +316,7 @@ static bool check_token(struct threemf_xml *xml)
            threemf_xml_fail(xml, "found an element, a comment or a text of more than %d bytes", TOKEN_BYTES);
 }
 
-static bool parse_piece(void *user, const void *bytes, size_t size, bool last)
+static bool parse_chunk(void *user, const void *bytes, size_t size, bool last)
 {
     struct threemf_xml *xml = user;
     struct xml_parser *parser = xml->parser;
@@ -346,7 +346,7 @@ bool threemf_xml_parse(struct threemf_xml *xml)
         library->XML_SetElementHandler(parser.expat, begin_element, end_element);
         library->XML_SetCharacterDataHandler(parser.expat, take_text);
         library->XML_SetStartDoctypeDeclHandler(parser.expat, refuse_document_type);
-        ok = threemf_package_read(xml->file, xml->part, parse_piece, xml);
+        ok = threemf_package_read(xml->file, xml->part, parse_chunk, xml);
         library->XML_ParserFree(parser.expat);
     }
     threemf_rows_free(xml->file, &parser.declarations);

@@ -1,4 +1,4 @@
-// threemf_xml.h: the elements of an XML part, given one by one to functions of a table.
+// threemf_xml.h: passes the elements of an XML part one by one to functions of a table.
 #ifndef THREEMF_XML_H
 #define THREEMF_XML_H
 
@@ -19,29 +19,29 @@ struct threemf_xml;
 typedef bool threemf_begin_fn(struct threemf_xml *xml, const char *const *attributes);
 typedef bool threemf_end_fn(struct threemf_xml *xml);
 
-// An element that is read where its parent is the element in row `parent` of the same table (−1: it is the root). Others are skipped with
-// all that they contain.
+// An element that is read if its parent is the element in row `parent` of the same table (−1 if it is the root). Other
+// elements are skipped with all their content.
 struct threemf_element {
     enum threemf_namespace space;
     const char *name;
     int parent;
-    threemf_begin_fn *begin; // NULL: nothing
-    threemf_end_fn *end;     // NULL: nothing
+    threemf_begin_fn *begin; // NULL means no action
+    threemf_end_fn *end;     // NULL means no action
 };
 
 struct threemf_xml {
     struct threemf *file;
-    const char *part; // the name of the part, for messages
+    const char *part; // name of the part, for messages
     const struct threemf_element *elements;
     int element_count;
     void *user;
-    // A prefix of a name space is declared. NULL: nothing.
+    // Called for each declared name space prefix. NULL if not needed.
     void (*declare)(struct threemf_xml *xml, const char *prefix, const char *uri);
-    struct threemf_rows *text; // the text of the current element is added to it; NULL: it is skipped
-    struct xml_parser *parser; // of threemf_xml.c
+    struct threemf_rows *text; // receives the text of the current element; NULL if the text is skipped
+    struct xml_parser *parser; // the parser of threemf_xml.c
 };
 
-// Opens expat. LAM_UNSUPPORTED: it is not installed.
+// Opens expat. Fails with LAM_UNSUPPORTED if it is not installed.
 bool threemf_xml_open(struct threemf *file);
 void threemf_xml_close(struct threemf *file);
 
@@ -49,18 +49,19 @@ void threemf_xml_close(struct threemf *file);
 bool threemf_xml_parse(struct threemf_xml *xml);
 
 size_t threemf_xml_line(const struct threemf_xml *xml);
-// "FILE: PART:LINE: sentence". Returns false.
+// Fails with "FILE: PART:LINE: sentence". Returns false.
 bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Returns the value of an attribute without a prefix, or NULL if the element has none of this name.
+// Returns the value of an attribute without a prefix, or NULL if the element does not have it.
 const char *threemf_attribute(const char *const *attributes, const char *name);
-// The same of an attribute of a name space, while its element begins.
+// Does the same for an attribute in a name space, at the start of its element.
 const char *threemf_attribute_of(const struct threemf_xml *xml, const char *const *attributes,
                                  enum threemf_namespace space, const char *name);
-// A whole number from 0 to INT32_MAX. *found: the attribute is there. Without `found` it must be.
+// Gets a whole number from 0 to INT32_MAX. Sets *found to whether the attribute exists. If `found` is NULL, the
+// attribute is required.
 bool threemf_take_number(struct threemf_xml *xml, const char *const *attributes, const char *name, uint32_t *out,
                          bool *found);
-// A finite number that must be there.
+// Gets a required finite number.
 bool threemf_take_float(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out);
 
 #endif

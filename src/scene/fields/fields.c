@@ -115,7 +115,7 @@ bool field_fits(const lam_field *field, const void *object, struct field_fault *
     const char *const *parts = types[field->type].parts;
     if (field->type == LAM_FIELD_ANGLE) {
         min = math_radians(min);
-        max = math_radians(max) + 1e-6; // the floats for π and π/2 are some 1e-7 beside them
+        max = math_radians(max) + 1e-6; // the floats for π and π/2 may exceed them by 1e-7
     }
     for (int i = 0; i < count; i++) {
         double highest = field->type == LAM_FIELD_RGBA && i == 3 ? 1 : max;

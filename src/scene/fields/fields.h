@@ -1,4 +1,4 @@
-// fields.h: the tables of lambent/fields.h with the columns that only the library reads.
+// fields.h: the tables of lambent/fields.h, with columns for internal use.
 #ifndef FIELDS_H
 #define FIELDS_H
 
@@ -8,44 +8,45 @@
 #include <lambent/light.h>
 #include <lambent/material.h>
 
-// The part of a shader that reads a field of the material.
+// The reader of a material's field in shaders.
 enum field_reader {
     FIELD_ALWAYS,
-    FIELD_LIT,         // every lit surface
-    FIELD_HIGHLIGHT,   // reflection models with a highlight
-    FIELD_LOBE,        // reflection models that name it as a parameter
-    FIELD_LAYER,       // physical materials that have the layer
-    FIELD_ENVIRONMENT, // the mirrored environment
-    FIELD_CHOICE,      // none: it decides about the reflection model
-    FIELD_NEVER,       // it is part of another field
+    FIELD_LIT,         // read for every lit surface
+    FIELD_HIGHLIGHT,   // read by reflection models with a highlight
+    FIELD_LOBE,        // read by reflection models that list it as a parameter
+    FIELD_LAYER,       // read for physical materials with the layer
+    FIELD_ENVIRONMENT, // read for the mirrored environment
+    FIELD_CHOICE,      // not read: it selects the reflection model
+    FIELD_NEVER,       // not read: it is part of another field
 };
 
 struct material_field {
     lam_field field; // first
-    // Name and comment in shaders whose uniforms are products of materials and lights. NULL: as elsewhere; "": the
-    // field appears only within those products.
+    // Name and comment in shaders whose uniforms are products of materials and lights. NULL means the same as in other
+    // shaders, "" that the field occurs only in the products.
     const char *product, *product_summary;
     enum field_reader reader;
     bool optional; // a scene file omits it if it is 0, the default
-    bool physical; // only physical materials have it: writing it makes a material physical
-    int layer;     // of FIELD_LAYER: LAYER_… that reads it; a scene file omits it if it is the default
+    bool physical; // only physical materials have the field, so writing it makes a material physical
+    int layer;     // for FIELD_LAYER, the LAYER_… that reads it; a scene file omits default values
 };
 const struct material_field *material_field(int index); // NULL past the end
 
-// Returns the layers that a material has: LAYER_… of layer_kinds.h, 0 for a classic one.
+// Returns the layers of a material as bits LAYER_… of layer_kinds.h; 0 for a classic material.
 int material_layers(const lam_material *material);
-// Returns the layer that reads a map; 0: none, it belongs to every material.
+// Returns the layer that reads a map; 0 means every material can read it.
 int map_layer(lam_map map);
 
 struct light_field {
-    lam_field field;                              // first
-    bool optional;                                // a scene file omits it if it is 0
-    enum { ANY_CONE, HARD_CONE, SOFT_CONE } cone; // a spot has the fields of one law: soft where outer_rad > 0
+    lam_field field; // first
+    bool optional;   // a scene file omits it if it is 0
+    // the cone law to which the field of a spot belongs: soft if outer_rad > 0
+    enum { ANY_CONE, HARD_CONE, SOFT_CONE } cone;
 };
 const struct light_field *light_field(int index);
 static inline bool field_is_of(const lam_field *field, lam_light_type type) { return field->light_types >> type & 1; }
 
-// A number outside the range of its field; name and range are words for an error sentence.
+// A number outside the range of its field, with its name and range as text for an error sentence.
 struct field_fault {
     char name[48], expected[48];
     double found;
@@ -53,14 +54,14 @@ struct field_fault {
 bool field_fits(const lam_field *field, const void *object, struct field_fault *fault);
 
 bool field_equal(const lam_field *field, const void *a, const void *b);
-// Returns whether its bytes are 0: a flag then has its default.
+// Returns whether the bytes are 0; a flag then has its default.
 bool field_is_zero(const lam_field *field, const void *object);
 bool field_is_standard(const lam_field *field, const void *object); // compared as floats
-// Sets the default, and any numbers whose angles are in degrees.
+// Set the default, or any numbers with angles in degrees.
 void field_set_standard(const lam_field *field, void *object);
 void field_set_written(const lam_field *field, void *object, const double numbers[4]);
 
-// Call it for each field that a user or a file has set: see material_field.physical.
+// Call this for each field that a user or a file has set: see material_field.physical.
 void material_note_written(lam_material *material, int field);
 
 #endif

@@ -1,14 +1,14 @@
-// khr_layers.h: the members of glTF's extensions for the layers of materials, and the fields and maps of lam_material that they are.
+// khr_layers.h: the members of glTF's material extensions for layers, and the fields and maps of lam_material for them.
 #ifndef KHR_LAYERS_H
 #define KHR_LAYERS_H
 
 #include <lambent/material.h>
 
-// A number or colour, with the range that its standard allows.
+// A number or colour, with the range that the extension's specification allows.
 struct khr_number {
     const char *extension, *key;
     size_t offset; // in lam_material
-    int count;     // of floats
+    int count;     // number of floats
     double min, max;
 };
 

@@ -1,5 +1,5 @@
-// light_fields.c: the table of a light's fields. Checks, scene files, options and their documentation are made
-// from these rows; a new field is a member of lam_light and a row here. Rows of one key have no type of light in common.
+// light_fields.c: the table of a light's fields. Validation, scene files, options and their documentation use these
+// rows; to add a field, add a member to lam_light and a row here. Rows with the same key have no light type in common.
 #include "fields.h"
 
 #include <lambent/light.h>

@@ -1,6 +1,6 @@
-// material_fields.c: the table of a material's fields. Checks, scene files, options, reports, shaders and their
-// documentation are made from these rows; a new field is a member of lam_material and a row here, or in LOBE_PARAMETERS
-// if only lobes read it.
+// material_fields.c: the table of a material's fields. Validation, scene files, options, reports, shaders and their
+// documentation use these rows. To add a field, add a member to lam_material and a row here, or in LOBE_PARAMETERS if
+// only lobes read it.
 #define LANES 1
 #include "lighting.h"
 
@@ -16,11 +16,11 @@
 #define MEMBER(member) .name = #member, .key = #member, .offset = offsetof(lam_material, member)
 #define GREY(x)        {(double)(x), (double)(x), (double)(x), 1}
 
-// A field that belongs to a layer; the columns of its lam_field follow.
+// A field of a layer; the columns of its lam_field follow.
 #define LAYER(member, kind, ...)                                                                                       \
     {.field = {MEMBER(member), __VA_ARGS__}, .reader = FIELD_LAYER, .layer = LAYER_##kind, .physical = true}
 
-// A field that only lobes read: the columns of its lam_field, in lobes.h. Nothing for the parameters without columns.
+// A field that only lobes read, with the columns of its lam_field from lobes.h. Parameters without columns are omitted.
 #define LOBE_FIELD(member, ...)                                                                                        \
     __VA_OPT__({.field = {.name = #member, .offset = offsetof(lam_material, member), __VA_ARGS__},                     \
                 .reader = FIELD_LOBE,                                                                                  \

@@ -1,4 +1,4 @@
-// material_kinds.c: classic materials as metallic–roughness ones, and the reverse.
+// material_kinds.c: converts classic materials to metallic–roughness materials and back.
 #include "linear.h"
 
 #include <lambent/material.h>
@@ -9,7 +9,7 @@ static float mixed(double from, double to, double share) { return (float)(from +
 
 static double within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
-// The reflectance along the normal of the dielectric of a material of specular and glossiness; of others the usual 0.04.
+// Gets the dielectric's reflectance along the normal for specular–glossiness materials; for others it is 0.04.
 static void dielectric_f0_of(const lam_material *m, double f0[3])
 {
     const float *color = &m->f0_color.r;
@@ -25,7 +25,7 @@ lam_material lam_material_as_classic(const lam_material *material)
     if (!m.physical)
         return m;
     const lam_rgba base = m.diffuse;
-    double metallic = (double)m.metallic, slope = (double)m.roughness * (double)m.roughness; // α of the lobe
+    double metallic = (double)m.metallic, slope = (double)m.roughness * (double)m.roughness; // α of the GGX lobe
     double exponent = within(2 / within(slope * slope, 1e-12, 1) - 2, 1, 4096), energy = (exponent + 8) / 8;
     m.physical = false;
     m.ambient = (lam_rgb){base.r, base.g, base.b};
@@ -44,14 +44,14 @@ lam_material lam_material_as_classic(const lam_material *material)
     return m;
 }
 
-// The share of a metal with which a base colour gives kd and f0: the solution of
-//     kd = base (1 − metallic),   f0 = 0.04 (1 − metallic) + base metallic
+// Returns the metallic share for which a base colour gives kd and f0: the solution of
+//    kd = base (1 − metallic),   f0 = 0.04 (1 − metallic) + base metallic
 // for the brightest channel of f0.
 static double metallic_of(double kd, double f0)
 {
     if (f0 <= dielectric_f0)
         return 0;
-    // base = kd/(1 − m):  0.04 (1 − m)² + kd m − f0 (1 − m) = 0
+    // With base = kd/(1 − m): 0.04 (1 − m)² + kd m − f0 (1 − m) = 0
     double a = dielectric_f0, b = f0 + kd - 2 * dielectric_f0, c = dielectric_f0 - f0;
     return within((-b + math_sqrt(b * b - 4 * a * c)) / (2 * a), 0, 1);
 }

@@ -1,6 +1,6 @@
 // settings.c: the table of the settings of lam_draw_params. To add a setting, add a member there and a row here. The
-// program then offers it as an option, and scene files as a key. A row in tools/options/option_table.c describes the
-// option and gives its position in the help.
+// setting is then an option of the program and a key of scene files. A row in tools/options/option_table.c describes
+// the option and gives its position in the help.
 #include <lambent/settings.h>
 
 #include <string.h>
@@ -13,7 +13,8 @@ struct named_value {
 
 #define COUNT_OF(list) (int)(sizeof(list) / sizeof *(list))
 
-// Functions that return the words of a list, for lam_setting.word, and their summaries, for lam_setting.word_summary.
+// Define the function that returns the words of a list, for lam_setting.word, and the function that returns their
+// summaries, for lam_setting.word_summary.
 #define WORDS(name, ...)                                                                                               \
     static const struct named_value name##_list[] = {__VA_ARGS__};                                                     \
     static const char *name(int index, int *value)                                                                     \

@@ -1,4 +1,4 @@
-// settings_check.c: the ranges and defaults of the draw parameters, by the table of settings.
+// settings_check.c: checks the draw parameters against the ranges in the table of settings, and applies the defaults.
 #include "settings_check.h"
 
 #include <string.h>
@@ -13,7 +13,7 @@ static bool whole_check(const lam_setting *s, int value, lam_error *error)
     return fail(error, LAM_BAD_ARGUMENT, "%s is %d, expected %s", s->member, value, s->expected);
 }
 
-// The least number that is written is no limit of the member: a line may be thinner than scene files allow.
+// The minimum of scene files does not apply to the member: a line may be thinner than scene files allow.
 static bool number_check(const lam_setting *s, float value, lam_error *error)
 {
     double least = s->zero_is_negative ? -3e38 : 0;
@@ -74,7 +74,7 @@ static bool setting_check(const lam_setting *s, const void *member, lam_error *e
         return channels_check(s->member, member, 4, error);
     case LAM_SETTING_FLAG:
     case LAM_SETTING_NOT_FLAG:
-        break; // every value of a bool is one of theirs
+        break; // both values of a bool are valid
     }
     return true;
 }

@@ -17,14 +17,14 @@ static bool is_folder(const char *path)
     return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
 }
 
-// Treats a scene file as a model, because no picture format uses its extension.
+// Treats a scene file as a model, because no picture format has its extension.
 static bool is_model(const char *path)
 {
     const char *dot = strrchr(path, '.');
     return is_model_name(path) || (dot && strcmp(dot, ".json") == 0) || lam_shape_find(path) >= 0;
 }
 
-// For pictures, only options of these groups and names have an effect.
+// Rejects options that have no effect on pictures.
 static bool check_pictures(const struct options *o, lam_error *error)
 {
     static const char *const names[] = {"output", "json", "quiet", NULL};

@@ -1,4 +1,4 @@
-// diff.h: the kinds of `lambent diff`, and the comparison of models that its files share.
+// diff.h: the kinds of `lambent diff`, and the state of a comparison of models.
 #ifndef DIFF_H
 #define DIFF_H
 
@@ -9,13 +9,13 @@
 // diff_pictures.c: compares two pictures. Returns the exit code.
 int diff_pictures(char **operands, const struct options *options);
 
-// diff_models.c: compares two models, or the models of two folders. Returns the exit code.
+// diff_models.c: compares two models, or the models in two folders. Returns the exit code.
 int diff_models(char **operands, bool folders, const struct options *options);
 
-// A model of either side.
+// Two versions of a model.
 struct model_pair {
-    const char *name;      // below the folder; of two models, the new one's
-    const char *old, *new; // paths; NULL: it is not there
+    const char *name;      // relative to the folder; for two models, the new model's name
+    const char *old, *new; // paths; NULL if the model does not exist on this side
 };
 
 // How a model has changed.
@@ -27,22 +27,22 @@ enum { PAGE_ROWS = 300 };
 struct model_diff {
     const struct options *options;
     const char *old, *new;        // as typed
-    const char *page;             // the path of the page; NULL: none; "-": standard output
-    struct batch_plan olds, news; // the models of both sides; they own the paths
-    struct batch_plan plan;       // a model for each pair
-    struct model_pair *pairs;     // of each model of the plan
-    bool folders;                 // else two models
-    atomic_int *rows;             // models whose pictures are kept for the page
-    size_t counts[CHANGE_COUNT];  // when all are drawn
+    const char *page;             // the path of the page, or NULL; "-" is standard output
+    struct batch_plan olds, news; // the models of both sides, which own the paths
+    struct batch_plan plan;       // one model for each pair
+    struct model_pair *pairs;     // for each model of the plan
+    bool folders;                 // false compares two models
+    atomic_int *rows;             // counts the models whose pictures are kept for the page
+    size_t counts[CHANGE_COUNT];  // valid after all models are drawn
 };
 
-// diff_draw.c: draws a pair with one camera, and determines how it has changed (batch_use.draw).
+// diff_draw.c: draws a pair with one camera and determines how the model has changed (batch_use.draw).
 bool diff_draw(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error);
 
-// Returns how a model has changed, from its record.
+// Returns from its record how a model has changed.
 enum change diff_change_of(const json_t *record);
 
-// diff_page.c: builds the page as one file, from malloc. Returns NULL if memory runs out.
+// diff_page.c: builds the page as one file, allocated with malloc. Returns NULL if memory runs out.
 char *diff_page(const struct model_diff *diff, json_t *const *records);
 
 #endif

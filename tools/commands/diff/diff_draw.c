@@ -1,4 +1,4 @@
-// diff_draw.c: draws an old and a new model with one camera, and measures the difference of their pictures.
+// diff_draw.c: draws an old and a new model with one camera and measures the difference of their pictures.
 #include "diff.h"
 
 #include <math.h>
@@ -35,7 +35,7 @@ static bool box_of(const lam_scene *a, const lam_scene *b, struct box *box)
     return true;
 }
 
-// Returns a scene that is a box and nothing else: the camera is fitted to it.
+// Returns a scene with only a box, so that a camera can be fitted to it.
 static lam_scene *scene_of_box(const struct box *box, lam_up up, lam_error *error)
 {
     float positions[24];
@@ -65,11 +65,12 @@ static lam_scene *scene_of_box(const struct box *box, lam_up up, lam_error *erro
     return NULL;
 }
 
-// Computes the sphere around both models, and a camera that shows both, unless the options or the scene file of the new
-// model define one.
+// Computes the sphere around both models and a camera that shows both, unless the options or the new model's scene file
+// define a camera.
 static bool share(struct job *old, struct job *new, struct job_shared *shared, lam_error *error)
 {
-    if (lam_scene_up(old->scene) != lam_scene_up(new->scene)) { // no camera shows both upright: each has its own
+    // no camera shows both upright, so each model has its own
+    if (lam_scene_up(old->scene) != lam_scene_up(new->scene)) {
         old->shared = new->shared = NULL;
         return true;
     }
@@ -99,7 +100,7 @@ static bool picture(struct job *job, struct progress *progress, double from, lam
     return job_make_image(job, LAM_RGBA8, error) && job_draw_frames(job, from, 0.25, 1, &report, progress, error);
 }
 
-// Draws both; the new one decides the size, the camera and the exposure.
+// Draws both models with the size, camera and exposure of the new model.
 static bool draw_both(struct job *old, struct job *new, struct progress *progress, lam_error *error)
 {
     struct job_shared shared = {0};
@@ -196,7 +197,7 @@ bool diff_draw(void *user, size_t model, struct job *job, struct progress *progr
         put_counts(found, "counts_before", &old.model_counts);
         put_counts(found, "counts_after", &job->model_counts);
     } else if (!old.scene) {
-        job->model = pair->old; // the sentence is about that
+        job->model = pair->old; // makes the report name the old model
     }
     job_free(&old);
     return ok;

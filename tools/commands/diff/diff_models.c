@@ -1,5 +1,4 @@
-// diff_models.c: `lambent diff` of two models, or of the models of two folders: pairs the models and prints the
-// summary.
+// diff_models.c: `lambent diff` for two models, or the models in two folders: pairs the models and prints the summary.
 #include "diff.h"
 
 #include <stdio.h>
@@ -18,7 +17,7 @@
 
 // --- the pairs
 
-// Returns a model's name below its folder.
+// Returns a model's name relative to its folder.
 static const char *name_of(const struct batch_model *model)
 {
     size_t root = model->root ? strlen(model->root) : 0;
@@ -48,7 +47,7 @@ static bool add_pair(struct model_diff *diff, const struct batch_model *old, con
     return true;
 }
 
-// Both lists are sorted: the next names are either equal, or the smaller name exists on only one side.
+// Both lists are sorted. The next names are either equal, or the smaller name exists on only one side.
 static bool make_pairs(struct model_diff *diff, lam_error *error)
 {
     struct batch_plan *olds = &diff->olds, *news = &diff->news;
@@ -201,7 +200,7 @@ static bool check(const struct model_diff *diff, lam_error *error)
 int diff_models(char **operands, bool folders, const struct options *options)
 {
     lam_error error = {0};
-    // The loop prints no report, and writes no picture files.
+    // The loop prints no reports and writes no pictures.
     struct options drawn = *options;
     drawn.report.json = false;
     drawn.picture.output = NULL;

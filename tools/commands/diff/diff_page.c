@@ -1,5 +1,5 @@
-// diff_page.c: builds the page of `lambent diff`: models before and after, in one HTML file without scripts and without
-// other files.
+// diff_page.c: builds the page of `lambent diff`: the models before and after in one self-contained HTML file without
+// scripts.
 #include "diff.h"
 
 #include <stdio.h>
@@ -32,7 +32,7 @@ static void put_figure(FILE *out, const json_t *record, const char *key, const c
             caption, png, caption);
 }
 
-// "12 triangles", or "12 triangles → 14 triangles".
+// Writes "12 triangles" or "12 triangles → 14 triangles".
 static void put_counts(FILE *out, const json_t *record)
 {
     const char *before = text_of(record, "counts_before"), *after = text_of(record, "counts_after");

@@ -1,4 +1,4 @@
-// diff_pictures.c: `lambent diff` of two pictures: the difference of two pictures, as numbers and as a picture.
+// diff_pictures.c: `lambent diff` for two pictures: reports their difference as numbers and as a picture.
 #include "diff.h"
 
 #include <stdio.h>
@@ -17,10 +17,10 @@
 
 struct pair {
     const char *name[2];
-    char *output; // path of the picture; NULL: none
+    char *output; // the path of the picture, or NULL
     lam_image image[2];
     lam_difference difference;
-    lam_image where; // the difference; made only for --output
+    lam_image where; // the difference; only made for --output
 };
 
 static bool load_pair(struct pair *pair, const struct options *o, lam_error *error)
@@ -44,7 +44,7 @@ static bool load_pair(struct pair *pair, const struct options *o, lam_error *err
     return lam_image_compare(a, b, &pair->difference, error);
 }
 
-// Converts floats to bytes without encoding: 1 = 255.
+// Converts floats to bytes without encoding; 1 becomes 255.
 static bool to_bytes(lam_image *image, lam_error *error)
 {
     lam_image bytes;

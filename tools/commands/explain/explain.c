@@ -1,4 +1,4 @@
-// explain.c: the command `explain`: prints every number of one pixel, from its triangles to its bytes; with -o, draws a
+// explain.c: the command `explain`: prints every number of one pixel, from its triangles to its bytes. With -o, draws a
 // figure.
 #include "explain.h"
 
@@ -20,7 +20,7 @@
 #include "sandbox_start.h"
 #include "terminal.h"
 
-// Reads digits up to the character `end`; returns the text after it, NULL if there are no digits or too many.
+// Reads digits up to the character `end`. Returns the text after it, or NULL if there are no digits or too many.
 static const char *read_pixel_number(const char *text, char end, int *value)
 {
     const char *start = text;
@@ -55,7 +55,7 @@ static int report_job_failure(const struct job *job, lam_error *error)
 
 // --- the figure
 
-// Returns the target of the figure; NULL without an error: there is none. `*failed`: memory was out.
+// Returns the path of the figure, or NULL if none is requested. Sets `*failed` if memory runs out.
 static char *figure_path(const struct options *o, const char *model, bool *failed)
 {
     *failed = false;
@@ -81,7 +81,7 @@ static bool check_figure(const char *path, const struct options *o, const char *
     return to_stdout || output_check(path, model, output_given(o->picture.output), error);
 }
 
-// Draws the picture of the job that was explained.
+// Draws the picture of the explained job.
 static bool draw_picture(struct job *job, struct progress *progress, lam_error *error)
 {
     lam_frame_report report;
@@ -121,7 +121,7 @@ static void print(const lam_explanation *explanation, const struct job *job)
         explain_text(explanation, job->model);
 }
 
-// Explains the pixel, prints it unless standard output is in use, and draws its figure if requested.
+// Explains the pixel, prints the explanation unless standard output is in use, and draws the figure if requested.
 static int explain(struct job *job, int x, int y, const char *figure)
 {
     lam_error error = {0};
@@ -134,7 +134,7 @@ static int explain(struct job *job, int x, int y, const char *figure)
     bool taken = figure && strcmp(figure, "-") == 0 && !terminal_shows();
     if (ok && !taken)
         print(explanation, job);
-    fflush(stdout); // the figure may follow there
+    fflush(stdout); // the figure may follow on standard output
     ok = ok && (!figure || write_figure(job, explanation, figure, &error));
     lam_explanation_free(explanation);
     return ok ? 0 : report_job_failure(job, &error);

@@ -1,4 +1,4 @@
-// explain.h: prints an explained pixel on standard output, as text for people.
+// explain.h: prints an explained pixel on standard output as text.
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 

@@ -1,4 +1,4 @@
-// explain_layers.c: prints how the layers of a physical material share the light of a point (docs/lighting/layers.md).
+// explain_layers.c: prints how the layers of a physical material divide the light at a point (docs/lighting/layers.md).
 #include "explain_rows.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@ void explain_layers_over(char text[60], const lam_explained_layers *layers, floa
     snprintf(text, 60, "%s%s", layers->coat > 0 ? "(1 − share) · " : "", sheen_left < 1 ? "left · " : "");
 }
 
-// The light of light 1 that the layers of the surface reflect (docs/lighting/layers.md).
+// Prints the part of light 1 that each layer reflects (docs/lighting/layers.md).
 void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all)
 {
     row_color(4, "base", layers->base, "F S");
@@ -22,7 +22,7 @@ void explain_light_layers(const lam_explained_light_layers *layers, const lam_ex
         row_number(4, "coat", (double)layers->coat, "share · S of the coat");
 }
 
-// The layers for light from all directions.
+// Prints the layers for light from all directions.
 void explain_layers(const lam_explained_layers *layers)
 {
     printf("\n  layers\n");
@@ -47,7 +47,7 @@ void explain_layers(const lam_explained_layers *layers)
         row_number(4, "share", (double)layers->coat, "of the coat: clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)");
 }
 
-// The environment light that each part of the surface reflects; their sum is the term.
+// Prints the environment light that each part of the surface reflects. Their sum is the term.
 void explain_environment_parts(const lam_explained_point *p)
 {
     const lam_explained_layers *layers = p->layers;

@@ -1,4 +1,4 @@
-// explain_places.c: prints the transforms of a triangle from its mesh to the window: the matrices, then each point in
+// explain_places.c: prints the transforms of a triangle from its mesh to the window: the matrices, and each point in
 // each space.
 #include "explain_rows.h"
 
@@ -43,7 +43,7 @@ static void print_matrices(const lam_explained_matrices *m)
     print_matrix("normal matrix", &m->normal[0][0], 3, "normals: the model-view's 3×3, inverted and transposed");
 }
 
-// (p1 − p0) × (p2 − p0), which flat shading and meshes without normals take.
+// Prints the face normal (p1 − p0) × (p2 − p0), used for flat shading and for meshes without normals.
 static void print_face_normal(const lam_explained_fragment *f)
 {
     lam_vec3 first = f->places[0].mesh_position;

@@ -1,11 +1,11 @@
-// explain_rows.c: prints aligned rows of an explanation: a name, numbers, a remark.
+// explain_rows.c: prints aligned rows of an explanation: a name, numbers and a remark.
 #include "explain_rows.h"
 
 #include <stdio.h>
 
 enum { COLUMN = 26 };
 
-// Prints a label and its padding, counted in letters, not bytes.
+// Prints a label and its padding, counted in characters, not bytes.
 void row_label(int indent, const char *text)
 {
     int width = indent;

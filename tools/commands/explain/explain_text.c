@@ -1,5 +1,5 @@
-// explain_text.c: prints an explained pixel as text for people: aligned, with units, each term with its formula (all of
-// them are in docs/lighting.md).
+// explain_text.c: prints an explained pixel as aligned text with units, with the formula of each term (docs/lighting.md
+// lists all formulas).
 #include "explain.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "explain_rows.h"
 #include "explain_words.h"
 
-enum { FEW_LIGHTS = 16 }; // up to this number all lights are printed; above it only contributing ones
+enum { FEW_LIGHTS = 16 }; // with more lights, only contributing lights are printed
 
 static void named(const char *name)
 {
@@ -49,7 +49,7 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
         row_number(4, "t·v", dot(p->t, p->v), "cos(t,v)");
     }
     const lam_explained_light_layers *layers = p->layers ? l->layers : NULL;
-    bool gates_diffuse = strncmp(model->diffuse, "max(", 4) != 0; // a max() is 0 there already
+    bool gates_diffuse = strncmp(model->diffuse, "max(", 4) != 0; // a max() is already 0 there
     char over[60] = "";
     if (layers)
         explain_layers_over(over, p->layers, layers->sheen_left);
@@ -79,7 +79,7 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
     row_number(4, "S", (double)l->S, remark);
 }
 
-// Prints which surfaces are in the way of the light.
+// Prints the surfaces that block the light.
 static void print_shadow(const lam_explained_light *l)
 {
     char remark[200] = "nothing is in the way";
@@ -104,7 +104,7 @@ static void product(char text[200], const lam_explained_light *l, const char *wh
                  (double)l->passed.b);
 }
 
-// Prints how the factor of a spot light is computed, from the cone of OpenGL or glTF (lam_light).
+// Prints the computation of a spot light's factor from a cone of OpenGL or glTF (lam_light).
 static void print_cone(const lam_explained_light *l, const lam_light *given)
 {
     const double c = (double)l->cos_axis, exponent = (double)given->exponent;
@@ -198,7 +198,7 @@ static void print_hemisphere(const lam_explained_hemisphere *h, int number_in_li
     row_color(4, "ambient", h->term, "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
 }
 
-// Prints all lights; if there are many, only contributing ones.
+// Prints all lights, or only the contributing lights if there are many.
 static void print_lights(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
     int nothing = 0, left_out = 0;
@@ -328,7 +328,7 @@ static void print_color(const lam_explanation *e, const lam_field *field, const 
     double numbers[4];
     char text[64];
     bool mirrored = field->offset == offsetof(lam_material, reflectivity);
-    // Omits fields of physical materials that have their default value.
+    // Omits fields of physical materials with default values.
     bool known = field->symbol || field->offset == offsetof(lam_material, emission);
     if (lam_field_get(field, m, numbers) > 1 && (e->has_environment || !mirrored) && (known || differs(field, numbers)))
         row_three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");
@@ -368,7 +368,7 @@ static void print_material(const lam_explanation *e, const lam_explained_fragmen
     printf("\n");
 }
 
-// "triangle 5", "line 2".
+// Returns a text such as "triangle 5" or "line 2".
 static const char *item_of(const lam_explained_fragment *f, char out[32])
 {
     snprintf(out, 32, "%s %u", f->corners == 3 ? "triangle" : f->corners == 2 ? "line" : "point", f->triangle);
@@ -393,7 +393,7 @@ static void print_map(const lam_explained_map *m)
     printf("\n");
 }
 
-// Prints the material after its maps.
+// Prints the material after its maps are applied.
 static void print_values(const lam_explained_fragment *f)
 {
     const lam_explained_values *v = f->values;

@@ -1,4 +1,4 @@
-// hash.c: the command `hash`: hashes of pictures as text that a repository keeps, written, compared and updated.
+// hash.c: the command `hash`: writes, compares and updates hashes of pictures, as text that is kept in a repository.
 #include "command.h"
 
 #include <errno.h>
@@ -80,7 +80,7 @@ static bool add_models(struct hash_run *run, int count, char **operands, lam_err
         ok = batch_add_operand(&run->plan, operands[i], error);
     for (int i = 0; ok && i < run->options->batch.lists.count; i++)
         ok = batch_add_list(&run->plan, run->options->batch.lists.items[i], error);
-    bool all = !count && !run->options->batch.lists.count; // the file's models
+    bool all = !count && !run->options->batch.lists.count; // uses the models in the file
     for (size_t i = 0; ok && all && i < run->then.count; i++) {
         char *model = hash_file_model(run->path, run->then.entries[i].name);
         ok = model ? batch_plan_add(&run->plan, model, NULL, error) : complain(error, LAM_LIMIT, "out of memory");
@@ -89,7 +89,7 @@ static bool add_models(struct hash_run *run, int count, char **operands, lam_err
     return ok;
 }
 
-// Names the models; one that is given twice counts once.
+// Collects the names of the models. A model that is given twice counts once.
 static bool name_models(struct hash_run *run, lam_error *error)
 {
     struct batch_plan *plan = &run->plan;
@@ -110,7 +110,7 @@ static bool name_models(struct hash_run *run, lam_error *error)
     return ok;
 }
 
-// Finds the models of the file that the command line does not name although they exist: --update keeps their hashes.
+// Finds existing models in the file that the command line does not name. --update keeps their hashes.
 static bool find_kept(struct hash_run *run, lam_error *error)
 {
     run->kept = calloc(run->then.count + 1, sizeof *run->kept);
@@ -168,7 +168,7 @@ struct result {
     size_t counts[STATE_COUNT];
 };
 
-// A JSON list of the names in one state; or a line for each.
+// Writes the names in one state, as a JSON list or as one line each.
 static void tell_state(const struct hash_run *run, json_t *const *records, enum state state, struct json *json,
                        struct result *result)
 {
@@ -199,7 +199,7 @@ static void tell_state(const struct hash_run *run, json_t *const *records, enum 
         json_close(json, ']');
 }
 
-// Fills `now` with the models that were drawn, and those that failed with the hash 0: they are not missing.
+// Fills `now` with the drawn models. Failed models get the hash 0, since they are not missing.
 static bool take_hashes(struct hash_run *run, json_t *const *records, lam_error *error)
 {
     run->now = (struct hash_file){.entries = calloc(run->plan.count + 1, sizeof *run->now.entries)};
@@ -220,7 +220,7 @@ static bool take_hashes(struct hash_run *run, json_t *const *records, lam_error 
 
 static bool write_file(struct hash_run *run, json_t *const *records, char *options_text, lam_error *error)
 {
-    struct hash_file out = {.version = (char *)(uintptr_t)lam_version(), // are only read
+    struct hash_file out = {.version = (char *)(uintptr_t)lam_version(), // only read
                             .options = options_text,
                             .entries = calloc(run->plan.count + run->then.count + 1, sizeof *out.entries)};
     bool ok = out.entries || complain(error, LAM_LIMIT, "out of memory");
@@ -230,7 +230,7 @@ static bool write_file(struct hash_run *run, json_t *const *records, char *optio
         if (text && xxh64_parse(text, &entry.hash))
             out.entries[out.count++] = entry;
     }
-    for (size_t i = 0; ok && i < run->then.count; i++) // models that were not drawn, and are still there
+    for (size_t i = 0; ok && i < run->then.count; i++) // existing models that were not drawn
         if (run->kept[i])
             out.entries[out.count++] = run->then.entries[i];
     hash_file_sort(&out);
@@ -305,7 +305,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
     if (!ok)
         return report_failure(&error, o);
     bool differs = result.counts[STATE_CHANGED] + result.counts[STATE_MISSING] + result.counts[STATE_NEW];
-    bool lost = false; // a model of the file fails, which --failures-ok does not excuse
+    bool lost = false; // a model in the file failed, which --failures-ok does not excuse
     for (size_t i = 0; run->checks && i < run->plan.count; i++)
         lost |= hash_file_find(&run->then, run->names[i]) && !json_object_get(records[i], "pixels");
     return blocked ? EXIT_SOME_FAILED : run->checks && !o->hash.update && (differs || lost) ? EXIT_DIFFERS : 0;
@@ -313,7 +313,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
 
 // --- the run
 
-// Says first that the version or the options are others: then the pictures may well be.
+// First reports a different version or different options, since they may explain changes.
 static bool say_head(const struct hash_run *run, lam_error *error)
 {
     char *now = hash_options_text(run->options, run->path);
@@ -375,11 +375,11 @@ static bool prepare(struct hash_run *run, int count, char **operands, lam_error 
     return add_models(run, count, operands, error) && name_models(run, error) && find_kept(run, error);
 }
 
-// Draws and compares with the options of the command line and of the file.
+// Draws and compares the models with the options of the command line and of the file.
 static int run_with(struct hash_run *run, int operand_count, char **operands)
 {
     lam_error error = {0};
-    // The loop prints no report of its own, and pictures have no files.
+    // The loop prints no reports and writes no pictures.
     struct options drawn = *run->options;
     drawn.report.json = false;
     drawn.report.verbose = false;

@@ -1,4 +1,4 @@
-// hash.h: the state of `lambent hash`, which its files share.
+// hash.h: the state of the command `hash`.
 #ifndef HASH_H
 #define HASH_H
 
@@ -11,19 +11,20 @@ enum { SHEET_ROWS = 40 };
 
 struct hash_run {
     const struct options *options;
-    const char *path;       // the file of hashes; "-": standard output
-    bool checks;            // it is compared
-    struct hash_file then;  // the file as it was; empty unless `checks`
-    struct hash_file now;   // as it is
+    const char *path;       // the hash file; "-" is standard output
+    bool checks;            // compares with the file
+    struct hash_file then;  // the old contents of the file; empty unless `checks`
+    struct hash_file now;   // the new contents
     struct batch_plan plan; // the models
-    char **names;           // of the models, as they stand in the file; from malloc
-    bool *kept;             // of the file's entries: not among the models, and they exist; from malloc
-    char *sheet;            // --update: the path of the sheet, from malloc
-    atomic_int *rows;       // --update: pictures that were kept for it
+    char **names;           // the models' names in the file, from malloc
+    bool *kept;             // for each entry of the file: the model exists but is not in the plan
+    char *sheet;            // the path of the sheet for --update, from malloc
+    atomic_int *rows;       // the number of pictures kept for the sheet of --update
 };
 
-// Copies the options of the command line to `own`, with the file's options if the command line has none that change the picture.
-// *kept: the text that `own` refers to, from malloc; the caller frees both, also after a failure. Errors: LAM_CANNOT_READ, LAM_LIMIT.
+// Copies the options of the command line to `own`, with the file's options if no option of the command line changes the
+// picture. `own` refers to the text *kept. The caller frees both, even after a failure. Fails with LAM_CANNOT_READ or
+// LAM_LIMIT.
 bool hash_options_take(const struct hash_file *file, const char *path, const struct options *given, struct options *own,
                        char **kept, lam_error *error);
 
@@ -33,22 +34,23 @@ char *hash_options_text(const struct options *options, const char *path);
 
 // hash_sheet.c
 
-// Returns the path of the sheet beside a file of hashes, from malloc: "pictures-changes.png". Returns NULL if memory
-// runs out.
+// Returns the path of the sheet for a hash file in the same folder, such as "pictures-changes.png", allocated with
+// malloc. Returns NULL if memory runs out.
 char *hash_sheet_path(const char *file);
 
-// Returns the file of a kept picture (--pictures), from malloc: "DIR/models/koala.obj.png". Returns NULL if memory runs
-// out.
+// Returns the path of a kept picture (--pictures), such as "DIR/models/koala.obj.png", allocated with malloc. Returns
+// NULL if memory runs out.
 char *hash_picture_path(const char *folder, const char *name);
 
-// Keeps, while the sheet has rows for it, the new picture of a model, and the old one that was kept before, for the sheet. `found` gets both.
+// Stores a model's new picture and its previously kept picture in `found` for the sheet, while the sheet has free rows.
 void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t recorded, const lam_image *picture,
                      json_t *found);
 
-// Writes the sheet of the pictures that the records have. *rows: how many there are; 0: nothing was written.
+// Writes the sheet of the pictures in the records. Sets *rows to their number; if it is 0, no sheet was written.
 bool hash_sheet_write(const struct hash_run *run, json_t *const *records, int *rows, lam_error *error);
 
-// XXH64 of a picture's pixels: rows from the top, red, green, blue and alpha. The picture is LAM_RGBA8 without padding.
+// Returns the XXH64 of a picture's pixels: rows from the top, each red, green, blue and alpha. The picture must be
+// LAM_RGBA8 without padding.
 uint64_t hash_of_pixels(const lam_image *image);
 
 #endif

@@ -1,4 +1,4 @@
-// hash_file.c: reads and writes files of hashes.
+// hash_file.c: reads and writes hash files.
 #include "hash_file.h"
 
 #include <errno.h>
@@ -37,13 +37,13 @@ void hash_file_sort(struct hash_file *file)
 
 const struct hash_entry *hash_file_find(const struct hash_file *file, const char *name)
 {
-    struct hash_entry key = {(char *)(uintptr_t)name, 0}; // is only read
+    struct hash_entry key = {(char *)(uintptr_t)name, 0}; // only read
     return file->count ? bsearch(&key, file->entries, file->count, sizeof *file->entries, by_name) : NULL;
 }
 
 // --- reading
 
-// Replaces the escapes of a name in place. Returns false if an escape is unknown.
+// Replaces the escape sequences in a name in place. Returns false if an escape sequence is unknown.
 static bool unescape(char *name)
 {
     char *to = name;
@@ -98,7 +98,7 @@ static bool add_line(struct hash_file *file, const char *path, int number, char 
     return true;
 }
 
-// A line of the head: "version 0.9.0". False: another line.
+// Parses a line of the header such as "version 0.9.0". Returns false for any other line.
 static bool take_head(const char *line, const char *key, char **value)
 {
     size_t length = strlen(key);
@@ -193,7 +193,8 @@ char *hash_file_text(const struct hash_file *file)
 
 // --- names
 
-// The path of a file whose folder is written without links, from malloc; the file itself may be one. As it is if its folder is missing.
+// Returns a path with the links in its folder resolved, allocated with malloc. The file itself may be a link. Returns
+// the path unchanged if its folder does not exist.
 static char *plain_path(const char *path)
 {
     char *folder = output_folder_of(path), *real = folder ? realpath(folder, NULL) : NULL, *plain = NULL;

@@ -18,28 +18,28 @@ struct hash_entry {
 
 struct hash_file {
     char *version, *options;    // from malloc
-    struct hash_entry *entries; // sorted by their names
+    struct hash_entry *entries; // sorted by name
     size_t count;
 };
 
-// Reads a file. The caller frees it, also after a failure. Errors: LAM_CANNOT_READ, LAM_LIMIT.
+// Reads a file. The caller frees it, even after a failure. Fails with LAM_CANNOT_READ or LAM_LIMIT.
 bool hash_file_read(struct hash_file *file, const char *path, lam_error *error);
 void hash_file_free(struct hash_file *file);
 
-// Returns the entry of a name, or NULL if there is none.
+// Returns the entry with this name, or NULL if there is none.
 const struct hash_entry *hash_file_find(const struct hash_file *file, const char *name);
 
-// Sorts the entries by their names, each of which is there once.
+// Sorts the entries by name. Names must be unique.
 void hash_file_sort(struct hash_file *file);
 
-// Returns the text of the file, from malloc. Returns NULL if memory runs out.
+// Returns the text of the file, allocated with malloc, or NULL if memory runs out.
 char *hash_file_text(const struct hash_file *file);
 
-// Returns the name of a model as it stands in the file `path`, from malloc: relative to that file's folder, also if
-// either is reached by a link. The name of a built-in shape stays. Returns NULL if memory runs out.
+// Returns a model's name for the file `path`, allocated with malloc: its path relative to the file's folder, after
+// links are resolved. Names of built-in shapes are unchanged. Returns NULL if memory runs out.
 char *hash_file_name(const char *path, const char *model);
 
-// Returns the model that a name in the file `path` means, from malloc. Returns NULL if memory runs out.
+// Returns the path of the model for a name in the file `path`, allocated with malloc. Returns NULL if memory runs out.
 char *hash_file_model(const char *path, const char *name);
 
 #endif

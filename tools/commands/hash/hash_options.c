@@ -1,4 +1,4 @@
-// hash_options.c: applies the options that a hash file names, if the command line names none that change the picture.
+// hash_options.c: applies the options in a hash file if the command line has no option that changes the picture.
 #include "hash.h"
 
 #include <stdio.h>
@@ -13,7 +13,7 @@
 
 enum { WORDS_MAX = 512 };
 
-// Splits a line into words as a shell does: blanks separate, single quotes keep, \' is a quote. Changes `text`.
+// Splits a line into words like a shell: at blanks outside single quotes; \' is a quote. Modifies `text`.
 static int split(char *text, char **words)
 {
     int count = 0;
@@ -30,7 +30,7 @@ static int split(char *text, char **words)
                 *to++ = *++from;
             else
                 *to++ = *from;
-        from += *from == ' '; // before `to` may reach it
+        from += *from == ' '; // before `to` can overwrite it
         *to++ = 0;
     }
     return count;

@@ -1,5 +1,5 @@
-// hash_sheet.c: `lambent hash --update`: draws the sheet of old and new pictures, and stores the pictures for the next
-// sheet.
+// hash_sheet.c: draws the sheet of old and new pictures for `lambent hash --update` and stores the pictures for the
+// next sheet.
 #include "hash.h"
 
 #include <stdio.h>
@@ -38,7 +38,7 @@ char *hash_picture_path(const char *folder, const char *name)
 
 // --- keeping
 
-// A picture in a record: width, height, and the pixels.
+// Stores a picture in a record: width, height and pixels.
 static void keep(json_t *found, const char *key, const lam_image *picture)
 {
     lam_image small = {0};
@@ -62,7 +62,7 @@ void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t reco
     lam_error error;
     const char *folder = run->options->hash.pictures;
     char *path = folder ? hash_picture_path(folder, name) : NULL;
-    // A picture of another run is not the one whose hash the file has.
+    // Ignores a picture of another run, whose hash differs from the file's.
     if (path && lam_image_load(&old, path, NULL, &error) && old.format == LAM_RGBA8 && hash_of_pixels(&old) == recorded)
         keep(found, "old_picture", &old);
     keep(found, "new_picture", picture);

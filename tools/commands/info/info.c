@@ -1,4 +1,4 @@
-// info.c: the command `info`: prints the contents of a model, without drawing it.
+// info.c: the command `info`: prints the contents of a model without drawing it.
 #include "info.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "report.h"
 #include "sandbox_start.h"
 
-// Reads a file that requires an unknown extension, ignoring the extension.
+// Reads a file that requires an unknown extension and ignores the extension.
 static bool load(struct info *info, struct job *job, struct options *options, lam_error *error)
 {
     struct progress progress;
@@ -61,7 +61,7 @@ static int print_one(const char *model, const struct options *given, bool first)
     info.textures = &textures;
     bool ok = load(&info, &job, &options, &error) && info_textures_list(job.scene, &textures, &error);
     if (ok) {
-        error = (lam_error){0}; // of the first attempt
+        error = (lam_error){0}; // discards the error of the first attempt
         measure_drawing(&info, &job);
     } else
         say_error(error.text);

@@ -1,4 +1,4 @@
-// info.h: the two forms in which the command `info` prints a model.
+// info.h: prints a model for the command `info`, as text or JSON.
 #ifndef INFO_H
 #define INFO_H
 
@@ -6,36 +6,38 @@
 
 #include "job.h"
 
-// A texture as materials read it, or an unused picture of the file.
+// A texture that a material uses, or an unused picture in the file.
 struct info_texture {
-    const lam_texture *texture;  // NULL: no material reads the picture, or it could not be read
-    const lam_file_image *image; // NULL: the file does not list its pictures
-    unsigned slots;              // bit m: some material reads it as map m (lam_map)
+    const lam_texture *texture;  // NULL if no material uses the picture or it cannot be read
+    const lam_file_image *image; // NULL if the file does not list its pictures
+    unsigned slots;              // bit m: a material uses it as map m (lam_map)
 };
 struct info_textures {
     struct info_texture *items; // from malloc
     int count;
 };
 bool info_textures_list(const lam_scene *scene, struct info_textures *textures, lam_error *error);
-int info_texture_find(const struct info_textures *textures, const lam_texture *texture); // its index; −1: none
-// As the model names it, or relative to the model's folder. Returns NULL if it is in the model.
+int info_texture_find(const struct info_textures *textures, const lam_texture *texture); // returns the index, or −1
+// Returns the texture's file as the model names it or relative to the model's folder, or NULL if the texture is inside
+// the model file.
 const char *info_texture_file(const struct info_texture *texture, const char *model);
-const char *info_texture_format(const struct info_texture *texture); // "png"; NULL: unknown
-const char *info_color_space(const struct info_texture *texture);    // "srgb", "linear"; NULL: it is not read
+const char *info_texture_format(const struct info_texture *texture); // "png"; NULL if unknown
+const char *info_color_space(const struct info_texture *texture);    // "srgb" or "linear"; NULL if unused
 
-// A loaded model, or the error of one that could not be loaded.
+// A loaded model, or the error of loading it.
 struct info {
     const struct job *job;
-    const lam_error *error; // code LAM_OK: none
-    bool needs_lenient;     // drawing it needs --lenient
+    const lam_error *error; // LAM_OK if the model is loaded
+    bool needs_lenient;     // it can only be drawn with --lenient
     const struct info_textures *textures;
     uint64_t
-        drawing_bytes; // that drawing a picture of INFO_SIDE² pixels takes, the picture included; 0: it cannot be drawn
+        // the memory for drawing a picture of INFO_SIDE² pixels, including the picture; 0 if it cannot be drawn
+        drawing_bytes;
     int drawing_threads;
 };
 enum { INFO_SIDE = 1024 };
 
-// The numbers of stored data; a mesh that several objects show counts once.
+// Counts of stored data. A mesh counts once even if several objects show it.
 struct info_counts {
     uint64_t parts, triangles, vertices;
 };
@@ -43,30 +45,31 @@ struct info_counts info_count(const lam_scene *scene);
 
 const char *info_format(const lam_scene *scene); // "shape" for a built-in shape
 
-// The unit of a model's lengths.
+// The unit of length of a model.
 struct info_unit {
-    const char *name, *symbol; // "millimetre", "mm"; NULL: the format does not say
-    double millimetres;        // of one unit; 0: unknown
+    const char *name, *symbol; // "millimetre", "mm"; NULL if the format has no unit
+    double millimetres;        // millimetres in one unit; 0 if unknown
 };
 struct info_unit info_unit(const lam_scene *scene);
 
 // The surface of all objects, in the model's units.
 struct info_measure {
     double area;
-    // Every edge belongs to as many triangles in one direction as in the other, so that the surface has an inside.
+    // True if every edge belongs to the same number of triangles in each direction, so that the surface encloses a
+    // volume.
     bool closed;
-    double volume; // of the space inside closed surfaces; overlapping objects count twice
+    double volume; // of closed surfaces; overlapping objects count twice
 };
 struct info_measure info_measure(const lam_scene *scene);
 
-const char *info_material_kind(const lam_material *material); // "metallic-roughness", "classic" or "unlit"
-// The numbers of a field that is not printed for every material, if they differ from the default, as scene files write
-// them. Returns how many there are; 0: it has its default.
+const char *info_material_kind(const lam_material *material); // returns "metallic-roughness", "classic" or "unlit"
+// Returns the values of a field in the format of scene files, if the field is not printed for every material and
+// differs from its default. The result is the number of values, or 0 for a default.
 int info_changed_field(const lam_field *field, const lam_material *material, double numbers[4]);
-const char *info_alpha_mode(const lam_material *material); // "opaque", "mask" or "blend"
-const char *info_support(lam_extension_support support);   // in words
+const char *info_alpha_mode(const lam_material *material); // returns "opaque", "mask" or "blend"
+const char *info_support(lam_extension_support support);   // returns a description
 
-// Returns a light's colour, its largest channel 1, and that channel: the intensity.
+// Returns a light's colour, scaled so that the largest channel is 1. Sets `intensity` to that channel.
 lam_rgb info_light_color(const lam_light *light, double *intensity);
 
 void info_text(const struct info *info);

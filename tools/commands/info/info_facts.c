@@ -1,4 +1,4 @@
-// info_facts.c: collects the facts about a model that both forms of the command `info` print.
+// info_facts.c: collects the facts about a model that both output formats of the command `info` print.
 #include "info.h"
 
 #include <string.h>
@@ -38,7 +38,7 @@ const char *info_material_kind(const lam_material *material)
     return material->unlit ? "unlit" : material->physical ? "metallic-roughness" : "classic";
 }
 
-// The fields that both forms print of every material.
+// Returns whether both formats print the field for every material.
 static bool is_always_printed(const lam_field *field)
 {
     static const size_t printed[] = {

@@ -1,10 +1,10 @@
-// info_json.c: prints a model in the form of docs/info.schema.json, on one line.
+// info_json.c: prints a model on one line in the format of docs/info.schema.json.
 #include "info.h"
 
 #include "exit_codes.h"
 #include "json.h"
 
-// Formats the shortest number that reads back as the same float.
+// Writes the shortest number that parses to the same float.
 static void json_float(struct json *json, const char *key, float value)
 {
     char text[32];
@@ -26,7 +26,7 @@ static void json_color(struct json *json, const char *key, lam_rgb c)
     json_close(json, ']');
 }
 
-// A number, or null.
+// Writes a number, or null if it is not known.
 static void json_number_if(struct json *json, const char *key, bool known, double value)
 {
     if (known)

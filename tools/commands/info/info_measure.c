@@ -1,4 +1,4 @@
-// info_measure.c: computes the area and volume of a model's surface, and whether it is closed.
+// info_measure.c: computes the area and volume of a model's surface and whether it is closed.
 #include "info.h"
 
 #include <math.h>
@@ -27,12 +27,12 @@ static uint64_t mix(uint64_t x)
     return x ^ x >> 32;
 }
 
-// Returns a number for a position, the same for vertices that coincide.
+// Returns a hash of a position, which is equal for coincident vertices.
 static uint64_t position_hash(const lam_mesh *mesh, uint32_t vertex)
 {
     uint64_t hash = 1;
     for (int i = 0; i < 3; i++) {
-        float number = mesh->positions[3 * (size_t)vertex + (size_t)i] + 0.0f; // −0 becomes 0
+        float number = mesh->positions[3 * (size_t)vertex + (size_t)i] + 0.0f; // converts −0 to 0
         uint32_t bits;
         memcpy(&bits, &number, sizeof bits);
         hash = mix(hash ^ bits) + (uint64_t)i;
@@ -40,14 +40,14 @@ static uint64_t position_hash(const lam_mesh *mesh, uint32_t vertex)
     return hash;
 }
 
-// Returns a number for an edge, whose negative means the other direction. The numbers of a closed surface have the sum
-// 0; any other surface has it with a probability of 2⁻⁶⁴.
+// Returns a hash of a directed edge. The opposite direction has the negated hash. The hashes of a closed surface have
+// the sum 0; the sum for other surfaces is 0 with a probability of 2⁻⁶⁴.
 static uint64_t edge_hash(uint64_t from, uint64_t to)
 {
     return from < to ? mix(from + mix(to)) : from > to ? 0 - mix(to + mix(from)) : 0;
 }
 
-// The three corners' vertices.
+// Returns the vertices of a triangle's corners.
 static void vertices_of(const lam_mesh *mesh, uint32_t triangle, uint32_t out[3])
 {
     for (uint32_t i = 0; i < 3; i++)
@@ -79,7 +79,7 @@ struct info_measure info_measure(const lam_scene *scene)
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
         const lam_object *object = lam_scene_object(scene, i);
         const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
-        double area = 0, volume = 0; // twice and six times
+        double area = 0, volume = 0; // twice the area and six times the volume
         for (uint32_t t = 0; t < mesh->triangle_count; t++) {
             uint32_t vertices[3];
             vertices_of(mesh, t, vertices);

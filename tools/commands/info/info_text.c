@@ -1,5 +1,4 @@
-// info_text.c: prints a model for people, on one screen. Lists end after ROWS rows and state the number of omitted
-// rows.
+// info_text.c: prints a model as text on one screen. Lists end after ROWS rows and state the number of omitted rows.
 #include "info.h"
 
 #include <inttypes.h>
@@ -9,7 +8,7 @@
 
 enum { ROWS = 8, NAME_BYTES = 40, LINE_BYTES = 120 };
 
-// Returns a text from a file: control characters shown as '?', cut after `bytes`. NULL: "".
+// Returns a text from a file with control characters replaced by '?', truncated after `bytes`. Returns "" for NULL.
 static char *plain(const char *name, size_t bytes, char *out)
 {
     char *to = out;
@@ -28,7 +27,7 @@ static char *plain(const char *name, size_t bytes, char *out)
     return out;
 }
 
-// Returns a name from a file, in quotes. "": unnamed.
+// Returns a name from a file in quotes, or a note for an empty name.
 static const char *shown(const char *name, char out[NAME_BYTES + 12])
 {
     if (!name)
@@ -40,7 +39,7 @@ static const char *shown(const char *name, char out[NAME_BYTES + 12])
 
 static const char *label(const char *text, int index) { return index == 0 ? text : ""; }
 
-// Prints the rest of a list; true: the row is not printed.
+// Returns true if a row of a long list is omitted. Prints the number of omitted rows instead.
 static bool omitted(int index, int count)
 {
     if (index == ROWS && count > ROWS + 1) {
@@ -64,7 +63,7 @@ static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
 // --- the sections
 
-// In mm² and mm³ if the unit is known, else in units of the model.
+// Prints areas and volumes in mm² and mm³ if the unit is known, otherwise in the model's units.
 static void print_measure(const lam_scene *scene, double millimetres)
 {
     struct info_measure measure = info_measure(scene);

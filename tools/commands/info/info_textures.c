@@ -1,5 +1,5 @@
-// info_textures.c: lists the textures of a model's materials, each once, and the pictures in its file that no material
-// uses.
+// info_textures.c: lists the textures of a model's materials without duplicates, and the file's pictures that no
+// material uses.
 #include "info.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@ static void add(struct info_textures *textures, const lam_texture *texture, cons
     textures->items[textures->count++] = (struct info_texture){.texture = texture, .image = image};
 }
 
-// A picture becomes one texture for each way in which materials read it.
+// Adds one texture for each way in which materials use the picture.
 static void add_image(struct info_textures *textures, const lam_file_image *image)
 {
     for (int values = 0; values < 2; values++)

@@ -74,7 +74,7 @@ static bool check_keys(json_t *root, lam_error *error)
     return true;
 }
 
-// The text of a key; NULL and true: it has none, or is null.
+// Gets the text of a key; NULL with true if it is missing or null.
 static bool text_of(const json_t *root, const char *key, const char **text, lam_error *error)
 {
     const json_t *value = json_object_get(root, key);
@@ -84,13 +84,14 @@ static bool text_of(const json_t *root, const char *key, const char **text, lam_
     return complain(error, LAM_BAD_ARGUMENT, "key '%s': found %s, expected a string", key, kind_of(value));
 }
 
-// --- its parts
+// --- the parts of a job
 
 static bool read_timeout(struct batch_job *job, const json_t *root, const struct options *base, lam_error *error)
 {
     const json_t *value = json_object_get(root, "timeout_s");
     double most = limits_time(base), seconds = json_number_value(value);
-    job->options.limits.time_limit_s = most > 0 ? most : (double)INFINITY; // of the whole job, also for an animation
+    // the limit of the whole job, including animations
+    job->options.limits.time_limit_s = most > 0 ? most : (double)INFINITY;
     if (!value || json_is_null(value))
         return true;
     if (!json_is_number(value) || !(seconds > 0 && seconds <= 1e9) || (most > 0 && seconds > most))
@@ -117,7 +118,7 @@ static bool read_bytes(struct batch_job *job, const json_t *value, lam_error *er
     return true;
 }
 
-// The model: a file within reach, a shape, or bytes with a name.
+// Reads the model: an allowed file, a shape, or bytes with a name.
 static bool read_model(struct batch_job *job, const json_t *root, const struct batch_job_rules *rules, lam_error *error)
 {
     const char *model, *data, *name;
@@ -140,7 +141,7 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
     return batch_plan_add(&job->plan, model ? model : name ? name : "model", NULL, error);
 }
 
-// The target of the pictures: a name that the options get. In an answer they have names too, for their format.
+// Reads the target of the pictures: a name for the options. Pictures in an answer have names too, for their format.
 static bool read_output(struct batch_job *job, const json_t *root, lam_error *error)
 {
     const char *output, *format;
@@ -180,7 +181,7 @@ static bool check_environment(const struct batch_job *job, const struct batch_jo
     return ok;
 }
 
-// A look is read while the words are parsed: its file is checked before that.
+// A look is read while the words are parsed, so its file is checked before that.
 static bool check_looks(const struct batch_job *job, const struct batch_job_rules *rules, lam_error *error)
 {
     static const char option[] = "--look";
@@ -207,7 +208,7 @@ static bool check_outputs(const struct batch_job *job, const struct batch_job_ru
     return ok;
 }
 
-// --- the whole
+// --- whole jobs
 
 static bool read_options(struct batch_job *job, const json_t *root, const struct batch_job_rules *rules,
                          lam_error *error)
@@ -220,7 +221,7 @@ static bool read_options(struct batch_job *job, const json_t *root, const struct
     o->work.threads = rules->threads;
     o->limits.in_flight = rules->in_flight;
     o->limits.files_inside = true;
-    o->limits.allow_paths.count = 0; // a job's model reads its own folder alone
+    o->limits.allow_paths.count = 0; // a job's model may only read its own folder
     return job_words_make(json_object_get(root, "options"), &job->words, &job->word_count, error) &&
            check_looks(job, rules, error) && job_words_apply(job->words, job->word_count, o, error) &&
            check_environment(job, rules, error) && job_check_options(o, error);

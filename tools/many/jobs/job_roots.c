@@ -1,7 +1,7 @@
-// job_roots.c: the folders that files of jobs may lie in.
+// job_roots.c: the folders to which files of jobs are restricted.
 //
-// With Landlock the kernel also restricts a worker to them (sandbox_start.c): this check makes the error message, and
-// protects without Landlock as long as nobody moves links in these folders meanwhile.
+// With Landlock, the kernel also restricts a worker to them (sandbox_start.c). This check produces the error message,
+// and protects without Landlock as long as nobody moves links in these folders meanwhile.
 #include "job_roots.h"
 
 #include <errno.h>
@@ -50,8 +50,8 @@ static bool is_below(const struct job_roots *roots, const char *real)
     return false;
 }
 
-// Returns the real path of a path, or of the nearest folder above it that exists. Returns NULL if there is none, or
-// more is missing than folders to create: "..", or a link without a target.
+// Returns the real path of a path, or of its nearest existing parent folder. Returns NULL if there is none, or if the
+// missing part is more than folders to be created: "..", or a broken link.
 static char *resolve(const char *path, bool *exists)
 {
     char *real = realpath(path, NULL), *copy = real ? NULL : strdup(path);

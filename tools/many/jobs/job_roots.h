@@ -5,17 +5,17 @@
 #include "options.h"
 
 struct job_roots {
-    char **paths; // after every link is followed; from malloc
+    char **paths; // after resolving all links; from malloc
     int count;
 };
 
-// Error: LAM_BAD_ARGUMENT (one that is no folder), LAM_LIMIT.
+// Resolves the folders. Fails with LAM_BAD_ARGUMENT (not a folder), LAM_LIMIT.
 bool job_roots_start(struct job_roots *roots, const struct options *options, lam_error *error);
 void job_roots_free(struct job_roots *roots);
 
-// Returns whether a file lies below one of the folders, wherever links and ".." lead; it need not exist. `writes`: the
-// file is written, so it must not be a pipe, a device or a broken link. Error: LAM_CANNOT_READ, or with `writes`
-// LAM_CANNOT_WRITE.
+// Returns whether a file is below one of the folders after resolving links and ".."; it need not exist. With `writes`,
+// the file will be written, so it must not be a pipe, a device or a broken link. Fails with LAM_CANNOT_READ, or with
+// `writes` LAM_CANNOT_WRITE.
 bool job_roots_have(const struct job_roots *roots, const char *path, bool writes, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// job_stream.c: lines of a file or a pipe.
+// job_stream.c: reads lines from a file or a pipe.
 #include "job_stream.h"
 
 #include <errno.h>
@@ -8,7 +8,7 @@
 
 enum { PIECE = 64 << 10, KEPT = 1 << 20 };
 
-// Makes room for more bytes: consumed bytes are removed first, and a large buffer is freed once it is empty.
+// Makes space for more bytes: consumed bytes are removed first, and a large buffer is freed once it is empty.
 static bool make_room(struct job_stream *s)
 {
     if (s->start) {
@@ -46,7 +46,7 @@ bool job_stream_read(struct job_stream *s)
     return true;
 }
 
-// Takes `size` bytes, and an end of `after` bytes, off the stream.
+// Removes `size` bytes, and a line end of `after` bytes, from the stream.
 static void take(struct job_stream *s, size_t size, size_t after)
 {
     s->start += size + after;

@@ -1,4 +1,4 @@
-// job_stream.h: lines of a file or a pipe, each no longer than a limit.
+// job_stream.h: reads lines from a file or a pipe, each no longer than a limit.
 #ifndef JOB_STREAM_H
 #define JOB_STREAM_H
 
@@ -8,21 +8,22 @@
 
 struct job_stream {
     int file;
-    char *data; // the bytes read, from `start` on
+    char *data; // unconsumed bytes, from `start` on
     size_t start, end, capacity;
-    size_t searched; // from `start` on there is no line end in this many bytes
-    size_t limit;    // bytes of a line
-    uint64_t line;   // of the last line that was taken, from 1
-    bool skips;      // the rest of a line that is too long
-    bool ended;      // nothing more can be read
+    size_t searched; // this many bytes from `start` on contain no line end
+    size_t limit;    // bytes per line
+    uint64_t line;   // number of the last line taken, from 1
+    bool skips;      // skipping the rest of a line that is too long
+    bool ended;      // the end was reached
 };
 
-// Reads the available bytes, once; waits if there are none. False: errno (ENOMEM: out of memory). An end is none of
-// that.
+// Reads the available bytes once; waits if there are none. Returns false and sets errno on failure (ENOMEM: out of
+// memory). The end of the stream is not a failure.
 bool job_stream_read(struct job_stream *stream);
 
-// A line that is whole, without its end; at the end of the stream also one without an end. It lives until the next call of any
-// of these. TOO_LONG: a line that was longer than the limit; its bytes are not kept. NONE: there is no whole line yet, or no more.
+// Gets a complete line, without its end; at the end of the stream also an incomplete one. It is valid until the next
+// call. TOO_LONG: the line exceeded the limit; its bytes are not kept. NONE means there is no complete line yet, or the
+// stream has ended.
 enum job_line { JOB_LINE_NONE, JOB_LINE_WHOLE, JOB_LINE_TOO_LONG };
 enum job_line job_stream_next(struct job_stream *stream, const char **text, size_t *size);
 

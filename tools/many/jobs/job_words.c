@@ -13,7 +13,7 @@ enum { WORDS_MAX = 1000 };
 
 // --- from JSON to words
 
-// Appends a word from malloc, which it takes over, or NULL if memory runs out.
+// Appends a word from malloc and takes ownership of it; the word is NULL if memory ran out.
 static bool append(char ***words, int *count, char *word, lam_error *error)
 {
     char **more = word && *count < WORDS_MAX ? realloc(*words, ((size_t)*count + 2) * sizeof *more) : NULL;
@@ -28,7 +28,7 @@ static bool append(char ***words, int *count, char *word, lam_error *error)
     return true;
 }
 
-// A string or a number as it is typed. Returns false if it is neither.
+// Formats a string or a number as it is typed. Returns false for other values.
 static bool typed(const json_t *value, char number[32], const char **text)
 {
     *text = json_is_string(value) ? json_string_value(value) : number;
@@ -47,7 +47,7 @@ static bool has_word(const struct option *option, const char *name)
     return false;
 }
 
-// One value of an option: --name=value, or --name for true.
+// Appends one value of an option: --name=value, or --name for true.
 static bool append_option(char ***words, int *count, const char *name, const json_t *value, lam_error *error)
 {
     const struct option *option = option_find(name);
@@ -123,7 +123,7 @@ void job_words_free(char **words, int count)
 
 // --- from words to options
 
-// Options of the picture alone: limits, processors and files to write are the worker's.
+// Returns whether an option concerns only the picture: limits, processors and written files are set for the worker.
 static bool fits(const struct option *option)
 {
     static const char *const others[] = {"output", "save-scene", "durable"};
@@ -148,7 +148,7 @@ static bool check(const struct options *given, lam_error *error)
     return true;
 }
 
-// Parses into `options`; the list of words is copied, since parsing changes its order.
+// Parses into `options`. The list of words is copied, because parsing changes its order.
 static bool parse(char *const *words, int count, struct options *options, lam_error *error)
 {
     char **list = calloc((size_t)count + 1, sizeof *list);

@@ -1,4 +1,4 @@
-// job_words.h: the options of a job: words of a command line, or an object of options.
+// job_words.h: the options of a job, given as words of a command line or as a JSON object.
 #ifndef JOB_WORDS_H
 #define JOB_WORDS_H
 
@@ -6,12 +6,14 @@
 
 #include "options.h"
 
-// The words of `value`: a list of words, {"size": 256, "light": ["a", "b"], "wireframe": true}, or nothing (NULL, null). From
-// malloc; freed by job_words_free, also after an error. Error: LAM_BAD_ARGUMENT, LAM_LIMIT.
+// Makes the words for `value`: a list of words, an object such as {"size": 256, "light": ["a", "b"], "wireframe":
+// true}, or nothing (NULL, null). The words are from malloc and freed by job_words_free, also after an error. Fails
+// with LAM_BAD_ARGUMENT or LAM_LIMIT.
 bool job_words_make(const json_t *value, char ***words, int *count, lam_error *error);
 void job_words_free(char **words, int count);
 
-// Adds the words, which stay in use, to the options. Error: LAM_BAD_ARGUMENT, also for an option that is not one of the picture.
+// Adds the words, which must stay valid, to the options. Fails with LAM_BAD_ARGUMENT, also for options that do not
+// concern the picture.
 bool job_words_apply(char *const *words, int count, struct options *options, lam_error *error);
 
 #endif

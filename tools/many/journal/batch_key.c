@@ -12,11 +12,11 @@
 #include "json.h"
 #include "xxh64.h"
 
-// Options outside of the groups of the picture that change it.
+// Options in other groups that affect the picture.
 static const char *const also[] = {"files-inside", "device", "gl-device", "texture-filter", NULL};
 
-// Options of those groups without an influence; sides and sizes belong to each picture, and a look is replaced by its
-// options.
+// Options of the picture's groups that do not affect it; sides and sizes are separate for each picture, and a look is
+// replaced by its options.
 static const char *const without[] = {"output", "save-scene", "size", "view", "durable", "look", NULL};
 
 static bool is_in(const char *const *names, const char *name)
@@ -51,7 +51,7 @@ static void print_number(FILE *out, double value)
     fputs(text, out);
 }
 
-// A word by its name; a number as it is.
+// Prints the name of an enumeration value, or a number.
 static void print_word(FILE *out, const struct option *option, int value)
 {
     const struct word *word = option->words;
@@ -84,12 +84,12 @@ static void print_value(FILE *out, const struct option *option, const struct opt
     else if (is_texts(option))
         for (int i = 0; i < ((const struct texts *)field)->count; i++)
             fprintf(out, "%s%s", i ? " | " : "", ((const struct texts *)field)->items[i]);
-    else if (o->values[option - option_table]) // all others keep their text
+    else if (o->values[option - option_table]) // all other options keep their text
         fputs(o->values[option - option_table], out);
 }
 
-// The names and the hashes of the environment's files, which are read once and apply to every model. How their folder
-// is spelled does not matter.
+// Prints the names and the hashes of the environment's files, which are read once for all models. The spelling of their
+// folder does not matter.
 static bool print_environment(FILE *out, const struct options *o, lam_error *error)
 {
     const char *paths[LAM_FACE_COUNT] = {o->shading.environment};
@@ -142,7 +142,7 @@ char *batch_options_text(const struct options *o, lam_error *error)
     return NULL;
 }
 
-// A word as a shell takes it.
+// Quotes a word for a shell.
 static void put_word(FILE *out, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%";
@@ -190,7 +190,7 @@ char *batch_options_given(const struct options *o)
     return NULL;
 }
 
-// A line as an option is typed.
+// Formats a line as a typed option.
 static int typed(const char *line, char *text, size_t size)
 {
     int length = (int)strcspn(line, "\n"), name = (int)strcspn(line, "=\n");
@@ -219,7 +219,7 @@ uint64_t batch_key(const struct batch_key_parts *p)
     xxh64_add_text(&hash, lam_version());
     xxh64_add_text(&hash, lam_build_info());
     xxh64_add_text(&hash, p->options);
-    // A scene file's own settings apply if the command line has none, so it matters which options were typed.
+    // A scene file's own settings apply if the command line has none, so the key includes which options were typed.
     for (int i = 0; strcmp(p->format, "scene") == 0 && option_table[i].name; i++)
         if (p->parsed->given[i] && changes_picture(&option_table[i]))
             xxh64_add_text(&hash, option_table[i].name);

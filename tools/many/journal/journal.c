@@ -1,4 +1,4 @@
-// journal.c: a file with one JSON line for each picture that is done or has failed.
+// journal.c: a file with one JSON line for each finished or failed picture.
 #include "journal.h"
 
 #include <errno.h>
@@ -26,7 +26,7 @@ enum { SLOT = 8192 };
 // The latest line of a picture.
 struct entry {
     uint64_t output;  // hash of its path
-    const char *line; // NULL: free
+    const char *line; // NULL if free
 };
 
 struct journal {
@@ -34,14 +34,14 @@ struct journal {
     char *folder; // journal_run.folder
     enum journal_way way;
     int file, running;
-    char *text; // of the journal as it was, its lines ended by zeros
+    char *text; // contents when the journal was opened, with lines ended by zeros
     struct entry *entries;
     size_t capacity; // a power of 2
     size_t count;
-    char *was_running; // slots of the run before
+    char *was_running; // slots of the previous run
     size_t was_slots;
-    bool torn;  // the last line has no end
-    bool begun; // FILE.running has the slots of this run
+    bool torn;  // the last line is incomplete
+    bool begun; // FILE.running contains the slots of this run
 };
 
 char *journal_text(const char *text)
@@ -78,8 +78,8 @@ char *journal_path(const char *text)
     return out;
 }
 
-// A picture is found by its path, and by its path below the folder of the pictures: that may be absolute in one run and
-// relative in the next. `folder`: the text that both begin with, or NULL if the whole path is meant.
+// Returns the key of a picture: its path, or its path below the folder of the pictures, which may be absolute in one
+// run and relative in the next. `folder` is the common prefix to remove, or NULL for the whole path.
 static uint64_t hash_of(const char *folder, const char *output)
 {
     struct xxh64 hash;
@@ -146,15 +146,15 @@ char *journal_read(const char *path, size_t *size)
     return text;
 }
 
-// Returns the options of the run whose line this is, or NULL if it is no such line.
+// Returns the options of a line that begins a run, or NULL for other lines.
 static const char *options_of(const json_t *line) { return json_string_value(json_object_get(line, "options")); }
 
-// A line that is not JSON was truncated, or written after a truncated line. It is ignored.
+// Parses the lines. A line that is not JSON was truncated, or written after a truncated line, and is ignored.
 static bool read_lines(struct journal *j, size_t size, const char **options, json_t **last_run, lam_error *error)
 {
-    json_t *folder = NULL; // of the latest line that names one
+    json_t *folder = NULL; // the folder in the latest line that contains one
     bool ok = true;
-    *options = NULL; // of the latest run
+    *options = NULL; // the options of the latest run
     j->torn = size && j->text[size - 1] != '\n';
     for (char *line = j->text, *end; ok && (end = memchr(line, '\n', size - (size_t)(line - j->text)));
          line = end + 1) {
@@ -192,7 +192,7 @@ static bool write_all(int file, const char *text, size_t size)
     return true;
 }
 
-// The line that begins a run.
+// Writes the line that begins a run.
 static bool begin_run(struct journal *j, const struct journal_run *about, lam_error *error)
 {
     char *clean = journal_text(about->options);
@@ -223,7 +223,7 @@ static bool check_options(const char *path, const char *then, const char *option
                     path, difference);
 }
 
-// Continues the existing journal.
+// Continues an existing journal.
 static bool read_journal(struct journal *j, enum journal_way way, const char *options, lam_error *error)
 {
     size_t size;
@@ -242,7 +242,7 @@ static bool read_journal(struct journal *j, enum journal_way way, const char *op
     return ok;
 }
 
-// Renames an existing journal; other files do not change.
+// Renames an existing journal, but no other file.
 static bool set_aside(const struct journal *j, lam_error *error)
 {
     char *before = NULL, head[64] = "";
@@ -275,9 +275,9 @@ static bool wait_for_lock(int file, double until_ms)
     return false;
 }
 
-// Only one run at a time writes a journal: FILE.running is locked. The processes of a killed run keep the lock until
-// they have ended too, so this waits two seconds. If the other run removes the file at its end, the lock is of no use,
-// and a new file is locked.
+// Locks FILE.running, so that only one run at a time writes the journal. The processes of a killed run keep the lock
+// until they end, so this waits up to two seconds. If the other run removes the file at its end, a new file is created
+// and locked.
 static bool lock_running(struct journal *j, lam_error *error)
 {
     const double until_ms = clock_ms() + 2000;
@@ -308,7 +308,7 @@ static bool open_running(struct journal *j, lam_error *error)
     return true;
 }
 
-// The slots of this run replace the previous run's, which remain if this run cannot begin.
+// Replaces the previous run's slots by the slots of this run; if this run cannot begin, the previous slots remain.
 static bool take_over_running(struct journal *j, int slots, lam_error *error)
 {
     j->begun = ftruncate(j->running, 0) == 0 && ftruncate(j->running, (off_t)slots * SLOT) == 0;
@@ -331,7 +331,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
         j->file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
         ok = j->file >= 0 || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
     }
-    // A truncated line is ended, so that the next line is complete.
+    // Ends a truncated line, so that the next line is complete.
     ok = ok && (!j->torn || write_all(j->file, "\n", 1) ||
                 complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno)));
     ok = ok && begin_run(j, run, error) && take_over_running(j, slots, error);
@@ -347,7 +347,7 @@ json_t *journal_find(const struct journal *j, const char *output)
 {
     char *clean = j->count ? journal_text(output) : NULL;
     const struct entry *entry = clean ? find_entry(j, hash_of(NULL, clean)) : NULL;
-    // --skip-same checks the contents of all files. --resume goes by the line alone, which has to be of this very path.
+    // --skip-same checks the contents of all files. --resume only uses the line, which must be for the same path.
     if (entry && !entry->line && j->way == JOURNAL_SAME && is_below(j->folder, clean))
         entry = find_entry(j, hash_of(j->folder, clean));
     json_t *record = entry && entry->line ? json_loads(entry->line, 0, NULL) : NULL;
@@ -381,7 +381,7 @@ bool journal_add(struct journal *j, const json_t *record, lam_error *error)
 struct slot {
     int process;
     char host[HOST_SIZE];
-    char model[SLOT - sizeof(int) - HOST_SIZE]; // "": none
+    char model[SLOT - sizeof(int) - HOST_SIZE]; // "" if the slot is free
 };
 
 const char *journal_running_path(const struct journal *j) { return j->running_path; }
@@ -390,12 +390,12 @@ void journal_begin(struct journal *j, int slot, int process, const char *model)
 {
     struct slot text = {.process = process};
     size_t length = model ? strlen(model) : 0;
-    if (length < sizeof text.model) // a longer path cannot be opened
+    if (length < sizeof text.model) // longer paths cannot be opened
         memcpy(text.model, model ? model : "", length);
     else
         length = 0;
     host_name(text.host);
-    // If it cannot be written, a killed run is resumed without drawing its models first.
+    // If writing fails, resuming a killed run does not draw its models first.
     if (pwrite(j->running, &text, offsetof(struct slot, model) + length + 1, (off_t)slot * SLOT) < 0)
         return;
 }
@@ -411,7 +411,7 @@ void journal_each_running(const struct journal *j,
     }
 }
 
-// The line that ends a run. If it cannot be written, the run looks like one that was killed at its very end.
+// Writes the line that ends a run. If that fails, the run looks as if it was killed at its very end.
 static void end_run(struct journal *j)
 {
     lam_error error;
@@ -429,7 +429,7 @@ void journal_close(struct journal *j, bool done, bool interrupted)
         end_run(j);
     if (j->file >= 0)
         close(j->file);
-    if (j->was_running && (j->begun ? !interrupted : !j->was_slots)) // locked by this run, and of use to no later one
+    if (j->was_running && (j->begun ? !interrupted : !j->was_slots)) // locked by this run, and of no use to a later one
         writer_remove(j->running_path);
     if (j->running >= 0)
         close(j->running);

@@ -1,6 +1,6 @@
-// journal_sum.c: several journals of one batch taken together.
+// journal_sum.c: combines several journals of one batch.
 //
-// The lines stay text: a journal of a million pictures is parsed line by line, and 40 bytes a picture are kept.
+// The lines stay text: a journal of a million pictures is parsed line by line, keeping 40 bytes per picture.
 #include "journal_sum.h"
 
 #include <dirent.h>
@@ -108,11 +108,12 @@ static void begin_run(struct journal_part *part, const json_t *record)
     part->pictures = (size_t)json_integer_value(json_object_get(record, "pictures"));
     part->shard = (struct batch_shard){0};
     if (shard)
-        batch_shard_of(shard, &part->shard, &error); // a journal is not written by hand
+        batch_shard_of(shard, &part->shard, &error); // journals are not written by hand
     part->ended = false;
 }
 
-// A line that is not JSON was truncated by a kill. The next run draws its picture again and writes another line.
+// A line that is not JSON was truncated when the run was killed. The next run draws its picture again and writes
+// another line.
 static bool read_lines(struct journal_sum *s, int number, lam_error *error)
 {
     const char *line = s->parts[number].text, *last = line + s->parts[number].size, *end, *folder = NULL;

@@ -1,4 +1,4 @@
-// batch_plan.c: which models are drawn, and the names of their pictures.
+// batch_plan.c: the models to draw, and the names of their pictures.
 #include "batch_plan.h"
 
 #include <stdio.h>
@@ -9,7 +9,8 @@
 #include "console.h"
 #include "output.h"
 
-// The pattern of the names: the user's, or one that tells several pictures of a model apart. NULL: the model's name.
+// Makes the pattern of the names: the user's pattern, or one that distinguishes several pictures of a model. NULL means
+// the model's name.
 static bool make_pattern(struct batch_plan *plan, lam_error *error)
 {
     const struct options *o = plan->options;
@@ -133,7 +134,7 @@ char *batch_plan_folder(const struct batch_plan *plan)
     return strndup(name, length);
 }
 
-// Sorts pictures by their name, to find two with the same one.
+// A picture's name, for sorting, which finds duplicates.
 struct named_output {
     size_t model;
     char *output;
@@ -166,7 +167,7 @@ static bool find_doubles(const struct batch_plan *plan, const struct named_outpu
     return true;
 }
 
-// Keeps the models of this shard, in their order.
+// Keeps the models of this shard, in order.
 static bool keep_shard(struct batch_plan *plan, lam_error *error)
 {
     size_t kept = 0;

@@ -1,4 +1,4 @@
-// batch_plan.h: which models are drawn, from which sides, in which sizes, and the names of their pictures.
+// batch_plan.h: the models to draw, their sides and sizes, and the names of their pictures.
 #ifndef BATCH_PLAN_H
 #define BATCH_PLAN_H
 
@@ -7,9 +7,9 @@
 
 struct batch_model {
     char *path; // from malloc
-    char *root; // {dir} is below this folder; from malloc; NULL: the path's own folder
-    // A link found in a folder, to a file that lies neither below that folder nor below one of --allow-path: it is an error,
-    // since nobody named the file.
+    char *root; // {dir} is relative to this folder, from malloc; NULL means the path's own folder
+    // Whether it is a link found in a folder, to a file that is neither below that folder nor below one of
+    // --allow-path. This is an error, since the user did not name the file.
     bool leads_out;
 };
 
@@ -17,33 +17,33 @@ struct batch_plan {
     const struct options *options;
     struct batch_model *models;
     size_t count, capacity;
-    struct job_view views[VIEWS_MAX * VIEWS_MAX]; // of each model
+    struct job_view views[VIEWS_MAX * VIEWS_MAX]; // pictures of each model
     int view_count;
-    char *pattern;            // of the names; NULL: the model's
+    char *pattern;            // the pattern of the names; NULL means the model's name
     struct batch_shard shard; // --shard
     bool by_list;             // --shard-by list: only the models of this shard are added
-    size_t listed;            // models that came from lists
-    uint64_t list_bytes;      // with by_list: the size of the list
+    size_t listed;            // number of models from lists
+    uint64_t list_bytes;      // the size of the list, with by_list
 };
 
-// A plan without models. Checks the options that belong together. Error: LAM_BAD_ARGUMENT.
+// Starts a plan without models, and checks combinations of options. Fails with LAM_BAD_ARGUMENT.
 bool batch_plan_start(struct batch_plan *plan, const struct options *options, lam_error *error);
 
-// Adds a model; `root` may be NULL. Both are copied. Fails with LAM_LIMIT.
+// Adds a model; `root` may be NULL. Both strings are copied. Fails with LAM_LIMIT.
 bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root, lam_error *error);
 
-// Takes the last model away.
+// Removes the last model.
 void batch_plan_drop_last(struct batch_plan *plan);
 
-// Ends the adding. Finds two pictures of one name, of any shard, and names that cannot be written; then keeps the models of this
-// shard. Error: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED.
+// Completes the plan. Finds pictures with the same name, of all shards, and names that cannot be written, and then
+// keeps the models of this shard. Fails with LAM_BAD_ARGUMENT or LAM_UNSUPPORTED.
 bool batch_plan_check(struct batch_plan *plan, lam_error *error);
 
 // Returns the path of a picture, from malloc. Returns NULL if memory runs out.
 char *batch_plan_output(const struct batch_plan *plan, size_t model, int view);
 
-// Returns the folder that all pictures lie below, with its '/' ("": the current one), from malloc. Returns NULL if
-// memory runs out.
+// Returns the common folder of all pictures with its '/', allocated with malloc. The current folder is "". Returns NULL
+// if memory runs out.
 char *batch_plan_folder(const struct batch_plan *plan);
 
 void batch_plan_free(struct batch_plan *plan);

@@ -1,8 +1,8 @@
-// batch_shard.c: selects this process's models, if several processes share the work.
+// batch_shard.c: selects this process's models if several processes share the work.
 //
-// A model's shard depends only on its name, so that shards need no communication, and adding a model does not move
-// others. The environment's variables are read only with --shard auto, and only if they are unambiguous: a wrong guess
-// would skip models, and nobody would notice.
+// A model's shard depends only on its name, so shards need no communication, and adding a model does not move others.
+// Environment variables are only read with --shard auto, and only if they are unambiguous: a wrong guess would silently
+// skip models.
 #include "batch_shard.h"
 
 #include <dirent.h>
@@ -17,7 +17,7 @@ enum { SHARDS_MAX = 1000000 };
 
 // --- numbers
 
-// A number without a sign, or false if the text is something else, or the number is above `max`.
+// Parses a number without a sign. Returns false if the text is something else, or the number is above `max`.
 static bool parse_number(const char *text, size_t length, long max, long *number)
 {
     *number = 0;
@@ -31,7 +31,7 @@ static bool parse_number(const char *text, size_t length, long max, long *number
     return length > 0;
 }
 
-// A variable of the environment that has a number.
+// Reads an environment variable that must be a number.
 static bool read_variable(const char *name, long *number, lam_error *error)
 {
     const char *text = getenv(name);
@@ -41,12 +41,12 @@ static bool read_variable(const char *name, long *number, lam_error *error)
            complain(error, LAM_BAD_ARGUMENT, "option '--shard': expected a number in %s, found '%.40s'", name, text);
 }
 
-// --- environments
+// --- cluster environments
 
 static const char task_id[] = "SLURM_ARRAY_TASK_ID", completion[] = "JOB_COMPLETION_INDEX",
                   rank[] = "OMPI_COMM_WORLD_RANK";
 
-// Shard `index`, from 0, of `count` shards.
+// Sets shard `index`, from 0, of `count` shards.
 static bool set_index(struct batch_shard *shard, const char *variable, long index, long count, lam_error *error)
 {
     if (index >= count)
@@ -57,8 +57,8 @@ static bool set_index(struct batch_shard *shard, const char *variable, long inde
     return true;
 }
 
-// A complete job array: from 0 or 1 on, and without gaps. An array resubmitted for some of its tasks (--array=17,23)
-// reports fewer tasks, and would redistribute all models.
+// Accepts a complete job array: from 0 or 1 on, without gaps. An array resubmitted for some of its tasks
+// (--array=17,23) reports fewer tasks, and would redistribute all models.
 static bool slurm_array(struct batch_shard *shard, lam_error *error)
 {
     long id, first, last, count, step;
@@ -80,7 +80,7 @@ static bool slurm_array(struct batch_shard *shard, lam_error *error)
     return set_index(shard, task_id, (id - first) / step, count, error);
 }
 
-// `count`: 0: the environment has it.
+// `count` 0: from the environment.
 static bool from_environment(struct batch_shard *shard, long count, lam_error *error)
 {
     const char *const names[] = {task_id, completion, rank}, *found = NULL;
@@ -98,7 +98,7 @@ static bool from_environment(struct batch_shard *shard, long count, lam_error *e
                         "option '--shard auto': none of %s, %s and %s is set; name the shard, --shard K/N", task_id,
                         completion, rank);
     long index, ranks;
-    if (found == rank) { // mpirun says how many there are: another number would leave models out
+    if (found == rank) { // mpirun knows their number: another number would skip models
         if (!read_variable(rank, &index, error) || !read_variable("OMPI_COMM_WORLD_SIZE", &ranks, error))
             return false;
         if (ranks < 1 || ranks > SHARDS_MAX || (count && ranks != count))
@@ -139,7 +139,7 @@ bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *erro
 
 // --- names
 
-// Returns the part of a path below a folder; the whole path if it is elsewhere.
+// Returns the part of a path below a folder, or the whole path if it is elsewhere.
 static const char *below(const char *path, const char *root)
 {
     size_t length = root ? strlen(root) : 0;
@@ -159,7 +159,7 @@ char *batch_shard_name(const char *path, const char *root)
             slash--;
         bool up = length == 2 && at[0] == '.' && at[1] == '.';
         if (up && end > name && strncmp(slash, "..", (size_t)(end - slash)) != 0) {
-            end = slash > name ? slash - 1 : name; // leaves the folder before it
+            end = slash > name ? slash - 1 : name; // removes the folder before it
         } else if (length && !(length == 1 && *at == '.')) {
             if (end > name)
                 *end++ = '/';
@@ -181,7 +181,7 @@ int batch_shard_of_name(const char *name, int count)
     return (int)(xxh64_end(&hash) % (uint64_t)count) + 1;
 }
 
-// Returns the position of a path's extension: ".jsonl"; its end if there is none.
+// Returns the position of a path's extension, ".jsonl", or its end if there is none.
 static const char *ending_of(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
@@ -222,7 +222,7 @@ bool batch_shard_check_folder(const char *path, const struct batch_shard *shard,
     char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
     if (!folder)
         return complain(error, LAM_LIMIT, "out of memory");
-    DIR *list = opendir(folder); // one that is not there yet has no journals
+    DIR *list = opendir(folder); // a folder that does not exist yet contains no journals
     bool ok = true;
     for (struct dirent *entry; ok && list && (entry = readdir(list));) {
         const char *found = entry->d_name;

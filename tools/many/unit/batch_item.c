@@ -24,7 +24,7 @@
 
 // --- messages
 
-// Prints each warning once; returns how many there are.
+// Prints each warning once. Returns the number of warnings.
 static int print_warnings(const struct job *job, bool print)
 {
     int count = 0;
@@ -48,7 +48,7 @@ static bool sees_nothing(const struct job *job)
     return job->written && !frame->pixels_covered && !frame->edges_drawn;
 }
 
-// Returns true if a sentence begins with the name, in which it shows control characters as '?'.
+// Returns whether a sentence begins with the name, with its control characters as '?'.
 static bool names(const char *sentence, const char *name)
 {
     for (; *name; name++, sentence++) {
@@ -59,8 +59,7 @@ static bool names(const char *sentence, const char *name)
     return *sentence == ':';
 }
 
-// Puts the model's name before a sentence of the library that lacks it, and the user's limit in place of the remaining
-// one.
+// Adds the model's name to a sentence of the library without it, and replaces the remaining limit by the user's.
 static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -83,11 +82,11 @@ static void name_model(const struct job *job, lam_error *error)
 struct files {
     int count;
     char (*hashes)[XXH64_TEXT];
-    const char **texts; // of the hashes
-    bool changed;       // since the model was read: their hashes say nothing about the picture
+    const char **texts; // the texts of the hashes
+    bool changed;       // since the model was read; the hashes then do not describe the picture
 };
 
-// Returns whether a file may have changed after `start`, a time of the clock that file systems use.
+// Returns whether a file may have changed after `start`, a time of the file systems' clock.
 static bool changed_since(const char *path, const struct timespec *start)
 {
     struct stat about;
@@ -190,7 +189,7 @@ static void add_hash(json_t *record, const struct batch_item *item, int view, co
     set_text(record, "hash", text);
 }
 
-// The files that were read, and the key.
+// Adds the files that were read, and the key.
 static void add_key(json_t *record, const struct batch_item *item, int view, const struct job *job,
                     const struct files *files)
 {
@@ -205,7 +204,7 @@ static void add_key(json_t *record, const struct batch_item *item, int view, con
     }
     set(record, "files", list);
     if (files->changed || item->model_bytes || strcmp(item->model, "-") == 0)
-        return; // without a key, the picture is never taken for the same
+        return; // without a key, the picture is never skipped as unchanged
     const struct job_view *v = &item->views[view];
     struct batch_key_parts parts = {.options = item->options_text,
                                     .parsed = item->options,
@@ -250,19 +249,19 @@ static json_t *record_of(const struct batch_item *item, int view, const struct j
 
 // --- drawing
 
-// The state of one reading of a model.
-struct reading {
+// The state of reading one model.
+struct model_run {
     const struct batch_item *item;
     const struct batch_artist *artist;
     struct batch_result *result;
-    struct timespec start; // of the clock that file systems use
+    struct timespec start; // the start on the file systems' clock
     struct files files;
     bool hashed;
-    json_t *found; // by the use of the picture; NULL: it is written
+    json_t *found; // the result of the picture's use; NULL if the picture is written
 };
 
 // Prints and records the result of a picture.
-static void finish_picture(struct reading *r, struct job *job, int view, bool ok, lam_error *error)
+static void finish_picture(struct model_run *r, struct job *job, int view, bool ok, lam_error *error)
 {
     const struct options *o = r->item->options;
     FILE *stream = report_stream(o);
@@ -315,7 +314,7 @@ static bool may_read(const struct batch_item *item, lam_error *error)
                     item->model);
 }
 
-static void run_views(struct reading *r, struct job *job, struct progress *progress)
+static void run_views(struct model_run *r, struct job *job, struct progress *progress)
 {
     lam_error error = {0};
     job->output = r->item->outputs[0];
@@ -335,7 +334,7 @@ static void run_views(struct reading *r, struct job *job, struct progress *progr
     }
 }
 
-static void draw(struct reading *r)
+static void draw(struct model_run *r)
 {
     const struct batch_item *item = r->item;
     struct options own = *item->options; // sizes of the command line are given like --size
@@ -387,7 +386,7 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         result->record_count = 0;
         return;
     }
-    // Markers of lights are objects of the scene, and belong to one camera: each picture reads the model itself.
+    // Markers of lights are objects of the scene and depend on the camera, so each picture then reads the model itself.
     int together = item->options->shading.show_lights ? 1 : item->view_count;
     for (int i = 0; i < item->view_count; i += together) {
         struct batch_item part = *item;
@@ -399,8 +398,8 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         part.view_count = together;
         own.records += i;
         own.outcomes += i;
-        struct reading reading = {.item = &part, .artist = artist, .result = &own};
-        draw(&reading);
+        struct model_run run = {.item = &part, .artist = artist, .result = &own};
+        draw(&run);
         own.records = result->records;
         own.outcomes = result->outcomes;
         *result = own;

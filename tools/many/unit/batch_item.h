@@ -10,30 +10,30 @@
 // A model to draw.
 struct batch_item {
     const struct options *options;
-    const char *options_text; // batch_options_text, for the keys; NULL: records have none
-    bool has_records;         // they are wanted
+    const char *options_text; // the options as text for the keys; NULL if records have no keys
+    bool has_records;         // whether records are needed
     const char *model;
-    bool leads_out;               // it is a link that nobody may follow (batch_plan.h)
-    const lam_bytes *model_bytes; // the model itself, which `model` is then a name for; NULL: a file
-    const struct job_view *views; // its pictures
-    char *const *outputs;         // and their paths
-    lam_bytes *contents;          // receive the pictures' files in place of the paths; NULL: they are written
-    const int *attempts;          // which try each of them is, from 1
+    bool leads_out;               // the model itself; `model` is then its name; NULL means a file
+    const lam_bytes *model_bytes; // the model itself, named by `model`; NULL if it is a file
+    const struct job_view *views; // the views of the pictures
+    char *const *outputs;         // the paths of the pictures
+    lam_bytes *contents;          // receive the pictures; NULL if they are written to the paths
+    const int *attempts;          // the number of the attempt for each, from 1
     int view_count;
-    bool several;                // of the command line: views or sizes, which are not the options' own
-    bool makes_folders;          // of pictures that the options name, too
-    const lam_cancel *cancel;    // stops it; NULL: Ctrl-C does
-    const struct batch_use *use; // takes the picture; NULL: it is written
-    size_t index;                // of the model in the plan, for `use`
+    bool several;                // the command line has several views or sizes
+    bool makes_folders;          // also create the folders of explicitly named pictures
+    const lam_cancel *cancel;    // stops it; if NULL, only Ctrl-C does
+    const struct batch_use *use; // receives the picture; NULL if the picture is written
+    size_t index;                // the index of the model in the plan, for `use`
 };
 
-// Who draws it.
+// The resources for drawing it.
 struct batch_artist {
     lam_device *device;
-    struct environment_cache *environments; // NULL: each model reads its own
-    FILE *out;                              // for reports
+    struct environment_cache *environments; // NULL if each model reads its own
+    FILE *out;                              // receives reports
     bool has_bar;                           // a progress bar on the terminal
-    bool is_talkative;                      // lines for each picture and warnings; errors are always printed
+    bool is_talkative;                      // prints lines for each picture and warnings; errors are always printed
 };
 
 struct batch_outcome {
@@ -42,8 +42,8 @@ struct batch_outcome {
 };
 
 struct batch_result {
-    struct batch_outcome *outcomes; // of each picture
-    json_t **records;               // of each picture; NULL: none are wanted, or it was interrupted
+    struct batch_outcome *outcomes; // the outcome of each picture
+    json_t **records;               // the record of each picture; NULL if not needed or interrupted
     int record_count;
     int warnings;
     int code; // the highest exit code

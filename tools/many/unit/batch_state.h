@@ -15,7 +15,7 @@ enum picture_outcome {
     PICTURE_WRITTEN,
     PICTURE_SAME,          // --skip-same
     PICTURE_BEFORE,        // --resume: an earlier run has written it
-    PICTURE_FAILED,        // it may be tried again
+    PICTURE_FAILED,        // failed, but may be tried again
     PICTURE_FAILED_BEFORE, // in an earlier run, and is not tried again
 };
 
@@ -31,29 +31,29 @@ struct batch_jobs;
 // The task of a worker: a model of the batch's plan, or of a job, which has its own plan.
 struct batch_task {
     const struct batch_plan *plan; // the options, the views and the names
-    size_t model;                  // of the plan
-    const char *options_text;      // for keys; NULL: there are none
-    struct batch_job *job;         // NULL: the plan is the batch's
+    size_t model;                  // the index in the plan
+    const char *options_text;      // the options as text for keys, or NULL
+    struct batch_job *job;         // NULL if the plan belongs to the batch
 };
 
 struct batch {
     const struct batch_plan *plan; // without models where jobs come
     const struct options *options;
     bool is_batch;
-    char *options_text;          // NULL: no keys
-    struct batch_jobs *jobs;     // --jobs (batch_jobs.h); NULL: the plan has all models
-    const struct batch_use *use; // of the pictures; NULL: they are written
+    char *options_text;          // NULL if there are no keys
+    struct batch_jobs *jobs;     // --jobs (batch_jobs.h); NULL if the plan has all models
+    const struct batch_use *use; // receives the pictures; NULL if they are written
     enum journal_way way;
     struct journal *journal;
     int workers, threads;                   // threads of each worker
-    struct environment_cache *environments; // of all models; NULL: each process has its own
+    struct environment_cache *environments; // shared by all models; NULL if each process has its own
 
-    pthread_mutex_t lock;           // of what follows
+    pthread_mutex_t lock;           // protects the following members
     pthread_cond_t changed;         // a worker is done
     pthread_cond_t moved;           // `next` is at `read_from`, or a worker is done
-    struct batch_picture *pictures; // of each model one after the other
-    json_t **records;               // the same, for the page; NULL: it is not wanted
-    bool *taken;                    // for each model: this pass has given it to a worker
+    struct batch_picture *pictures; // the pictures of all models in order
+    json_t **records;               // the same for the page; NULL if there is no page
+    bool *taken;                    // for each model, whether this pass has given it to a worker
     size_t next;                    // model that this pass looks at next
     size_t read_from;               // the position of the thread that reads ahead
     int drawing;                    // workers that are not done

@@ -25,7 +25,7 @@ static size_t finished(const struct batch_tally *t)
     return t->written + t->failed - t->retried + t->same + t->before + t->failed_before;
 }
 
-// "0:07", "12:34", "2:03:04".
+// Formats a time as "0:07", "12:34" or "2:03:04".
 static const char *clock_text(double seconds, char text[32])
 {
     long s = seconds > 0 ? (long)(seconds + 0.5) : 0;
@@ -105,14 +105,14 @@ static void print_text(const struct batch_text *text)
         fputs(text->err, stderr);
     if (text->out) {
         fputs(text->out, stdout);
-        fflush(stdout); // each report appears as soon as it is due
+        fflush(stdout); // shows each message immediately
     }
 }
 
 void batch_print(struct batch_texts *texts, size_t model, char *out, char *err, bool ok, struct batch_tally *tally)
 {
     struct batch_text *text = &texts->list[model], again = {out, err, true};
-    if (model < texts->next) { // a second try: the first one's errors have been printed
+    if (model < texts->next) { // a second attempt, whose first attempt has printed its errors
         if (ok)
             print_text(&again);
         free(out);

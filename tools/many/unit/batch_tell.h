@@ -1,4 +1,4 @@
-// batch_tell.h: the messages of a batch, in the order of the models, a line of progress, a summary.
+// batch_tell.h: prints the messages of a batch in the order of the models, a progress line and a summary.
 #ifndef BATCH_TELL_H
 #define BATCH_TELL_H
 
@@ -11,45 +11,47 @@ enum { TALLY_CLASSES = 12 };
 // Counts of pictures.
 struct batch_tally {
     struct batch_shard shard;
-    size_t total, written, failed, same, before, failed_before; // before: by the runs of the journal
-    size_t cancelled;                                           // jobs
+    // `before` counts pictures of the journal's earlier runs
+    size_t total, written, failed, same, before, failed_before;
+    size_t cancelled; // the number of cancelled jobs
     size_t warnings;
     struct {
         const char *name;
         size_t count;
-    } classes[TALLY_CLASSES]; // of the failed ones
-    size_t retried;           // of `failed`, those to be retried
+    } classes[TALLY_CLASSES]; // the failures by class
+    size_t retried;           // the failed pictures to be retried
     double start_ms;
-    bool has_progress; // on the terminal
-    double drawn_ms;   // when the line of progress was last drawn
+    bool has_progress; // the terminal shows a progress line
+    double drawn_ms;   // when the progress line was last drawn
     bool shown;
 };
 
-// Returns the place of the class.
+// Returns the index of the class in `classes`.
 int batch_count_class(struct batch_tally *tally, const char *name);
 
-// Draws the line of progress anew, at most ten times a second; and takes it away.
+// Redraws the progress line, at most ten times per second; and removes it.
 void batch_show_progress(struct batch_tally *tally);
 void batch_hide_progress(struct batch_tally *tally);
 
-// One line at the end, on standard error.
+// Prints one summary line to standard error.
 void batch_say_summary(const struct batch_tally *tally, bool interrupted);
 
-// The messages of a model.
+// The messages of one model.
 struct batch_text {
-    char *out, *err; // from malloc; NULL: nothing
+    char *out, *err; // from malloc; NULL if there are none
     bool ready;
 };
 
-// Messages in the order of the models, whatever order they come in.
+// Prints the models' messages in the order of the models, regardless of the order in which they finish.
 struct batch_texts {
     struct batch_text *list;
     size_t count, next;
 };
 
-// Takes over a model's messages, and prints the messages that are due. `ok`: all of its pictures are written.
+// Takes ownership of a model's messages and prints all messages whose turn has come. `ok` means that all of the model's
+// pictures are written.
 void batch_print(struct batch_texts *texts, size_t model, char *out, char *err, bool ok, struct batch_tally *tally);
-// Prints the rest, and frees the list.
+// Prints the remaining messages and frees the list.
 void batch_print_rest(struct batch_texts *texts, struct batch_tally *tally);
 
 #endif

@@ -1,4 +1,4 @@
-// batch_unit.c: the work on one model of a batch.
+// batch_unit.c: processes one model of a batch.
 #include "batch_unit.h"
 
 #include <stdlib.h>
@@ -66,15 +66,16 @@ static const char *text_of(const json_t *record, const char *key)
     return text ? text : "";
 }
 
-// Returns whether the picture exists, with the journal's hash.
+// Returns whether the picture exists and has the journal's hash.
 static bool is_untouched(const json_t *record, const char *output)
 {
     uint64_t hash, recorded;
     return xxh64_parse(text_of(record, "hash"), &recorded) && xxh64_file(output, &hash) && hash == recorded;
 }
 
-// Returns the path of one of the record's files, from malloc: beside the model that is drawn now, if it lay beside the
-// record's model. The record may be of a run in another folder. Returns NULL if memory runs out.
+// Returns the current path of one of the record's files, allocated with malloc. If the file was in the folder of the
+// record's model, the result is in the folder of the current model, since the record may come from a run in another
+// folder. Returns NULL if memory runs out.
 static char *path_now(const char *recorded, const char *recorded_model, const char *model)
 {
     char *path = journal_path(recorded), *then = journal_path(recorded_model), *now = NULL;
@@ -92,7 +93,7 @@ static char *path_now(const char *recorded, const char *recorded_model, const ch
     return now;
 }
 
-// Returns whether the files that the model was made of, and the options, give the record's key.
+// Returns whether the model's files and the options still give the record's key.
 static bool has_same_key(const json_t *record, const struct batch_unit *u, int view)
 {
     const json_t *files = json_object_get(record, "files"), *file;
@@ -158,7 +159,7 @@ bool batch_unit_look(struct batch_unit *u, const struct batch *b)
     bool open = false;
     for (int i = 0; i < u->task.plan->view_count; i++) {
         struct batch_picture *picture = &u->pictures[i];
-        // One that this run has tried already is tried again whatever the journal said.
+        // A model that this run has already tried is tried again regardless of the journal.
         bool asks = picture->outcome == PICTURE_OPEN && picture->attempts == 0 && b->journal &&
                     b->way != JOURNAL_START && !u->contents;
         json_t *record = asks ? journal_find(b->journal, u->outputs[i]) : NULL;
@@ -175,7 +176,7 @@ bool batch_unit_look(struct batch_unit *u, const struct batch *b)
 
 // --- drawing
 
-// Returns the open pictures of a unit, as an item; `which` receives their numbers.
+// Returns the open pictures of a unit as an item. Stores their numbers in `which`.
 static struct batch_item item_of(const struct batch_unit *u, const struct batch *b, const struct options *o,
                                  struct job_view *views, char **outputs, int *attempts, int *which)
 {
@@ -197,7 +198,7 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
                                .views = views,
                                .outputs = outputs,
-                               .contents = u->contents, // all of them are open then
+                               .contents = u->contents, // all pictures are open in this case
                                .makes_folders = task->job != NULL,
                                .attempts = attempts,
                                .view_count = count,

@@ -1,7 +1,8 @@
-// batch_use.h: a use of the pictures of many models other than writing them to the plan's files: hashes, comparisons.
+// batch_use.h: the interface for commands that draw many models for another purpose than writing pictures, such as
+// hashes and comparisons.
 //
-// The loop over models, its workers, processes, sandbox, messages and counts stay the same; what is found about each model goes into its
-// record.
+// They share the loop over the models with its workers, processes, sandbox, messages and counts. The findings about
+// each model are stored in its record.
 #ifndef BATCH_USE_H
 #define BATCH_USE_H
 
@@ -11,15 +12,16 @@
 #include "sandbox.h"
 
 struct batch_use {
-    // Draws a model of the plan. `job` has its options, model, device and start; the loop reports its warnings and frees it. What is to
-    // be kept goes into `found`, an object, which becomes a part of the model's record. Any thread; with --isolate in another process.
+    // Draws a model of the plan. `job` contains its options, model, device and start time. The loop reports the job's
+    // warnings and frees it. Results are stored in the object `found`, which becomes part of the model's record. Any
+    // thread calls it; with --isolate, another process does.
     bool (*draw)(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error);
-    // Adds what a model needs besides its own folder. NULL: nothing.
+    // Adds the paths that a model needs in addition to its own folder. May be NULL.
     void (*reach)(void *user, size_t model, struct sandbox_paths *paths);
-    // The files that may be written. NULL: none.
+    // Decides which files may be written. NULL allows none.
     writer_rule *right;
-    // Takes the records of all models, after the last one; not after an interrupt. `failed`: the number of models that failed. Returns the
-    // exit code. The records are the loop's.
+    // Receives the records of all models after the last one, unless the run was interrupted. `failed` is the number of
+    // failed models. Returns the exit code. The loop owns the records.
     int (*finish)(void *user, json_t *const *records, size_t failed);
     void *user;
 };

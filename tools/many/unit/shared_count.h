@@ -1,4 +1,4 @@
-// shared_count.h: a number that processes count together: how many pictures of a page are taken.
+// shared_count.h: a counter shared by processes, which limits the number of pictures on a page.
 #ifndef SHARED_COUNT_H
 #define SHARED_COUNT_H
 
@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <sys/mman.h>
 
-// Zero, in memory that this process shares with those that it starts. Returns NULL if memory runs out.
+// Allocates a counter of zero in memory shared with child processes. Returns NULL if memory runs out.
 static inline atomic_int *shared_count_make(void)
 {
     void *memory = mmap(NULL, sizeof(atomic_int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -19,7 +19,7 @@ static inline void shared_count_free(atomic_int *count)
         munmap(count, sizeof *count);
 }
 
-// Takes one of `most`. False: all are taken.
+// Counts one of at most `most`. Returns false if all of them are taken.
 static inline bool shared_count_take(atomic_int *count, int most) { return atomic_fetch_add(count, 1) < most; }
 
 #endif

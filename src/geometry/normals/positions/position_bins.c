@@ -4,7 +4,7 @@
 #include <string.h>
 
 enum {
-    BATCH = 4 * WORD, // corners looked up together
+    BATCH = 4 * WORD, // corners per lookup
     SHIFT_MIN = 11,   // a bin has at least 2^SHIFT_MIN positions
     SHIFT_MAX = 16,   // list_block.at.position
     BINS_MAX = 1 << 10,
@@ -20,9 +20,9 @@ static inline bool put(const struct position_bins *bins, struct block_lists *lis
     return true;
 }
 
-// --- a mesh without indices
+// --- meshes without indices
 
-#define PENDING ((uint32_t)1 << 31) // the result of a batch's lookup of that number; positions are fewer
+#define PENDING ((uint32_t)1 << 31) // refers to a pending lookup; positions are fewer
 
 // Returns the number of a position from the corner that represents it: its rank among the corners of the set's
 // triangles.
@@ -31,8 +31,8 @@ static inline uint32_t position_of_corner(const struct position_search *s, uint3
     return corner == NONE ? NONE : 3 * triangles_before(s, corner / 3) + corner % 3;
 }
 
-// Lists the corners from `first` on, at most BATCH, that lie at positions of the table. Positions that were looked up
-// recently come from the cache.
+// Lists the corners at positions of the table, at most BATCH from `first`. Positions that were looked up recently come
+// from the cache.
 static uint32_t look_up(const struct position_search *s, uint32_t first, uint32_t count, struct cached_position *cache,
                         uint32_t corners[BATCH], uint32_t positions[BATCH], size_t *probes)
 {
@@ -74,7 +74,7 @@ static uint32_t look_up(const struct position_search *s, uint32_t first, uint32_
     return listed;
 }
 
-// --- any mesh
+// --- all meshes
 
 static void fill_from_chunk(void *user, size_t index, int thread)
 {
@@ -83,7 +83,7 @@ static void fill_from_chunk(void *user, size_t index, int thread)
     if (!should_continue(&s->loop))
         return;
     const uint32_t *indices = s->mesh->indices, *position_of = s->position_of;
-    uint32_t end = (uint32_t)piece_end(index, s->corners, CHUNK), count;
+    uint32_t end = (uint32_t)chunk_end(index, s->corners, CHUNK), count;
     size_t probes = 0;
     for (uint32_t c = (uint32_t)(index * CHUNK); c < end; c += count) {
         uint32_t corners[BATCH + WORD], positions[BATCH + WORD], listed = 0;
@@ -119,7 +119,7 @@ bool position_bins_fill(struct position_bins *bins, struct position_search *s)
             return false;
         }
     }
-    pool_run(s->pool, pieces_of(s->corners, CHUNK), fill_from_chunk, bins);
+    pool_run(s->pool, chunks_of(s->corners, CHUNK), fill_from_chunk, bins);
     return should_continue(&s->loop) && (s->position_of || !s->probe_limit_reached);
 }
 
@@ -146,7 +146,7 @@ void position_bin_sort(const struct position_bins *bins, size_t bin, uint32_t *r
                 starts[b->at.position[i]]++;
     for (size_t i = 0; i <= size; i++)
         starts[i] = end += starts[i];
-    // From the back, and from the newest block to the oldest, so that a thread's corners come in order.
+    // Backwards, and from the newest block to the oldest, so that a thread's corners are in order.
     for (int t = 0; t < pool_threads(s->pool); t++)
         for (const struct list_block *b = s->lists[t].bins[bin]; b; b = b->previous)
             for (uint32_t i = b->count; i-- > 0;)

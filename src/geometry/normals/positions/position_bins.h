@@ -1,21 +1,21 @@
-// position_bins.h: the corners at the positions that were found (shared_positions.h), sorted by ranges of positions: the
-// second step of visible_normals.h.
+// position_bins.h: sorts the corners at the positions from shared_positions.h by ranges of positions: the second step
+// of visible_normals.h.
 #ifndef POSITION_BINS_H
 #define POSITION_BINS_H
 
 #include "shared_positions.h"
 
-// Bin r of each thread's lists contains the corners whose position p has p >> shift = r.
+// Bin r of each thread's lists contains the corners whose position p satisfies p >> shift = r.
 struct position_bins {
     struct position_search *search;
     unsigned shift;
     size_t count;
 };
 
-// Puts the corners into bins. Returns false if it ended early (search->loop), or the probe limit is reached.
+// Puts the corners into bins. Returns false if it ended early (search->loop), or the probe limit was reached.
 bool position_bins_fill(struct position_bins *bins, struct position_search *search);
 
-// Returns how many corners a bin has.
+// Returns the number of corners in a bin.
 size_t position_bin_corners(const struct position_bins *bins, size_t bin);
 
 // Sorts the corners of a bin by position; the corners of the bin's position i are sorted[starts[i]] to sorted[starts[i

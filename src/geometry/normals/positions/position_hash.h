@@ -1,7 +1,7 @@
 // position_hash.h: a hash table of positions, each represented by one vertex.
 //
-// The table and its filter are cut into parts by the hash. First each thread spreads its vertices over the parts
-// (block_list.h), then each part is filled by one thread, in its cache.
+// The table and its filter are divided into parts by the hash. First each thread distributes its vertices to the parts
+// (block_list.h), then one thread fills each part, within its cache.
 #ifndef POSITION_HASH_H
 #define POSITION_HASH_H
 
@@ -11,13 +11,13 @@
 // Four slots: a cache line, compared as a whole.
 struct position_slots {
     int32_t bits[3][4];
-    int32_t vertex[4]; // NONE: free, as are the slots after it
+    int32_t vertex[4]; // NONE if free, like the slots after it
 };
 
 struct position_hash {
     struct position_slots *lines;
     struct position_filter filter;
-    uint32_t part_bits; // of the hash; there are 2^part_bits parts
+    uint32_t part_bits; // bits of the hash that select one of 2^part_bits parts
     uint32_t part_lines, part_words;
 };
 
@@ -25,7 +25,7 @@ struct position_hash {
 void position_hash_plan(struct position_hash *table, size_t vertices);
 
 // Returns the bytes of the table for this many vertices in all parts together. `strict` doubles the bits of the filter,
-// so that it lets fewer other positions pass.
+// so that fewer other positions pass it.
 size_t position_hash_size(struct position_hash *table, size_t vertices, bool strict);
 void position_hash_place(struct position_hash *table, void *memory);
 
@@ -39,13 +39,13 @@ static inline uint32_t position_hash_part(const struct position_hash *table, uin
     return (uint32_t)((uint64_t)hash << table->part_bits >> 32);
 }
 
-// Returns the line in which the search for a hash starts, one of its part's.
+// Returns the line at which the search for a hash starts, in its part.
 static inline size_t position_hash_start(const struct position_hash *table, uint32_t hash)
 {
     return (size_t)(hash * ((uint64_t)table->part_lines << table->part_bits) >> 32);
 }
 
-// Number by number: a load of the whole would stall on stores of single numbers.
+// Copies the numbers one by one, because a wide load would stall on the narrow stores before it.
 static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
 {
     to[0] = from[0];
@@ -53,16 +53,17 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
     to[2] = from[2];
 }
 
-// Returns the vertex that represents a position; NONE: it is not in the table. Adds the probes after the first line.
+// Returns the vertex that represents a position, or NONE if it is not in the table. Adds the number of probes after the
+// first line.
 uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
 // Fills a part from its bin in each of `threads` lists, and empties the bins. With `duplicates`, each vertex whose
-// position another one represents goes to that list of `mine`. Returns false if the probe limit is reached, or memory
-// has run out.
+// position is represented by another vertex is added to that list of `mine`. Returns false if the probe limit is
+// reached or memory runs out.
 bool position_hash_fill(struct position_hash *table, uint32_t part, struct block_lists *lists, int threads,
                         struct block_lists *mine, bool duplicates);
 
-// More probes than any file has that was not made to collide.
+// More probes than occur in any file that was not made to collide.
 static inline bool probe_limit_exceeded(size_t probes, size_t searches) { return probes > 16 * searches + 4096; }
 
 #endif

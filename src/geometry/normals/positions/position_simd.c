@@ -10,7 +10,7 @@ static inline uint32_t bits_of_number(float x)
     return bits == 0x80000000u ? 0 : bits;
 }
 
-// The compiler vectorizes the first loop, since its length is known.
+// The compiler vectorizes the first loop, because its length is constant.
 static uint64_t test(const float *points, uint32_t count, const struct position_filter *filter, uint32_t hashes[WORD])
 {
     float padded[3 * WORD];

@@ -1,13 +1,13 @@
-// position_simd.h: the long loops over vertices and corners that look for shared positions, compiled once for each
+// position_simd.h: the long loops over vertices and corners that find shared positions, compiled once for each
 // instruction set (meson.build), and the bits and the hash of a position.
 #ifndef POSITION_SIMD_H
 #define POSITION_SIMD_H
 
 #include <stdint.h>
 
-enum { WORD = 64 }; // vertices or corners that are worked on together: a word of a bit set
+enum { WORD = 64 }; // vertices or corners processed together: a word of a bit set
 
-// A Bloom filter with two bits for each position, both in the word that the hash's upper bits choose.
+// A Bloom filter with two bits per position, both in the word selected by the hash's upper bits.
 struct position_filter {
     uint32_t *words;
     unsigned shift; // < 32
@@ -18,7 +18,7 @@ static inline uint32_t position_filter_bits(uint32_t hash)
     return (uint32_t)1 << (hash & 31) | (uint32_t)1 << (hash >> 5 & 31);
 }
 
-// The bits of a position, with −0 as 0, so that equal positions have equal bits.
+// Gets the bits of a position, with −0 as 0, so that equal positions have equal bits.
 static inline void position_bits(const float *position, uint32_t bits[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -43,18 +43,18 @@ static inline uint32_t hash_position(const uint32_t bits[3])
 }
 
 struct position_simd {
-    int lanes; // 32-bit numbers in a register
+    int lanes; // 32-bit numbers per register
     // Hashes WORD or fewer points of 3 floats. Bit i of the result: the filter may contain point i.
     uint64_t (*test)(const float *points, uint32_t count, const struct position_filter *filter, uint32_t hashes[WORD]);
     // Numbers the members of a word of a set from `first` on; the others get UINT32_MAX.
     void (*number)(uint64_t members, uint32_t first, uint32_t numbers[WORD]);
-    // Lists the corners among `count` from number `first` on whose vertices, at `indices`, have a position. The lists
-    // must have the capacity of `count` and one register.
+    // Lists the corners, of `count` from number `first`, whose vertices (at `indices`) have a position. The lists need
+    // capacity for `count` and one register.
     uint32_t (*list)(const uint32_t *indices, const uint32_t *position_of, uint32_t first, uint32_t count,
                      uint32_t *corners, uint32_t *positions);
 };
 
-// Returns the widest that the processor has, of at most `lanes` lanes.
+// Returns the widest version that the processor supports, with at most `lanes` lanes.
 const struct position_simd *position_simd_for(int lanes);
 
 #endif

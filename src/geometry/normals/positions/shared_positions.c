@@ -1,8 +1,8 @@
 // shared_positions.c: finds the vertices of a mesh at the positions of given triangles.
 //
-// The vertices of these triangles go into a hash table of positions. Then every other vertex of the mesh is looked up in
-// it; a filter turns most of them away before the table is searched. The order in which threads run decides only where
-// data lie, never a normal.
+// The vertices of these triangles are inserted into a hash table of positions. Then every other vertex of the mesh is
+// looked up; a filter rejects most of them before the table is searched. The order of the threads affects only the
+// addresses of data, never a normal.
 #include "shared_positions.h"
 
 #include "corner_fan.h"
@@ -11,14 +11,14 @@
 #include <string.h>
 
 enum {
-    WORDS = 1 << 8,      // of a bit set, in one piece of work
-    AHEAD = 16,          // words by which the positions of triangles are prefetched
-    TOGETHER = 8,        // words whose vertices are looked up together, after prefetches
-    SLAB = 2 << 20,      // bytes of blocks that are allocated together
-    CACHE_MAX = 1 << 13, // positions that a thread caches: they fit the second-level cache
+    WORDS = 1 << 8,      // words of a bit set per task
+    AHEAD = 16,          // how many words ahead the positions of triangles are prefetched
+    TOGETHER = 8,        // words whose vertices are looked up together, after prefetching
+    SLAB = 2 << 20,      // bytes of blocks allocated together
+    CACHE_MAX = 1 << 13, // positions in a thread's cache, which fits the second-level cache
 };
 
-// Memory that is free again before any fan is made, which may lie where normals will.
+// Memory that is free again before the first fan is computed; it may overlap the memory for normals.
 static void *alloc_until_fans(struct position_search *s, size_t count, size_t size)
 {
     for (int i = 0; i < 2; i++) {
@@ -71,7 +71,7 @@ static void add_wanted(void *user, size_t index, int thread)
     struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    for (size_t w = index * WORDS; w < piece_end(index, triangle_words(s), WORDS); w++)
+    for (size_t w = index * WORDS; w < chunk_end(index, triangle_words(s), WORDS); w++)
         for (uint64_t bits = triangle_word(s, first_word(s) + w); bits; bits &= bits - 1) {
             size_t triangle = 64 * (first_word(s) + w) + (size_t)__builtin_ctzll(bits) - s->first;
             for (size_t k = 0; k < 3; k++)
@@ -88,8 +88,8 @@ bool find_wanted(struct position_search *s)
     if (!s->wanted.bits || !s->wanted.ranks)
         return false;
     if (triangles_before(s, s->mesh->triangle_count) < s->mesh->triangle_count) {
-        pool_run(s->pool, pieces_of(triangle_words(s), WORDS), add_wanted, s);
-    } else if (words) { // all vertices: one without a triangle is a position without corners
+        pool_run(s->pool, chunks_of(triangle_words(s), WORDS), add_wanted, s);
+    } else if (words) { // all vertices; a vertex without a triangle is a position without corners
         memset(s->wanted.bits, 0xff, words * sizeof *s->wanted.bits);
         s->wanted.bits[words - 1] >>= 64 * words - s->vertices;
     }
@@ -99,7 +99,7 @@ bool find_wanted(struct position_search *s)
 
 // --- the table
 
-// Puts a vertex into its part's bin, unless another one at its position was recently.
+// Puts a vertex into its part's bin, unless another vertex at its position was added recently.
 static inline bool spread(struct position_search *s, int thread, size_t vertex)
 {
     struct block_lists *lists = &s->lists[thread];
@@ -127,7 +127,7 @@ static void spread_vertices(void *user, size_t index, int thread)
     struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    for (size_t w = index * WORDS; w < piece_end(index, rank_bitset_words(s->vertices), WORDS); w++)
+    for (size_t w = index * WORDS; w < chunk_end(index, rank_bitset_words(s->vertices), WORDS); w++)
         for (uint64_t bits = s->wanted.bits[w]; bits; bits &= bits - 1)
             if (!spread(s, thread, 64 * w + (size_t)__builtin_ctzll(bits)))
                 return;
@@ -138,7 +138,7 @@ static void spread_corners(void *user, size_t index, int thread)
     struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    size_t end = piece_end(index, triangle_words(s), WORDS);
+    size_t end = chunk_end(index, triangle_words(s), WORDS);
     for (size_t w = index * WORDS, ahead = w; w < end; w++) {
         for (; ahead < end && ahead < w + AHEAD; ahead++)
             for (uint64_t bits = triangle_word(s, first_word(s) + ahead); bits; bits &= bits - 1) {
@@ -190,14 +190,14 @@ void position_search_free(struct position_search *s)
     arena_free(&s->arena);
 }
 
-// No position's bits are all ones.
+// Cache entries are cleared to all ones, which is no valid position.
 static void clear_caches(struct position_search *s)
 {
     for (int i = 0; i < pool_threads(s->pool); i++)
         memset(s->caches[i], 0xff, (s->caches_mask + (size_t)1) * sizeof **s->caches);
 }
 
-// Without indices the same positions come again and again, mostly soon after one another.
+// Without indices the same positions recur, usually soon after one another.
 static bool start_caches(struct position_search *s)
 {
     size_t threads = (size_t)pool_threads(s->pool), capacity = 64;
@@ -235,9 +235,9 @@ static bool fill_table(struct position_search *s)
     if (!start_lists(s) || (!indexed && !start_caches(s)))
         return false;
     if (indexed)
-        pool_run(s->pool, pieces_of(rank_bitset_words(s->vertices), WORDS), spread_vertices, s);
+        pool_run(s->pool, chunks_of(rank_bitset_words(s->vertices), WORDS), spread_vertices, s);
     else
-        pool_run(s->pool, pieces_of(triangle_words(s), WORDS), spread_corners, s);
+        pool_run(s->pool, chunks_of(triangle_words(s), WORDS), spread_corners, s);
     size_t bytes = position_hash_size(&s->table, count_keys(s), indexed);
     void *memory = scratch_borrow(&s->scratch, bytes);
     if (!memory)
@@ -249,9 +249,10 @@ static bool fill_table(struct position_search *s)
     return true;
 }
 
-// --- the other vertices of a mesh with indices
+// --- the other vertices of indexed meshes
 
-// Looks up the vertices of some words of the set that are not wanted and pass the filter, which are few. Returns the probes.
+// Looks up the few vertices of some words of the set that are not wanted but pass the filter. Returns the number of
+// probes.
 static size_t place_some(const struct position_search *s, size_t word, size_t end)
 {
     uint32_t looked_up[WORD * TOGETHER], hash[WORD * TOGETHER], lookups = 0;
@@ -284,12 +285,12 @@ static void place_words(void *user, size_t index, int thread)
     struct position_search *s = user;
     if (!should_continue(&s->loop))
         return;
-    size_t probes = 0, end = piece_end(index, rank_bitset_words(s->vertices), WORDS);
+    size_t probes = 0, end = chunk_end(index, rank_bitset_words(s->vertices), WORDS);
     for (size_t w = index * WORDS; w < end && within_probe_limit(s, probes, WORD * WORDS); w += TOGETHER)
         probes += place_some(s, w, w + TOGETHER < end ? w + TOGETHER : end);
 }
 
-// Numbers the wanted vertices whose position another one represents.
+// Numbers the wanted vertices whose position another vertex represents.
 static void place_duplicates(void *user, size_t index, int thread)
 {
     (void)thread;
@@ -314,12 +315,12 @@ static bool place_vertices(struct position_search *s)
 {
     if (!number_wanted(s))
         return false;
-    pool_run(s->pool, pieces_of(rank_bitset_words(s->vertices), WORDS), place_words, s);
+    pool_run(s->pool, chunks_of(rank_bitset_words(s->vertices), WORDS), place_words, s);
     pool_run(s->pool, (size_t)pool_threads(s->pool), place_duplicates, s);
     return true;
 }
 
-// --- all
+// --- all steps
 
 static int compare_keys(const void *left, const void *right)
 {
@@ -333,7 +334,7 @@ static int compare_keys(const void *left, const void *right)
 bool find_positions_by_sorting(struct position_search *s, lam_error *error)
 {
     struct vertex_key *keys = search_alloc(s, &s->arena, s->vertices, sizeof *keys);
-    uint8_t *wanted = search_alloc_zeroed(s, s->vertices); // by position
+    uint8_t *wanted = search_alloc_zeroed(s, s->vertices); // indexed by position
     if (!s->position_of)
         s->position_of = search_alloc(s, &s->arena, s->vertices, sizeof *s->position_of);
     if (!keys || !wanted || !s->position_of)

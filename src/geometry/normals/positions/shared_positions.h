@@ -1,5 +1,5 @@
-// shared_positions.h: which vertices of a mesh lie at the positions of given triangles, and which of them lie at the same
-// position: the first step of visible_normals.h.
+// shared_positions.h: finds the vertices of a mesh at the positions of given triangles, and groups them by position:
+// the first step of visible_normals.h.
 #ifndef SHARED_POSITIONS_H
 #define SHARED_POSITIONS_H
 
@@ -10,43 +10,44 @@
 #include <lambent/mesh.h>
 
 enum {
-    CHUNK = 1 << 16, // vertices or corners of one piece of work
+    CHUNK = 1 << 16, // vertices or corners per task
 };
 
-// A recent result of the table; bits that no position has: empty.
+// A recent result of the table; bits that no position has mean empty.
 struct cached_position {
     uint32_t bits[3];
-    uint32_t position; // NONE: it is not in the table
+    uint32_t position; // NONE if it is not in the table
 };
 
 struct position_search {
-    // In:
+    // Input.
     const lam_mesh *mesh;
     const struct rank_bitset *triangles;
     uint32_t first;               // number of the mesh's triangle 0 in the set
-    uint32_t triangles_of_others; // members of the set that belong to meshes before this one
+    uint32_t triangles_of_others; // members of the set in earlier meshes
     const struct position_simd *simd;
     struct pool *pool;
     struct loop_status loop;
-    struct scratch_memory scratch, until_fans[2]; // until_fans: memory that is free until the fans are made
+    struct scratch_memory scratch, until_fans[2]; // until_fans: memory that is free until fans are computed
     size_t vertices, corners;
 
     struct arena arena;
     struct position_hash table;
-    struct block_lists *lists; // of each thread
+    struct block_lists *lists; // the lists of each thread
     int probe_limit_reached;   // set atomically: the file was made so that its positions collide
-    struct rank_bitset done;   // vertices whose normals are made already; without bits: none
+    struct rank_bitset done;   // vertices whose normals are already computed; without bits: none
 
-    // Out. A position has the rank of its representative vertex among `wanted`; without indices, the rank of the corner
-    // in the set's triangles.
-    struct rank_bitset wanted;       // vertices of the set's triangles; of a mesh with indices
-    uint32_t *position_of;           // of each vertex, NONE: not wanted; NULL: corners are looked up in the table
-    struct cached_position **caches; // of each thread
+    // Output. A position has the rank of its representative vertex among `wanted`; without indices, the rank of the
+    // corner in the set's triangles.
+    struct rank_bitset wanted; // vertices of the set's triangles, for indexed meshes
+    // the position of each vertex, NONE if not wanted; NULL if corners are looked up in the table
+    uint32_t *position_of;
+    struct cached_position **caches; // the cache of each thread
     uint32_t caches_mask;
     size_t positions;
 };
 
-// Memory from the scratch memory or an arena, or NULL if memory runs out.
+// Allocates from the scratch memory or an arena. Returns NULL if memory runs out.
 static inline void *search_alloc(struct position_search *s, struct arena *arena, size_t count, size_t size)
 {
     return scratch_take(&s->scratch, arena, count, size);
@@ -58,27 +59,27 @@ static inline const float *point_of(const struct position_search *s, size_t vert
     return s->mesh->positions + 3 * vertex;
 }
 
-static inline size_t pieces_of(size_t total, size_t piece) { return (total + piece - 1) / piece; }
+static inline size_t chunks_of(size_t total, size_t chunk) { return (total + chunk - 1) / chunk; }
 
-static inline size_t piece_end(size_t index, size_t total, size_t piece)
+static inline size_t chunk_end(size_t index, size_t total, size_t chunk)
 {
-    return (index + 1) * piece < total ? (index + 1) * piece : total;
+    return (index + 1) * chunk < total ? (index + 1) * chunk : total;
 }
 
-// The vertices of the set's triangles, of a mesh with indices. Returns false if memory runs out.
+// Finds the vertices of the set's triangles, for indexed meshes. Returns false if memory runs out.
 bool find_wanted(struct position_search *s);
 
 // Numbers the wanted vertices in `position_of`. Returns false if memory runs out.
 bool number_wanted(struct position_search *s);
 
-// Starts the lists and fills the table and, of a mesh with indices, `position_of`.
+// Starts the lists and fills the table and, for indexed meshes, `position_of`.
 bool find_positions(struct position_search *s, lam_error *error);
 void position_search_free(struct position_search *s);
 
-// Where the probe limit is reached: finds the positions by sorting all vertices, in a time that no file can stretch.
+// If the probe limit is reached: finds the positions by sorting all vertices, whose time is bounded for every file.
 bool find_positions_by_sorting(struct position_search *s, lam_error *error);
 
-// Returns how many of the mesh's triangles before one, or in all, are in the set.
+// Returns the number of the mesh's triangles in the set, before one triangle or in total.
 static inline uint32_t triangles_before(const struct position_search *s, size_t triangle)
 {
     size_t number = s->first + triangle;
@@ -86,7 +87,7 @@ static inline uint32_t triangles_before(const struct position_search *s, size_t 
            s->triangles_of_others;
 }
 
-// Checks the probes of this many searches; false once the probe limit is reached.
+// Checks the number of probes for this many searches. Returns false if the probe limit is reached.
 bool within_probe_limit(struct position_search *s, size_t probes, size_t searches);
 
 #endif

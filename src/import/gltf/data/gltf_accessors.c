@@ -1,4 +1,4 @@
-// gltf_accessors.c: reads accessors (section 3.6.2): their types, and their extent within the file's buffers.
+// gltf_accessors.c: reads accessors (section 3.6.2): their types, and their range in the file's buffers.
 #include "gltf_accessors.h"
 
 #include "gltf_buffers.h"
@@ -37,7 +37,7 @@ bool gltf_accessors_start(struct gltf *gltf)
     return gltf->accessors || gltf_no_memory(gltf, count * sizeof *gltf->accessors);
 }
 
-// "componentType", which has to be there.
+// Gets the required "componentType".
 static bool take_component(struct gltf *gltf, const struct place *place, const json_t *object, int *component)
 {
     const json_t *value = json_object_get(object, "componentType");
@@ -74,8 +74,8 @@ static bool take_type(struct gltf *gltf, const struct place *place, const json_t
     return json_unexpected(&gltf->json, KEY_OF(place, "type"), value, "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
 }
 
-// Returns a run of `count` elements of `element` bytes in the bufferView that `object` names. Returns NULL on error. A
-// view is needed.
+// Returns the range of `count` elements of `element` bytes in the bufferView that `object` refers to. Returns NULL on
+// error, or if there is no view.
 static const uint8_t *take_run(struct gltf *gltf, const struct place *place, const json_t *object, size_t count,
                                size_t element, bool strided, size_t *stride, int *buffer)
 {

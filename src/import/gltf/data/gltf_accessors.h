@@ -6,14 +6,14 @@
 
 bool gltf_accessors_start(struct gltf *gltf);
 
-// Returns the accessor of a number that was checked, its extent within its buffer checked too. Returns NULL on error.
+// Returns the accessor with a checked index; its range within the buffer is checked too. Returns NULL on error.
 struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index);
 
-// The accessor that a key of `object` names. *out: NULL where the key is missing. Returns false on error.
+// Gets the accessor that a key of `object` refers to. *out: NULL if the key is missing. Returns false on error.
 bool gltf_take_accessor(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                         struct gltf_accessor **out);
 
-// Bytes of a number of this component type.
+// Returns the bytes of a number of this component type.
 static inline size_t gltf_component_size(int component)
 {
     return component <= GLTF_U8 ? 1 : component <= GLTF_U16 ? 2 : 4;

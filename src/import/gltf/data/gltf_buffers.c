@@ -1,4 +1,5 @@
-// gltf_buffers.c: reads buffers (section 3.6.1) on first use, and gives them to the scene if its arrays lie in them.
+// gltf_buffers.c: reads buffers (section 3.6.1) on first use, and moves them to the scene if its arrays point into
+// them.
 #include "gltf_buffers.h"
 
 #include "gltf_json.h"
@@ -64,7 +65,7 @@ bool gltf_buffer_bytes(struct gltf *gltf, const struct place *place, int index, 
 void gltf_buffer_keep(struct gltf *gltf, int buffer)
 {
     if (buffer < 0)
-        return; // decoded: the scene's already
+        return; // decoded bytes already belong to the scene
     gltf->buffers[buffer].kept = true;
     gltf->source_kept |= gltf->buffers[buffer].data == gltf->binary;
 }

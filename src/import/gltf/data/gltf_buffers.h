@@ -6,17 +6,17 @@
 
 bool gltf_buffers_start(struct gltf *gltf);
 
-// Returns the bufferView of a number that was checked (gltf_take_index), its buffer read. Returns NULL on error.
+// Returns the bufferView with a checked index (gltf_take_index), after reading its buffer. Returns NULL on error.
 const struct gltf_view *gltf_view_at(struct gltf *gltf, int index);
 
-// Bytes of a buffer that is read when first used. Returns false if it has no such bytes.
+// Gets bytes of a buffer, which is read on first use. Returns false if the range is outside the buffer.
 bool gltf_buffer_bytes(struct gltf *gltf, const struct place *place, int index, size_t offset, size_t length,
                        const uint8_t **out);
 
-// From now on an array of the scene lies in this buffer: its bytes stay as long as the scene.
+// Marks a buffer as kept: its bytes stay as long as the scene, because an array of the scene points into them.
 void gltf_buffer_keep(struct gltf *gltf, int buffer);
 
-// Gives kept buffers to the scene and releases the others. Returns false if memory runs out.
+// Moves kept buffers to the scene and releases the others. Returns false if memory runs out.
 bool gltf_buffers_end(struct gltf *gltf);
 
 #endif

@@ -28,7 +28,7 @@ static const char *const decoder_names[] = {"meshopt_decodeVertexBuffer", "mesho
 static const char *const filter_names[] = {NULL, "meshopt_decodeFilterOct", "meshopt_decodeFilterQuat",
                                            "meshopt_decodeFilterExp"};
 
-// A compressed view, as the extension describes it.
+// A compressed view, with the members of the extension.
 struct compressed {
     int buffer, mode, filter;
     size_t offset, length, stride, count;

@@ -4,12 +4,12 @@
 
 #include "gltf.h"
 
-// Decodes a bufferView that has the extension into memory of the scene. *done: whether it did; it leaves a view with
-// plain bytes to the caller where meshoptimizer is not installed. Returns false on error.
+// Decodes a bufferView that has the extension into memory of the scene. Sets *done to whether it was decoded; a view
+// that also has uncompressed bytes is left to the caller if meshoptimizer is not installed. Returns false on error.
 bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
                          bool *done);
 
-// Returns whether a buffer is only a placeholder for bytes that every view of it has compressed elsewhere.
+// Returns whether a buffer is only a placeholder, because all its views are compressed in other buffers.
 bool gltf_meshopt_is_fallback(const json_t *buffer);
 
 #endif

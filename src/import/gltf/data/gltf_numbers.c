@@ -1,4 +1,4 @@
-// gltf_numbers.c: reads the numbers of accessors as floats, indices and colours, in parallel pieces.
+// gltf_numbers.c: reads the numbers of accessors as floats, indices and colours, in parallel chunks.
 #include "gltf_numbers.h"
 
 #include "gltf_accessors.h"
@@ -30,7 +30,8 @@ static inline uint32_t load_32(const uint8_t *at)
 
 static inline float at_least_minus_one(float x) { return x > -1.0f ? x : -1.0f; }
 
-// Elements [first, last) as floats. Matrices of one- and two-byte numbers, whose columns are padded, are not read here.
+// Converts elements [first, last) to floats. Matrices of one- and two-byte numbers, whose columns are padded, are not
+// supported here.
 static void convert(const struct gltf_accessor *a, size_t first, size_t last, float *out)
 {
     size_t width = (size_t)a->width, stride = a->stride;
@@ -82,7 +83,7 @@ static uint32_t index_at(int component, const uint8_t *run, size_t i)
     return component == GLTF_U8 ? run[i] : component == GLTF_U16 ? load_16(run + 2 * i) : load_32(run + 4 * i);
 }
 
-// Calls put(user, element, values) with each element that replaces another. Returns false if an index is out of range.
+// Calls put(user, element, values) for each element that is replaced. Returns false if an index is out of range.
 static bool each_sparse(struct gltf *gltf, const struct gltf_accessor *a,
                         void (*put)(void *user, size_t element, const uint8_t *value), void *user)
 {
@@ -119,10 +120,10 @@ struct conversion {
     const struct gltf_accessor *accessor;
     float *out;
     bool required;
-    uint32_t replaced; // atomic: numbers that were not finite
+    uint32_t replaced; // atomic: how many numbers were not finite
 };
 
-static bool convert_piece(void *user, size_t index, lam_error *error)
+static bool convert_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct conversion *conversion = user;
@@ -134,13 +135,13 @@ static bool convert_piece(void *user, size_t index, lam_error *error)
 
 static bool is_finite_bits(uint32_t bits) { return (bits & 0x7f800000) != 0x7f800000; }
 
-static bool check_piece(void *user, size_t index, lam_error *error)
+static bool check_chunk(void *user, size_t index, lam_error *error)
 {
     struct conversion *conversion = user;
     size_t first, last, width = (size_t)conversion->accessor->width;
     parallel_rows_range(conversion->accessor->count, index, &first, &last);
     const uint8_t *bytes = (const uint8_t *)conversion->out;
-    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
+    uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
     for (size_t i = first * width; i < last * width; i++)
         nonfinite |= (load_32(bytes + 4 * i) & 0x7fffffff) + 0x00800000;
     if (!(nonfinite & 0x80000000))
@@ -164,7 +165,7 @@ static bool check_finite(struct gltf *gltf, const struct place *place, const str
 {
     struct conversion checking = {.gltf = gltf, .place = place, .accessor = a, .out = floats, .required = required};
     if (a->component == GLTF_F32 &&
-        !parallel_rows_run(gltf->source, parallel_rows_count(a->count), check_piece, &checking, gltf->json.error))
+        !parallel_rows_run(gltf->source, parallel_rows_count(a->count), check_chunk, &checking, gltf->json.error))
         return false;
     if (checking.replaced) {
         char where[200];
@@ -175,7 +176,7 @@ static bool check_finite(struct gltf *gltf, const struct place *place, const str
     return true;
 }
 
-// Returns whether the elements lie one after the other, as arrays of 4-byte numbers do.
+// Returns whether the elements are contiguous, like arrays of 4-byte numbers.
 static bool in_place(const struct gltf_accessor *a, int component)
 {
     return a->data && a->component == component && a->stride == 4 * (size_t)a->width && !a->sparse_count &&
@@ -191,7 +192,7 @@ static float *convert_all(struct gltf *gltf, const struct gltf_accessor *a, stru
         gltf_no_memory(gltf, bytes);
         return NULL;
     }
-    return parallel_rows_run(gltf->source, parallel_rows_count(a->count), convert_piece, &conversion,
+    return parallel_rows_run(gltf->source, parallel_rows_count(a->count), convert_chunk, &conversion,
                              gltf->json.error) &&
                    each_sparse(gltf, a, put_floats, &sparse)
                ? conversion.out
@@ -204,7 +205,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
     if (a->floats[1])
         return a->floats[1];
     if (!a->floats[0] || (keep && !own_bytes)) {
-        // The bytes of the file belong to this load, and may be cleaned in place.
+        // This load owns the bytes of the file and may change them in place.
         float *floats =
             own_bytes ? (float *)(uintptr_t)a->data : convert_all(gltf, a, keep ? &gltf->scene->arena : gltf->scratch);
         if (!floats || !check_finite(gltf, place, a, floats, flags & GLTF_REQUIRED))
@@ -222,11 +223,11 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
 
 struct indexing {
     const struct gltf_accessor *accessor;
-    uint32_t *out; // NULL: the numbers are in place
+    uint32_t *out; // NULL means the numbers are used in place
     uint32_t max;  // atomic
 };
 
-static bool index_piece(void *user, size_t index, lam_error *error)
+static bool index_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     struct indexing *indexing = user;
@@ -293,7 +294,7 @@ const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struc
         gltf_no_memory(gltf, a->count * sizeof *indexing.out);
         return NULL;
     }
-    if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), index_piece, &indexing, gltf->json.error) ||
+    if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), index_chunk, &indexing, gltf->json.error) ||
         !each_sparse(gltf, a, put_index, &indexing))
         return NULL;
     if (a->sparse_count)
@@ -309,14 +310,14 @@ const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struc
 
 struct coloring {
     const struct gltf_accessor *accessor;
-    const float *floats; // of the accessor; NULL: its bytes
+    const float *floats; // the accessor's numbers; NULL means its bytes
     bool opaque;
     void *out; // may be `floats` itself
 };
 
 static float clean_channel(float x) { return x >= 0.0f ? x : 0.0f; }
 
-static bool color_piece(void *user, size_t index, lam_error *error)
+static bool color_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     const struct coloring *coloring = user;
@@ -359,12 +360,12 @@ bool gltf_colors(struct gltf *gltf, const struct place *place, struct gltf_acces
         out->items = a->colors[opaque] = a->data;
         return true;
     }
-    // Floats of four channels are cleaned in place.
+    // Floats of four channels are clamped in place.
     coloring.out = bytes || opaque ? arena_array(&gltf->scene->arena, a->count, bytes ? 4 : 4 * sizeof(float))
                                    : (float *)(uintptr_t)coloring.floats;
     if (!coloring.out)
         return gltf_no_memory(gltf, a->count * 4 * sizeof(float));
-    if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), color_piece, &coloring, gltf->json.error))
+    if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), color_chunk, &coloring, gltf->json.error))
         return false;
     out->items = a->colors[opaque] = coloring.out;
     return true;

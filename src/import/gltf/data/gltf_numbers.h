@@ -4,20 +4,20 @@
 
 #include "gltf.h"
 
-// The numbers as floats, `width` for each element one after the other: the file's own bytes if they have this layout,
-// otherwise converted; kept for the next call. Normalised integers become −1…1 or 0…1 (section 3.6.2.2). NULL: an
-// error.
+// Returns the numbers as contiguous floats, `width` for each element: the file's own bytes if they have this layout,
+// otherwise converted and kept for the next call. Normalised integers become −1…1 or 0…1 (section 3.6.2.2). Returns
+// NULL on error.
 enum {
     GLTF_KEEP = 1,     // the array lives as long as the scene, not only until the load ends
-    GLTF_REQUIRED = 2, // a number that is not finite is an error at `place`; else it becomes 0 with a warning
+    GLTF_REQUIRED = 2, // a number that is not finite is an error at `place`; otherwise it becomes 0 with a warning
 };
 const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gltf_accessor *accessor, int flags);
 
-// Returns the numbers of a SCALAR accessor of an unsigned type, which was checked; sets accessor->max_index. Returns
-// NULL on error.
+// Returns the numbers of a checked SCALAR accessor of an unsigned type, and sets accessor->max_index. Returns NULL on
+// error.
 const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struct gltf_accessor *accessor);
 
-// Colours of VEC3 or VEC4 as a mesh has them. `opaque`: an alpha is 1, whatever the file says.
+// Gets colours of VEC3 or VEC4 in a format of lam_mesh. With `opaque`, alpha is 1 regardless of the file.
 struct gltf_colors {
     const void *items;
     lam_colors_format format;

@@ -17,7 +17,7 @@ static int hexadecimal(char c)
                                   : -1;
 }
 
-// Returns the byte at a '%' of two hexadecimal digits, −1: there are none.
+// Returns the byte encoded by '%' and two hexadecimal digits, or −1 if the digits are invalid.
 static int escaped(const char *at)
 {
     int high = at[0] == '%' ? hexadecimal(at[1]) : -1, low = high < 0 ? -1 : hexadecimal(at[2]);
@@ -28,7 +28,7 @@ void gltf_uri_unescape(const char *uri, char *out)
 {
     while (*uri) {
         int byte = escaped(uri);
-        *out++ = byte > 0 ? (char)byte : *uri; // %00 is kept: no name contains a zero
+        *out++ = byte > 0 ? (char)byte : *uri; // %00 is not decoded: no name contains a zero
         uri += byte > 0 ? 3 : 1;
     }
     *out = 0;
@@ -36,7 +36,8 @@ void gltf_uri_unescape(const char *uri, char *out)
 
 // --- data URIs
 
-// Decodes base64 (RFC 4648) without its padding. Returns the first character that is not of the alphabet; `length`: none.
+// Decodes base64 (RFC 4648) without its padding. Returns the position of the first invalid character, or `length` if
+// there is none.
 static size_t decode_base64(const char *text, size_t length, uint8_t *out)
 {
     static const char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -44,7 +45,7 @@ static size_t decode_base64(const char *text, size_t length, uint8_t *out)
     memset(digit, 255, sizeof digit);
     for (uint8_t i = 0; i < 64; i++)
         digit[(uint8_t)alphabet[i]] = i;
-    digit['-'] = 62; // the alphabet of URLs
+    digit['-'] = 62; // the URL-safe alphabet
     digit['_'] = 63;
     const uint8_t *at = (const uint8_t *)text, *end = at + length;
     unsigned bad = 0;
@@ -71,7 +72,7 @@ static size_t decode_base64(const char *text, size_t length, uint8_t *out)
 
 static size_t base64_bytes(size_t length) { return length / 4 * 3 + (length % 4 ? length % 4 - 1 : 0); }
 
-// Text with %XX; returns its bytes. `out` may be NULL.
+// Decodes text with %XX and returns the number of bytes. `out` may be NULL.
 static size_t decode_text(const char *text, uint8_t *out)
 {
     size_t size = 0;

@@ -1,4 +1,4 @@
-// gltf_views.c: reads bufferViews (section 3.6.1): runs of a buffer's bytes, decoded if they are compressed.
+// gltf_views.c: reads bufferViews (section 3.6.1): ranges of a buffer's bytes, decoded if they are compressed.
 #include "gltf_buffers.h"
 #include "gltf_json.h"
 #include "gltf_meshopt.h"

@@ -1,5 +1,5 @@
 // draco_module.h: the interface of lambent-draco, a separate shared object that calls Draco's C++ library. gltf_draco.c
-// loads it on demand, so that programs start without it. No exception leaves it.
+// loads it on demand, so that programs start without it. It never throws exceptions to its caller.
 #ifndef DRACO_MODULE_H
 #define DRACO_MODULE_H
 
@@ -10,28 +10,29 @@
 extern "C" {
 #endif
 
-// Changes with every change of the functions below.
+// Increment it with every change of the functions below.
 enum { DRACO_MODULE_VERSION = 2 };
 
 enum { DRACO_REASON_SIZE = 160 };
 
-// The memory that decoding may take. A file of some kilobytes can name thousands of attributes for each of thousands of
-// vertices, so a header bounds nothing.
+// The memory budget of a decoding. A file of some kilobytes can declare thousands of attributes for each of thousands
+// of vertices, so the header gives no useful bound.
 struct draco_memory {
     size_t granted; // bytes
-    // Asks for more; 0: there is no more, and decoding ends as where memory has run out. It adds what it grants to `granted`.
+    // Requests more memory and adds it to `granted`. 0 means there is no more, and decoding ends as if memory had run
+    // out.
     int (*grant)(struct draco_memory *memory, size_t bytes);
     void *user;
 };
 
 struct draco_functions {
     int version;
-    // Decodes a mesh: 1 and *mesh, with its numbers of vertices and triangles; 0: the bytes are damaged, and `reason`
-    // says why; −1: out of memory, or of the granted memory.
+    // Decodes a mesh. 1: *mesh and its numbers of vertices and triangles are set. 0 means the bytes are damaged, and
+    // `reason` says why. −1 means memory or the granted memory ran out.
     int (*decode)(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
                   uint32_t *triangles, char reason[DRACO_REASON_SIZE]);
-    // Writes the attribute of this unique id, `width` numbers of a glTF component type for each vertex, without gaps. Results as
-    // above.
+    // Writes the attribute with this unique id, `width` numbers of a glTF component type for each vertex, contiguously.
+    // Results as above.
     int (*attribute)(const void *mesh, uint32_t id, int component, int width, void *out,
                      char reason[DRACO_REASON_SIZE]);
     // Writes three vertices for each triangle.
@@ -39,7 +40,7 @@ struct draco_functions {
     void (*free)(void *mesh);
 };
 
-// The only symbol of the shared object, besides C++'s operators new and delete, with which it counts Draco's memory.
+// The only symbol of the shared object, apart from C++'s operators new and delete, with which it counts Draco's memory.
 const struct draco_functions *lambent_draco_functions(void);
 
 #ifdef __cplusplus

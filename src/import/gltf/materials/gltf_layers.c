@@ -25,7 +25,7 @@ static bool take_numbers(struct gltf *gltf, const struct place *place, const jso
         for (int k = 0; k < khr_numbers[i].count; k++)
             member[k] = (float)values[k];
     }
-    // Whole turns leave a direction as it is.
+    // Whole turns do not change a direction.
     double turn = 2 * math_radians(180), angle = (double)material->anisotropy_rotation_rad;
     material->anisotropy_rotation_rad = (float)(angle - turn * (double)(int64_t)(angle / turn));
     return true;
@@ -43,7 +43,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
             ok = ok && json_take_number(&gltf->json, KEY_OF(here, khr_maps[i].key), info, "scale", -1e6, 1e6, &scale);
         const struct gltf_map_request request = {
             index, khr_maps[i].slot, khr_maps[i].values, khr_maps[i].channel, (float)scale, 0};
-        // A scale of 0 leaves nothing of the map.
+        // A scale of 0 disables the map.
         if (!ok || (scale != 0 && !gltf_take_map(gltf, here, extension, khr_maps[i].key, request, NULL)))
             return false;
     }
@@ -53,7 +53,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
 bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t *object, int index,
                       lam_material *material)
 {
-    // The extensions exclude one another with these two.
+    // These extensions exclude the layers.
     if (material->unlit || gltf_extension(object, "KHR_materials_pbrSpecularGlossiness"))
         return true;
     return take_numbers(gltf, place, object, material) && take_maps(gltf, place, object, index);

@@ -4,7 +4,7 @@
 
 #include "gltf.h"
 
-// Reads the layers of material `index`, the JSON object `object`, into `material`, and asks for their maps.
+// Reads the layers of material `index`, the JSON object `object`, into `material`, and requests their maps.
 bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t *object, int index,
                       lam_material *material);
 

@@ -1,4 +1,4 @@
-// gltf_materials.c: materials (section 3.9), and which one a primitive has.
+// gltf_materials.c: reads materials (section 3.9), and finds the material of a primitive.
 #include "gltf_materials.h"
 
 #include "gltf_json.h"
@@ -9,15 +9,15 @@
 
 #include <string.h>
 
-#define FACTOR_MAX 1e30 // of factors without an upper bound in the standard
+#define FACTOR_MAX 1e30 // for factors without an upper bound in the standard
 
-// The numbers of a material as the file has them, with the defaults of the specification.
+// The numbers of a material in the file, with the defaults of the specification.
 struct factors {
     double base[4];               // colour and alpha
     double metallic, roughness;   // 0…1
-    double specular[3];           // of specular-glossiness
-    double glossiness;            // and, 0…1
-    bool has_specular;            // specular-glossiness, not metallic-roughness
+    double specular[3];           // for KHR_materials_pbrSpecularGlossiness
+    double glossiness;            // for KHR_materials_pbrSpecularGlossiness, 0…1
+    bool has_specular;            // specular-glossiness instead of metallic-roughness
     double emission[3], strength; // emissiveFactor; KHR_materials_emissive_strength
     double cutoff;
     int alpha; // lam_alpha_mode
@@ -58,7 +58,7 @@ static bool take_specular_glossiness(struct gltf *gltf, const struct place *plac
         !take_share(gltf, here, pbr, "glossinessFactor", &f->glossiness))
         return false;
     f->metallic = 0;
-    // With a map of it the roughness 1 − glossiness · alpha is the map's own, as offset + scale · alpha.
+    // If there is a map, it computes the roughness 1 − glossiness · alpha itself, as offset + scale · alpha.
     f->roughness = json_object_get(pbr, "specularGlossinessTexture") ? 1 : 1 - f->glossiness;
     return true;
 }
@@ -91,7 +91,7 @@ static lam_material material_of(const struct factors *f, const char *name)
     material.alpha_cutoff = (float)f->cutoff;
     material.emission = rgb_of(f->emission, f->strength);
     material.unlit = f->unlit;
-    if (f->has_specular) { // a dielectric that reflects everything but for its colour
+    if (f->has_specular) { // a dielectric whose reflectance is its colour
         material.ior = 0;
         material.f0_color = rgb_of(f->specular, 1);
         material.specular_glossiness = 1;
@@ -111,7 +111,7 @@ static const struct factors default_factors = {.base = {1, 1, 1, 1},
                                                .cutoff = 0.5,
                                                .alpha = LAM_ALPHA_OPAQUE};
 
-// The maps of a material of specular and glossiness: the specular colour with the glossiness in its alpha.
+// Requests the maps of a specular-glossiness material: the specular colour with the glossiness in its alpha.
 static bool take_glossy_maps(struct gltf *gltf, const struct place *place, const json_t *glossy, int index,
                              float glossiness)
 {
@@ -123,7 +123,7 @@ static bool take_glossy_maps(struct gltf *gltf, const struct place *place, const
            (glossiness == 0 || gltf_take_map(gltf, place, glossy, "specularGlossinessTexture", roughness, NULL));
 }
 
-// Asks for the maps of material `index`.
+// Requests the maps of material `index`.
 static bool take_maps(struct gltf *gltf, const struct place *place, const json_t *object, int index, float glossiness)
 {
     bool ok = true;
@@ -144,7 +144,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
                                   glow = {index, LAM_MAP_EMISSION, LAM_TEXTURE_COLOR, 0, 1, 0},
                                   hidden = {index, LAM_MAP_OCCLUSION, LAM_TEXTURE_NUMBERS,
                                             0,     (float)strength,   (float)(1 - strength)};
-    // A scale or strength of 0 leaves nothing of the map.
+    // A scale or strength of 0 disables the map.
     return (scale == 0 || gltf_take_map(gltf, place, object, "normalTexture", bent, NULL)) &&
            (strength == 0 || gltf_take_map(gltf, place, object, "occlusionTexture", hidden, NULL)) &&
            gltf_take_map(gltf, place, object, "emissiveTexture", glow, NULL) &&
@@ -154,7 +154,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
                          gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness, NULL));
 }
 
-// The number of the wanted variant, or −1 if none is wanted. Returns false if the file has no such one.
+// Finds the index of the requested variant, or −1 if none is requested. Returns false if the file does not contain it.
 static bool find_variant(struct gltf *gltf)
 {
     const char *wanted = gltf->source->params->variant;
@@ -188,7 +188,7 @@ bool gltf_materials_read(struct gltf *gltf)
     return find_variant(gltf);
 }
 
-// The material that the wanted variant gives a primitive; −1: none of its own.
+// Gets the material of a primitive in the requested variant; −1 means the variant does not change it.
 static bool take_variant(struct gltf *gltf, const struct place *place, const json_t *primitive, int *index)
 {
     bool ok = true;
@@ -206,7 +206,7 @@ static bool take_variant(struct gltf *gltf, const struct place *place, const jso
     return ok;
 }
 
-// Returns the material of primitives without one: the defaults of the specification.
+// Returns the material for primitives without one: the defaults of the specification.
 static int default_material(struct gltf *gltf)
 {
     if (gltf->default_material < 0) {
@@ -241,7 +241,7 @@ bool gltf_material_is_opaque(const struct gltf *gltf, int32_t material)
 bool gltf_material_is_double_sided(const struct gltf *gltf, int32_t material)
 {
     const lam_material *m = (const lam_material *)gltf->scene->materials.items + material;
-    if (m->transmission > 0 && m->thickness > 0) // the boundary of a volume (KHR_materials_volume)
+    if (m->transmission > 0 && m->thickness > 0) // the surface is the boundary of a volume (KHR_materials_volume)
         return false;
     return json_is_true(json_object_get(object_of(gltf, material), "doubleSided"));
 }

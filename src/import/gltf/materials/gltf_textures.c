@@ -1,5 +1,5 @@
-// gltf_textures.c: textures, samplers and images. Materials ask for maps while they are read; then every picture that some
-// map needs is decoded, all of them in parallel.
+// gltf_textures.c: reads textures, samplers and images. Materials request maps while they are read; then every picture
+// that a map needs is decoded, all of them in parallel.
 #include "gltf_textures.h"
 
 #include "gltf_buffers.h"
@@ -14,13 +14,13 @@
 #include <stdio.h>
 #include <string.h>
 
-// A picture of the file, with its numbers taken as lam_texture_values says.
+// A picture of the file, decoded as lam_texture_values says.
 struct gltf_picture {
     bool wanted;
     lam_texture_values values;
     const uint8_t *data;
     size_t size;
-    struct file_bytes file; // the owner of `data`, unless it is a buffer
+    struct file_bytes file; // the owner of `data`, unless that is in a buffer
     const char *name;       // for messages
     struct lam_texture *texture;
     lam_error error;
@@ -52,7 +52,7 @@ bool gltf_textures_start(struct gltf *gltf)
 enum { NEAREST = 9728, LINEAR, NEAREST_MIPMAP_NEAREST = 9984, LINEAR_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR };
 enum { LINEAR_MIPMAP_LINEAR = 9987, CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648, REPEAT = 10497 };
 
-// A number of the list `allowed`, which ends with 0.
+// Gets a number of the list `allowed`, which ends with 0.
 static bool take_code(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                       const int *allowed, const char *expected, int *out)
 {
@@ -78,7 +78,7 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
     static const int minify[] = {
         NEAREST, LINEAR, NEAREST_MIPMAP_NEAREST, LINEAR_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR, LINEAR_MIPMAP_LINEAR, 0};
     if (index < 0)
-        return true; // repeated, trilinear
+        return true; // the default: repeated, trilinear
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "samplers"), (size_t)index);
     const json_t *object = gltf_list_item(gltf, "samplers", index);
     int large = LINEAR, small = LINEAR_MIPMAP_LINEAR, s = REPEAT, t = REPEAT;
@@ -100,8 +100,8 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
 
 // --- pictures
 
-// Returns the image of a texture: EXT_texture_webp's if WebP can be decoded here, otherwise its own, the fallback.
-// Returns −1 on error.
+// Returns the image of a texture: EXT_texture_webp's if this build can decode WebP, otherwise its own fallback. Returns
+// −1 on error.
 static int image_of(struct gltf *gltf, int texture)
 {
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture);
@@ -123,7 +123,7 @@ static int image_of(struct gltf *gltf, int texture)
     return image;
 }
 
-// Returns the model's name and a place in it. Returns NULL if memory runs out.
+// Returns the model's name and a position in it. Returns NULL if memory runs out.
 static const char *message_name(struct gltf *gltf, const char *place)
 {
     size_t length = strlen(gltf->source->name) + strlen(place) + 3;
@@ -169,7 +169,7 @@ static bool find_bytes(struct gltf *gltf, int image, struct gltf_picture *pictur
 
 // --- maps
 
-// KHR_texture_transform: offset, rotation, scale, and a set of texture coordinates that replaces the other.
+// Reads KHR_texture_transform: offset, rotation, scale, and a set of texture coordinates that replaces the other one.
 static bool take_transform(struct gltf *gltf, const struct place *place, const json_t *info, size_t *set,
                            lam_texture_map *map)
 {
@@ -187,13 +187,13 @@ static bool take_transform(struct gltf *gltf, const struct place *place, const j
     const double m[2][3] = {{c * scale[0], s * scale[1], offset[0]}, {-s * scale[0], c * scale[1], offset[1]}};
     for (int i = 0; i < 6; i++)
         map->transform[i / 3][i % 3] = (float)m[i / 3][i % 3];
-    // All zero would mean the identity: a scale of 0 shows one point of the picture.
+    // All zero would mean the identity, but a scale of 0 shows one point of the picture.
     if (scale[0] == 0 && scale[1] == 0)
         map->transform[0][0] = 1e-30f;
     return true;
 }
 
-// Returns the place of a file's set among the two that a material can have. Returns −1 if there is no room.
+// Returns the position of a file's set among the two that a material can have, or −1 if both are taken.
 static int place_set(struct gltf *gltf, int material, size_t set)
 {
     int *sets = gltf->texcoord_sets[material];
@@ -275,7 +275,7 @@ static bool can_do_without(const lam_error *error)
     return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
 }
 
-// Finds the bytes of the wanted pictures; *count of them are listed.
+// Finds the bytes of the requested pictures; *count of them are listed.
 static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t *count)
 {
     lam_error *error = gltf->json.error, reason;
@@ -300,7 +300,7 @@ static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t 
     return true;
 }
 
-// Gives a map to its material.
+// Sets a map of its material.
 static bool add_map(struct gltf *gltf, const struct gltf_map *item)
 {
     struct gltf_picture *picture = &gltf->pictures[item->picture];
@@ -315,7 +315,7 @@ static bool add_map(struct gltf *gltf, const struct gltf_map *item)
     return scene_share_texture(gltf->scene, picture->texture, gltf->json.error);
 }
 
-// The maps that have a picture become maps of materials; one warning for each picture that could not be read.
+// Sets the maps that have a picture in their materials, with one warning for each picture that could not be read.
 static bool add_maps(struct gltf *gltf)
 {
     for (size_t i = 0; i < VALUES * gltf_list_size(gltf, "images"); i++) {
@@ -347,7 +347,7 @@ bool gltf_textures_finish(struct gltf *gltf)
     }
     for (size_t i = 0; i < VALUES * images; i++) {
         file_release(&gltf->pictures[i].file);
-        lam_texture_free(gltf->pictures[i].texture); // the scene has a reference of its own
+        lam_texture_free(gltf->pictures[i].texture); // the scene has its own reference
     }
     return ok;
 }

@@ -1,6 +1,6 @@
-// draco_header.c: the claims of a mesh compressed by Draco. https://google.github.io/draco/spec/ (version 2.2),
-// sections "Draco Header", "Metadata", "Sequential Connectivity Decode" and "EdgeBreaker Decode"; older versions as
-// Draco's decoder reads them.
+// draco_header.c: reads the declared sizes of a mesh compressed by Draco. https://google.github.io/draco/spec/ (version
+// 2.2), sections "Draco Header", "Metadata", "Sequential Connectivity Decode" and "EdgeBreaker Decode"; older versions
+// as in Draco's decoder.
 #include "draco_header.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@ enum { TRIANGULAR_MESH = 1, SEQUENTIAL = 0, EDGEBREAKER = 1, HAS_METADATA = 0x80
 
 struct reader {
     const uint8_t *at, *end;
-    bool ok; // false: the bytes ended
+    bool ok; // false means the bytes ended
 };
 
 static const uint8_t *skip(struct reader *r, uint64_t bytes)
@@ -34,7 +34,7 @@ static uint32_t read_u32(struct reader *r)
     return at ? at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24 : 0;
 }
 
-// Seven bits a byte, the lowest first.
+// Reads seven bits per byte, the lowest first.
 static uint32_t read_varint(struct reader *r)
 {
     uint64_t number = 0;
@@ -91,8 +91,8 @@ bool draco_header_read(const uint8_t *bytes, size_t size, struct draco_claim *ou
         out->points = version < 0x202 ? read_u32(&r) : read_varint(&r);
         return r.ok;
     }
-    read_u8(&r);         // how the edges are coded
-    if (version < 0x200) // vertices that splits add
+    read_u8(&r);         // the edge coding method
+    if (version < 0x200) // number of vertices added by splits
         read_u32(&r);
     else if (version < 0x202)
         read_varint(&r);

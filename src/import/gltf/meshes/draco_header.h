@@ -1,4 +1,4 @@
-// draco_header.h: the claims of a mesh compressed by Draco, read before its decoder allocates memory for it.
+// draco_header.h: reads the declared sizes of a mesh compressed by Draco, before its decoder allocates memory for it.
 #ifndef DRACO_HEADER_H
 #define DRACO_HEADER_H
 
@@ -8,14 +8,14 @@
 
 struct draco_claim {
     uint32_t faces;
-    uint32_t points; // at least: one vertex may become several points
+    uint32_t points; // a lower bound: one vertex may become several points
 };
 
-// Returns false if the header of a mesh cannot be read, nor could the decoder read it.
+// Returns false if the header cannot be read; the decoder would fail too.
 bool draco_header_read(const uint8_t *bytes, size_t size, struct draco_claim *out);
 
-// Returns the largest memory of the decoder for a claim: its tables of corners and edges, and the attributes in the
-// form of the file and of the mesh.
+// Returns the largest memory that the decoder needs for the declared sizes: its tables of corners and edges, and the
+// attributes in the form of the file and of the mesh.
 uint64_t draco_claim_bytes(const struct draco_claim *claim);
 
 #endif

@@ -1,4 +1,4 @@
-// gltf_animation.c: one moment of an animation (section 3.11): its channels are evaluated and set in the nodes.
+// gltf_animation.c: evaluates an animation at one time (section 3.11) and sets the results in the nodes.
 #include "gltf_animation.h"
 
 #include "gltf_accessors.h"
@@ -124,7 +124,7 @@ static void slerp(const double a[4], const double b[4], double t, double out[4])
         out[i] = from * a[i] + to * b[i];
 }
 
-// The numbers at a time; before the first and after the last key theirs.
+// Evaluates a sampler at a time; before the first and after the last key it uses that key.
 static void evaluate(const struct sampler *s, double time, enum path path, double *out)
 {
     double t, length;
@@ -180,7 +180,7 @@ static bool apply_channel(struct gltf *gltf, const struct place *place, const js
     enum path path = TRANSLATION;
     while (name && path <= WEIGHTS && strcmp(paths[path], name) != 0)
         path++;
-    if (node_index < 0 || !name || path > WEIGHTS) // targets of extensions
+    if (node_index < 0 || !name || path > WEIGHTS) // the target belongs to an extension
         return true;
     if (index == SIZE_MAX)
         return json_fail(&gltf->json, here, "sampler is missing");

@@ -1,11 +1,10 @@
-// gltf_animation.h: one moment of an animation (section 3.11).
+// gltf_animation.h: evaluates an animation at one time (section 3.11).
 #ifndef GLTF_ANIMATION_H
 #define GLTF_ANIMATION_H
 
 #include "gltf.h"
 
-// Sets the transforms and weights of nodes to those at the time that the caller wants. Without an animation they stay as
-// the file has them.
+// Sets the transforms and weights of nodes for the requested time. Without an animation they stay as in the file.
 bool gltf_animation_apply(struct gltf *gltf);
 
 #endif

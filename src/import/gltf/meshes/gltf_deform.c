@@ -1,4 +1,4 @@
-// gltf_deform.c: morph targets (section 3.7.2.2) and skins (section 3.7.3.3) applied to a primitive.
+// gltf_deform.c: applies morph targets (section 3.7.2.2) and skins (section 3.7.3.3) to a primitive.
 #include "gltf_deform.h"
 
 #include "gltf_textures.h"
@@ -17,8 +17,8 @@
 
 struct addition {
     struct gltf *gltf;
-    const struct place *place; // of the target's accessor
-    bool required;             // sums that are not finite are an error, else 0
+    const struct place *place; // position of the target's accessor
+    bool required;             // whether a sum that is not finite is an error; otherwise it becomes 0
     const float *base, *target;
     float *out; // may be `base`
     int base_width, width;
@@ -26,7 +26,7 @@ struct addition {
     double weight;
 };
 
-static bool add_piece(void *user, size_t index, lam_error *error)
+static bool add_chunk(void *user, size_t index, lam_error *error)
 {
     const struct addition *a = user;
     size_t first, last, wide = (size_t)a->base_width, narrow = (size_t)a->width;
@@ -49,14 +49,14 @@ static bool add_piece(void *user, size_t index, lam_error *error)
 // A morph target that is added to a mesh.
 struct morph_target {
     struct gltf *gltf;
-    const struct place *place; // of the target
+    const struct place *place; // the position of the target in the file
     const json_t *target;
     double weight;
-    size_t count; // of vertices
+    size_t count; // the number of vertices
 };
 
 // Adds one attribute of a target to an array, which becomes the mesh's own with the first addition. `width` and
-// `base_width`: numbers for each vertex, in the target and in the mesh.
+// `base_width` are the numbers of values for each vertex in the target and in the mesh.
 static bool add_target(const struct morph_target *t, const char *name, int width, int base_width, const float **values,
                        bool *own)
 {
@@ -93,10 +93,10 @@ static bool add_target(const struct morph_target *t, const char *name, int width
         return gltf_no_memory(gltf, count * (size_t)base_width * sizeof(float));
     *own = true;
     *values = addition.out;
-    return parallel_rows_run(gltf->source, parallel_rows_count(count), add_piece, &addition, gltf->json.error);
+    return parallel_rows_run(gltf->source, parallel_rows_count(count), add_chunk, &addition, gltf->json.error);
 }
 
-// Whether each attribute is an array of this mesh alone, which may be changed in place.
+// Whether the mesh owns each attribute's array, so that it may be changed in place.
 struct owned {
     bool positions, normals, tangents, texcoords[2];
 };
@@ -136,11 +136,11 @@ static bool morph(struct gltf *gltf, const struct place *place, const json_t *pr
 
 // --- skins
 
-enum { SETS_MAX = 16 }; // of four joints
+enum { SETS_MAX = 16 }; // each with four joints
 
 struct skinning {
     struct gltf *gltf;
-    const struct place *place; // of the attributes
+    const struct place *place; // position of the attributes
     const struct gltf_skin *skin;
     const float *joints[SETS_MAX], *weights[SETS_MAX]; // four for each vertex
     int sets;
@@ -156,7 +156,8 @@ static bool fail_joint(const struct skinning *s, int set, size_t vertex, size_t 
                      vertex, joint, s->skin->count);
 }
 
-// The joints' matrices, weighted. Weights are normalized to a sum of 1; if all are 0 the first joint gets all.
+// Blends the matrices of the joints by weight. Weights are normalized to a sum of 1; if all are 0, the first joint gets
+// all.
 static bool blend(const struct skinning *s, size_t vertex, lam_mat4 *out, lam_error *error)
 {
     double sum = 0;
@@ -190,7 +191,7 @@ static lam_vec3 vector_at(const float *values, size_t i, size_t width)
     return v3((double)at[0], (double)at[1], (double)at[2]);
 }
 
-// Returns false if a number is out of range, and nothing is stored.
+// Stores a vector. Returns false and stores nothing if a number is out of range.
 static bool store(float *out, lam_vec3 v)
 {
     const float x = (float)v.x, y = (float)v.y, z = (float)v.z;
@@ -202,14 +203,14 @@ static bool store(float *out, lam_vec3 v)
     return true;
 }
 
-// A direction that is out of range becomes 0: none.
+// Stores a direction. If it is out of range, it becomes 0, which means none.
 static void store_direction(float *out, lam_vec3 v)
 {
     if (!store(out, v3_unit(v)))
         store(out, v3(0, 0, 0));
 }
 
-static bool skin_piece(void *user, size_t index, lam_error *error)
+static bool skin_chunk(void *user, size_t index, lam_error *error)
 {
     const struct skinning *s = user;
     size_t first, last;
@@ -221,7 +222,7 @@ static bool skin_piece(void *user, size_t index, lam_error *error)
         if (!store(s->positions + 3 * i, mat4_point(&m, vector_at(s->mesh->positions, i, 3))))
             return error && json_fail(&s->gltf->json, KEY_OF(s->place, "POSITION"),
                                       "element %zu: its joints take the vertex out of the range of numbers", i);
-        if (s->normals) { // by the inverse transpose
+        if (s->normals) { // transformed by the inverse transpose
             double cofactors[3][3], sign = mat4_determinant3(&m) < 0 ? -1 : 1;
             mat4_normal_matrix(&m, cofactors);
             lam_vec3 n = vector_at(s->mesh->normals, i, 3);
@@ -284,7 +285,7 @@ static bool apply_skin(struct gltf *gltf, const struct place *place, const json_
     s.tangents = mesh->tangents ? arena_array(arena, count, 4 * sizeof(float)) : NULL;
     if (!s.positions || !s.normals != !mesh->normals || !s.tangents != !mesh->tangents)
         return gltf_no_memory(gltf, count * 4 * sizeof(float));
-    if (!parallel_rows_run(gltf->source, parallel_rows_count(count), skin_piece, &s, gltf->json.error))
+    if (!parallel_rows_run(gltf->source, parallel_rows_count(count), skin_chunk, &s, gltf->json.error))
         return false;
     mesh->positions = s.positions;
     mesh->normals = s.normals;

@@ -1,18 +1,19 @@
-// gltf_deform.h: morph targets (section 3.7.2.2) and skins (section 3.7.3.3) applied to a primitive.
+// gltf_deform.h: applies morph targets (section 3.7.2.2) and skins (section 3.7.3.3) to a primitive.
 #ifndef GLTF_DEFORM_H
 #define GLTF_DEFORM_H
 
 #include "gltf.h"
 #include "gltf_skins.h"
 
-// How a node changes the mesh that it shows.
+// The changes that a node makes to its mesh.
 struct gltf_deformation {
-    const double *weights; // of the morph targets
+    const double *weights; // weights of the morph targets
     size_t weight_count;
-    const struct gltf_skin *skin; // NULL: none
+    const struct gltf_skin *skin; // may be NULL
 };
 
-// Replaces the mesh's positions, normals, tangents and texture coordinates by arrays of its own where targets with a weight other than 0, or a skin, change them. *skinned: its positions are now in the file's space.
+// Replaces positions, normals, tangents and texture coordinates of the mesh by its own arrays if targets with a nonzero
+// weight, or a skin, change them. Sets *skinned if its positions are now in the file's space.
 bool gltf_deform(struct gltf *gltf, const struct place *place, const json_t *primitive,
                  const struct gltf_deformation *deformation, lam_mesh *mesh, bool *skinned);
 

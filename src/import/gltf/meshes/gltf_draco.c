@@ -1,4 +1,4 @@
-// gltf_draco.c: primitives compressed by Draco, decoded by a module that calls its library, opened when a file needs it.
+// gltf_draco.c: reads primitives compressed by Draco, with a module that calls its library and is opened on demand.
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_draco_mesh_compression
 #include "gltf_draco.h"
 
@@ -30,17 +30,17 @@ static void find_functions(struct gltf *gltf, const struct draco_functions **fun
         *functions = get();
 }
 
-// A compressed primitive on its way.
+// The state of decoding a primitive.
 struct decoding {
     struct gltf *gltf;
-    const struct place *place; // of the extension
+    const struct place *place; // position of the extension
     const struct draco_functions *functions;
     int view;
     void *mesh;
     uint32_t vertices, triangles;
 };
 
-// The result of a function of the module; false: an error.
+// Handles the result of a function of the module. Returns false on error.
 static bool succeeded(const struct decoding *d, const struct place *place, int result, const char *reason)
 {
     return result > 0 ||
@@ -48,7 +48,7 @@ static bool succeeded(const struct decoding *d, const struct place *place, int r
                        : json_fail(&d->gltf->json, place, "the compressed bytes are damaged: %s", reason));
 }
 
-// Memory of the accessor's elements, without gaps.
+// Allocates the accessor's elements contiguously.
 static uint8_t *make_elements(const struct decoding *d, struct gltf_accessor *accessor)
 {
     accessor->stride = (size_t)accessor->width * gltf_component_size(accessor->component);
@@ -107,7 +107,7 @@ static bool decode_attributes(const struct decoding *d, const struct place *prim
     return true;
 }
 
-// Writes the corners in the type of the primitive's indices; a primitive without any has its triangles in order.
+// Writes the corners in the type of the primitive's indices. A primitive without indices uses its vertices in order.
 static bool decode_indices(const struct decoding *d, const struct place *primitive_place, const json_t *primitive,
                            bool strip)
 {
@@ -123,7 +123,7 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
         (accessor->component != GLTF_U8 && accessor->component != GLTF_U16 && accessor->component != GLTF_U32))
         return true; // gltf_indices reports it
     if (strip)
-        accessor->count = count; // a strip's; decoded are triangles
+        accessor->count = count; // the count of a strip; the decoded mesh has triangles
     if (accessor->count != count)
         return json_fail(&gltf->json, here, "the compressed mesh has %zu corners, expected %zu, the accessor's count",
                          count, accessor->count);
@@ -137,13 +137,13 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
         if (size < 4 && corners[i] >> (8 * size))
             return json_fail(&gltf->json, here, "number %zu of the compressed mesh is %u, which exceeds its type", i,
                              corners[i]);
-        memcpy(elements + i * size, &corners[i], size); // little-endian, as glTF's buffers are
+        memcpy(elements + i * size, &corners[i], size); // little-endian, like glTF's buffers
     }
     keep(d, accessor, elements);
     return true;
 }
 
-// Returns whether the view was decoded for this primitive before, as for another pose of it.
+// Returns whether the view was decoded before, for example for another pose of this primitive.
 static bool is_decoded(struct gltf *gltf, const json_t *primitive, int view)
 {
     const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");
@@ -152,7 +152,7 @@ static bool is_decoded(struct gltf *gltf, const json_t *primitive, int view)
            gltf->accessors[(size_t)number].draco_view == view + 1;
 }
 
-// Returns whether the primitive's accessors have bytes of their own.
+// Returns whether the primitive's accessors also have uncompressed bytes.
 static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
 {
     const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");
@@ -182,8 +182,8 @@ static bool charge_claim(const struct decoding *d, const struct gltf_view *view,
     return true;
 }
 
-// Memory that decoding may use beyond the file's claims. It is granted a megabyte at a time, which is when a long
-// decoding can be ended.
+// Memory that decoding may use beyond the declared sizes. It is granted one megabyte at a time; each grant is a chance
+// to end a long decoding.
 struct grants {
     struct call_control *call;
     size_t refused;

@@ -4,8 +4,9 @@
 
 #include "gltf.h"
 
-// Decodes a compressed primitive's attributes and indices into its accessors, and sets *mode to the decoded triangles'.
-// Where the decoder is not installed, the accessors' own bytes serve, and a file without them is an error.
+// Decodes a compressed primitive's attributes and indices into its accessors, and sets *mode to the mode of the decoded
+// triangles. If the decoder is not installed, the accessors' uncompressed bytes are used; a file without them is an
+// error.
 bool gltf_draco_decode(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t *mode);
 
 #endif

@@ -1,7 +1,7 @@
-// gltf_primitives.c: the primitives of meshes (section 3.7.2): each becomes a mesh of the scene.
+// gltf_primitives.c: reads the primitives of meshes (section 3.7.2); each becomes a mesh of the scene.
 //
-// Primitives of one mesh may have different attributes, materials and sides; meshes of their own share the arrays that
-// they have in common, and the file's own bytes serve as arrays where they can.
+// Primitives of one mesh may have different attributes, materials and sides. The separate meshes share common arrays,
+// and use the file's own bytes as arrays if possible.
 #include "gltf_primitives.h"
 
 #include "gltf_accessors.h"
@@ -24,7 +24,7 @@ bool gltf_meshes_start(struct gltf *gltf)
     return gltf->meshes || gltf_no_memory(gltf, count * sizeof *gltf->meshes);
 }
 
-// Types that an attribute may have (section 3.7.2.1, and KHR_mesh_quantization).
+// The types that an attribute may have (section 3.7.2.1, and KHR_mesh_quantization).
 enum { FLOATS = 1, BYTES = 2, NORMALIZED = 4, UNSIGNED_NORMALIZED = 8 };
 
 struct attribute_rule {
@@ -53,7 +53,8 @@ static bool has_type(const struct gltf_accessor *a, int types)
     return a->normalized ? types & NORMALIZED || (types & UNSIGNED_NORMALIZED && unsigned_type) : types & BYTES;
 }
 
-// The accessor of an attribute, of `count` elements (0: any number), or *out NULL: the primitive has none.
+// Gets the accessor of an attribute with `count` elements (0 means any number); *out is NULL if the primitive does not
+// have it.
 static bool take_attribute(struct gltf *gltf, const struct place *place, const json_t *attributes,
                            const struct attribute_rule *rule, size_t count, struct gltf_accessor **out)
 {
@@ -100,7 +101,7 @@ static bool take_colors(struct gltf *gltf, const struct place *place, const json
     return true;
 }
 
-// A set of texture coordinates that the material reads; the first set if it reads none.
+// Gets the set of texture coordinates that the material uses, or the first set if it uses none.
 static bool take_texcoords(struct gltf *gltf, const struct place *place, const json_t *attributes, int which,
                            lam_mesh *mesh)
 {
@@ -124,12 +125,12 @@ static bool take_attributes(struct gltf *gltf, const struct place *place, const 
         !take_texcoords(gltf, place, attributes, 0, mesh) || !take_texcoords(gltf, place, attributes, 1, mesh) ||
         !take_colors(gltf, place, attributes, opaque, mesh))
         return false;
-    // Tangents that come without normals are not used (section 3.7.2.1).
+    // Tangents without normals are ignored (section 3.7.2.1).
     return !mesh->normals ||
            take_floats(gltf, place, attributes, &tangent_rule, count, &mesh->tangents, &mesh->tangent_count);
 }
 
-// One part, of the primitive's material.
+// Adds one part with the primitive's material.
 static bool add_part(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
 {
     lam_part *part = arena_alloc_zeroed(&gltf->scene->arena, sizeof *part);

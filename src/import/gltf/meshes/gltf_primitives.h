@@ -1,4 +1,4 @@
-// gltf_primitives.h: the primitives of meshes (section 3.7.2): each becomes a mesh of the scene.
+// gltf_primitives.h: reads the primitives of meshes (section 3.7.2); each becomes a mesh of the scene.
 #ifndef GLTF_PRIMITIVES_H
 #define GLTF_PRIMITIVES_H
 
@@ -6,10 +6,10 @@
 #include "gltf_nodes.h"
 #include "gltf_skins.h"
 
-// A mesh of the file as meshes of the scene, one for each of its primitives.
+// A mesh of the file, as one mesh of the scene for each of its primitives.
 struct gltf_primitive {
-    int mesh;     // index in the scene; −1: the primitive is empty
-    bool skinned; // its positions are in the file's space
+    int mesh;     // index in the scene; −1 means the primitive is empty
+    bool skinned; // the mesh's positions are in the file's space
 };
 struct gltf_mesh {
     bool ready;
@@ -19,11 +19,12 @@ struct gltf_mesh {
 
 bool gltf_meshes_start(struct gltf *gltf);
 
-// Returns a mesh of the file, made when first asked for: nodes that name the same mesh share it. Returns NULL on error.
+// Returns a mesh of the file, which is made on first use and shared by all nodes that refer to it. Returns NULL on
+// error.
 const struct gltf_mesh *gltf_mesh_at(struct gltf *gltf, int index);
 
-// Returns the mesh as one node shows it, by its skin (NULL: none) or with the node's own weights of morph targets
-// (NULL: the mesh's). Nobody shares it.
+// Returns a separate copy of the mesh for one node, deformed by its skin (may be NULL) or by the node's own weights of
+// morph targets (NULL means the mesh's).
 const struct gltf_mesh *gltf_mesh_deformed(struct gltf *gltf, int index, const struct gltf_node *node,
                                            const struct gltf_skin *skin);
 

@@ -1,4 +1,4 @@
-// gltf_skins.c: skins (section 3.7.3): the matrices of a skin's joints.
+// gltf_skins.c: reads skins (section 3.7.3): the matrices of a skin's joints.
 #include "gltf_skins.h"
 
 #include "gltf_accessors.h"

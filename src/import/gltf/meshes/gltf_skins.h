@@ -1,15 +1,15 @@
-// gltf_skins.h: skins (section 3.7.3): the matrices of a skin's joints.
+// gltf_skins.h: reads skins (section 3.7.3): the matrices of a skin's joints.
 #ifndef GLTF_SKINS_H
 #define GLTF_SKINS_H
 
 #include "gltf.h"
 
 struct gltf_skin {
-    lam_mat4 *joints; // from the mesh's space at binding to the file's space
+    lam_mat4 *joints; // from the mesh's bind space to the file's space
     size_t count;
 };
 
-// Returns the skin of a number that was checked, at the nodes' transforms. Returns NULL on error.
+// Returns the skin with a checked index, for the nodes' current transforms. Returns NULL on error.
 const struct gltf_skin *gltf_skin_at(struct gltf *gltf, int index);
 
 #endif

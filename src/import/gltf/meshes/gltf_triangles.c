@@ -1,4 +1,5 @@
-// gltf_triangles.c: triangles, strips and fans of a primitive as triangles, and lines, loops and strips as lines (section 3.7.2.1).
+// gltf_triangles.c: converts triangles, strips and fans to triangles, and lines, loops and strips to lines (section
+// 3.7.2.1).
 #include "gltf_triangles.h"
 
 #include "gltf_accessors.h"
@@ -46,7 +47,7 @@ bool gltf_corners(struct gltf *gltf, const struct place *place, const json_t *pr
            fail_index(gltf, here, accessor, vertex_count, restart);
 }
 
-// The corners of triangle i, in the order of the specification.
+// Gets the corners of triangle i, in the order of the specification.
 static void corners_of(size_t mode, size_t i, size_t corner[3])
 {
     bool strip = mode == GLTF_TRIANGLE_STRIP;
@@ -99,7 +100,7 @@ bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *
     return true;
 }
 
-// Every line of a strip or loop of `count` corners, as pairs of corners.
+// Writes the lines of a strip or loop of `count` corners as pairs of corners.
 static bool unroll_lines(struct gltf *gltf, const uint32_t *indices, size_t count, size_t lines, lam_mesh *mesh)
 {
     uint32_t *out = arena_array(&gltf->scene->arena, lines, 2 * sizeof *out);

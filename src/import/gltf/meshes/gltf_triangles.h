@@ -1,10 +1,11 @@
-// gltf_triangles.h: triangles, strips and fans of a primitive as triangles, and lines, loops and strips as lines (section 3.7.2.1).
+// gltf_triangles.h: converts triangles, strips and fans to triangles, and lines, loops and strips to lines (section
+// 3.7.2.1).
 #ifndef GLTF_TRIANGLES_H
 #define GLTF_TRIANGLES_H
 
 #include "gltf.h"
 
-// mode (section 5.24.4).
+// The values of "mode" (section 5.24.4).
 enum {
     GLTF_POINTS,
     GLTF_LINES,
@@ -15,14 +16,15 @@ enum {
     GLTF_TRIANGLE_FAN
 };
 
-// Sets the mesh's indices and triangle_count from the primitive's `mode`, one of the three with triangles, and its
-// indices, each of which is below mesh->vertex_count. Triangles of a strip or fan that name a vertex twice are dropped.
+// Sets the mesh's indices and triangle_count from the primitive's `mode`, one of the three for triangles, and its
+// indices, each of which is below mesh->vertex_count. Degenerate triangles of strips and fans, which use a vertex
+// twice, are dropped.
 bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh);
 
-// The same of lines and points: sets line_count or point_count.
+// Does the same for lines and points: sets line_count or point_count.
 bool gltf_strokes(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh);
 
-// The primitive's corners: its indices, or *indices NULL and all vertices.
+// Gets the primitive's corners: its indices, or *indices NULL for all vertices in order.
 bool gltf_corners(struct gltf *gltf, const struct place *place, const json_t *primitive, uint32_t vertex_count,
                   const uint32_t **indices, size_t *count);
 

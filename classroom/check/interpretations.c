@@ -1,5 +1,5 @@
-// readings.c: lists the readings of a shader by the words of its text.
-#include "readings.h"
+// interpretations.c: lists the possible interpretations of a shader from the words of its text.
+#include "interpretations.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@ static const struct fault *row_of(const char *id)
     return NULL;
 }
 
-bool readings_use(const struct run *r, const char *word)
+bool interpretations_use(const struct run *r, const char *word)
 {
     return declarations_uses(&r->interface.vertex, word) || declarations_uses(&r->interface.fragment, word);
 }
@@ -35,7 +35,7 @@ static void add_exponent(float out[MAX_EXPONENTS], int *count, double x)
         out[(*count)++] = (float)x;
 }
 
-// The second argument of pow, whose bracket is word `at`: a number, or a variable that is given one.
+// Gets the second argument of pow, whose bracket is word `at`: a number, or a variable that is set to one.
 static bool read_exponent(const struct declarations *d, int at, double *out)
 {
     int depth = 0;
@@ -57,7 +57,7 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
     return false;
 }
 
-// The factor of the exponent that the text writes in pow(x, shininess * factor); 0: none.
+// Returns the factor of the exponent in pow(x, shininess * factor), or 0 if there is none.
 static float find_factor(const struct declarations *d)
 {
     for (int i = 0; i + 2 < d->word_count; i++) {
@@ -80,7 +80,7 @@ static float find_factor(const struct declarations *d)
     return 0;
 }
 
-// The numbers of the text that may be the exponent.
+// Finds the numbers of the text that may be the exponent.
 static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
 {
     const struct declarations *d = r->interface.vertex_lit ? &r->interface.vertex : &r->interface.fragment;
@@ -94,7 +94,8 @@ static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
         if (strcmp(d->words[i].text, "pow") == 0 && read_exponent(d, i + 1, &x))
             add_exponent(out, &count, x);
     }
-    for (int i = 0; i < d->word_count && !count && readings_use(r, "pow"); i++) { // behind a parameter, perhaps
+    // the exponent may be a parameter of a function
+    for (int i = 0; i < d->word_count && !count && interpretations_use(r, "pow"); i++) {
         double x = 0;
         if (read_literal(d->words[i].text, &x))
             add_exponent(out, &count, x);
@@ -102,9 +103,12 @@ static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
     return count;
 }
 
-static void add_bit(struct reading *g, enum fault_bit bit) { g->set.words[bit / 64] |= (uint64_t)1 << (bit % 64); }
+static void add_bit(struct interpretation *g, enum fault_bit bit)
+{
+    g->set.words[bit / 64] |= (uint64_t)1 << (bit % 64);
+}
 
-static void add_form(const struct run *r, struct reading *g, const struct fault *form)
+static void add_form(const struct run *r, struct interpretation *g, const struct fault *form)
 {
     if (g->form_count < MAX_FORMS && fault_is_style(form, &r->interface)) {
         g->set = fault_set_add(&g->set, form);
@@ -115,8 +119,8 @@ static void add_form(const struct run *r, struct reading *g, const struct fault 
 static bool is_attenuated(const struct run *r)
 {
     return shader_interface_uses(&r->interface, SEMANTIC_ATTENUATION_LINEAR) ||
-           shader_interface_uses(&r->interface, SEMANTIC_ATTENUATION_QUADRATIC) || readings_use(r, "length") ||
-           readings_use(r, "distance");
+           shader_interface_uses(&r->interface, SEMANTIC_ATTENUATION_QUADRATIC) || interpretations_use(r, "length") ||
+           interpretations_use(r, "distance");
 }
 
 static bool has_direction(const struct shader_interface *interface)
@@ -126,7 +130,7 @@ static bool has_direction(const struct shader_interface *interface)
            (interface->supports & NEED_DIRECTIONAL);
 }
 
-int readings_list(const struct run *r, struct reading out[MAX_READINGS])
+int interpretations_list(const struct run *r, struct interpretation out[MAX_INTERPRETATIONS])
 {
     const struct fault *gate = row_of("no-gate"), *late = row_of("normal-unit-late"),
                        *dim = row_of("ambient-attenuated");
@@ -136,7 +140,7 @@ int readings_list(const struct run *r, struct reading out[MAX_READINGS])
     bool eye = shader_interface_uses(interface, SEMANTIC_EYE_POSITION);
     bool attenuated = is_attenuated(r), direction = has_direction(interface);
     bool gamma = declarations_uses(&interface->fragment, "2.2");
-    // reversed, falloff, viewer, phong, exponent, gate, late, dim, gamma
+    // The bits are: reversed, falloff, viewer, phong, exponent, gate, late, dim, gamma.
     for (int k = 0; k < 2 * 3 * 2 * 2 * MAX_EXPONENTS * 2 * 2 * 2 * 2; k++) {
         int n = k, choices[9];
         const int sizes[9] = {2, 2, 2, 2, 3, 2, 2, 2, MAX_EXPONENTS};
@@ -149,12 +153,12 @@ int readings_list(const struct run *r, struct reading out[MAX_READINGS])
         bool highlight = exponent_count > 0;
         if ((!highlight && (bare || blinn || exponent || viewer)) || (highlight && exponent >= exponent_count) ||
             (long_normal && interface->vertex_lit) || (dims && !attenuated) || (falloff && !attenuated) ||
-            (reversed && !direction) || (viewer && eye) || (decoded && !gamma) || count == MAX_READINGS)
+            (reversed && !direction) || (viewer && eye) || (decoded && !gamma) || count == MAX_INTERPRETATIONS)
             continue;
-        struct reading *g = &out[count++];
-        *g = (struct reading){.reflection = blinn ? LAM_REFLECTION_BLINN_PHONG : LAM_REFLECTION_PHONG,
-                              .has_highlight = highlight,
-                              .decoded = decoded};
+        struct interpretation *g = &out[count++];
+        *g = (struct interpretation){.reflection = blinn ? LAM_REFLECTION_BLINN_PHONG : LAM_REFLECTION_PHONG,
+                                     .has_highlight = highlight,
+                                     .decoded = decoded};
         g->set.constant = highlight ? exponents[exponent] : 0;
         if (highlight && exponents[exponent] == 0)
             g->set.factor = find_factor(interface->vertex_lit ? &interface->vertex : &interface->fragment);
@@ -174,7 +178,7 @@ int readings_list(const struct run *r, struct reading out[MAX_READINGS])
     return count;
 }
 
-// Faults of colours, strengths and alpha are within the factors, or no matter of them.
+// Faults of colours, strengths and alpha are part of the factors, or do not matter.
 static bool is_geometric(const struct fault *row)
 {
     static const enum fault_bit others[] = {BIT_KD_KS_SWAPPED,
@@ -219,13 +223,13 @@ static bool is_geometric(const struct fault *row)
     return true;
 }
 
-bool readings_allow_fault(const struct fault *row)
+bool interpretations_allow_fault(const struct fault *row)
 {
     return is_geometric(row) && !row->style && !row->demand && !row->whole_term && !row->fit && row->factor == 0 &&
            !row->maps;
 }
 
-bool readings_are_plain(const struct run *r)
+bool interpretations_are_plain(const struct run *r)
 {
     static const char *const known =
         " if for while return main normalize dot max min clamp pow reflect vec2 vec3 vec4 mat3 mat4 "
@@ -245,11 +249,12 @@ bool readings_are_plain(const struct run *r)
             for (int k = 1; call && k < sides[s]->word_count && !own; k++)
                 own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&
                       isalpha((unsigned char)sides[s]->words[k - 1].text[0]);
-            double divisor = 0; // a division by w belongs to a projection; by a distance, it may be an attenuation
+            // a division by w belongs to a projection; a division by a distance may be an attenuation
+            double divisor = 0;
             bool of_w = i + 3 < sides[s]->word_count && strcmp(w[2].text, ".") == 0 && strcmp(w[3].text, "w") == 0;
             bool quotient = strcmp(w->text, "/") == 0 && !read_literal(next, &divisor) && !of_w;
             bool number = read_literal(w->text, &x);
-            bool compared = false; // with anything but 0, outside of a loop's head
+            bool compared = false; // compared with something other than 0, outside of a loop's head
             if (w->text[0] == '<' || w->text[0] == '>') {
                 const char *after = next[0] == '=' ? w[2].text : next;
                 double zero = 1;

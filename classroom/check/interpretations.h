@@ -1,0 +1,39 @@
+// interpretations.h: the interpretations of a shader that has its own strengths and colours: the calculations
+// that its text allows.
+#ifndef INTERPRETATIONS_H
+#define INTERPRETATIONS_H
+
+#include "check_run.h"
+#include "fault.h"
+
+enum { MAX_EXPONENTS = 6, MAX_FORMS = 3, MAX_INTERPRETATIONS = 400, MAX_FAULTS = 2 };
+
+struct interpretation {
+    lam_reflection reflection;
+    bool has_highlight, decoded; // pow(x, 1/2.2) is undone first
+    fault_set set;
+    const struct fault *forms[MAX_FORMS];
+    int form_count;
+    const struct fault *faults[MAX_FAULTS];
+    int fault_count;
+    double factors[3][3]; // indexed by colour channel and by term: ambient, diffuse, specular
+    double mean;          // mean difference
+    bool fits;
+};
+
+// Lists all interpretations of a correct shader that the text allows. Returns their number.
+int interpretations_list(const struct run *run, struct interpretation out[MAX_INTERPRETATIONS]);
+
+// Returns whether a fault of the table is visible in such a shader: faults of colours and strengths are part of the
+// factors.
+bool interpretations_allow_fault(const struct fault *row);
+
+// Returns whether a word occurs in one of the texts.
+bool interpretations_use(const struct run *run, const char *word);
+
+// Returns whether the texts consist only of the words of an ambient, a diffuse and a specular term: pictures that no
+// interpretation explains are then wrong. Steps, cones, distances, rims and similar features may be correct, but are
+// not understood.
+bool interpretations_are_plain(const struct run *run);
+
+#endif

@@ -1,0 +1,47 @@
+// edge_tasks.h: a task that draws some edges of one draw, from the mesh to strokes.
+#ifndef EDGE_TASKS_H
+#define EDGE_TASKS_H
+
+#include "edge_lines.h"
+
+// An edge in the view, if dashes run along chains of edges (edge_chains.c).
+struct edge_measure {
+    double x[2], y[2], length; // in the window, clipped to the picture; pixels
+    int style;                 // −1 if it is not drawn
+    bool whole[2];             // whether the end is not clipped
+    uint32_t link[2];          // the end that continues this end: twice the index of its edge, plus 0 or 1; or NO_LINK
+    bool placed;
+    double start;  // length of the chain before it
+    bool reversed; // the chain runs from its end 1 to its end 0
+};
+#define NO_LINK 0xffffffffu
+
+enum { EDGES_PER_TASK = 2048 };
+
+struct edge_task {
+    const struct edge_view *view;
+    const struct frame_draw *draw;
+    const struct mesh_edge *edges;
+    uint32_t count;
+    struct edge_measure *measures; // one per edge; NULL if there are no chains
+    edge_rays *rays_of;
+    struct edge_strokes *strokes; // out: strokes of the thread
+    uint64_t drawn, rays;         // out: added to
+};
+
+// Bytes of scratch memory that a thread needs.
+size_t edge_scratch_bytes(void);
+
+// Returns false if memory runs out, or the call must end.
+bool edge_task_draw(struct edge_task *task, void *scratch);
+
+// Fills the measures of a task, except their chains.
+void edge_task_measure(struct edge_task *task);
+
+// Links the measured edges of a draw to chains, and places them there. At each corner it connects two lines of one
+// style if they are the only ones, or else the straightest pairs that turn by less than 60 degrees. Returns false if
+// memory runs out, or the call must end.
+bool edge_chains_link(const struct frame_draw *draw, const struct mesh_edge *edges, struct edge_measure *measures,
+                      uint32_t count, struct loop_status *loop);
+
+#endif

@@ -84,12 +84,13 @@ void view_waiting_begin(struct view *view, struct MHD_Connection *connection)
         append(&view->waiting, s);
 }
 
-// The library sees the end of the connection and closes it. Without a linger time the kernel forgets a closed connection immediately; else
-// an attacker could fill its table, which is read for each request (view_peer.c).
+// The library sees a connection that is shut in both directions and closes it. Shut for reading alone it would stay: the kernel still accepts bytes, and
+// if some arrive before the library reads, it waits for more. Without a linger time the kernel forgets a closed connection immediately; else an
+// attacker could fill its table, which is read for each request (view_peer.c).
 static void drop(struct view_sockets *list, struct view_socket *s)
 {
     setsockopt(s->file, SOL_SOCKET, SO_LINGER, &(struct linger){.l_onoff = 1}, sizeof(struct linger));
-    shutdown(s->file, SHUT_RD);
+    shutdown(s->file, SHUT_RDWR);
     take_out(list, s);
 }
 

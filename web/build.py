@@ -91,8 +91,8 @@ def make_offline(served, bundles):
     """The service worker of the served page, with a list of its files and their hashes. Those of the tab of shaders are stored when they are used."""
     names = sorted(name for name in os.listdir(served) if name.endswith((".js", ".css", ".html", ".wasm")) and name != OFFLINE)
     files = {"./" if name == "index.html" else name: integrity(os.path.join(served, name)) for name in names}
-    threads, shaders = "lambent-threads.wasm", bundles.shaders + ["check.wasm", bundle.CODEMIRROR]
-    kinds = {"FILES": files, "LATER": [name for name in names if name in shaders + [DECODERS]], "PLAIN": [*module_parts.PARTS[1:]], "THREADS": [threads]}
+    shaders = bundles.shaders + ["check.wasm", bundle.CODEMIRROR]
+    kinds = {"FILES": files, "LATER": [name for name in names if name in shaders + [DECODERS]], "PLAIN": [*module_parts.PARTS[1:]], "THREADS": [*module_parts.THREADS_PARTS]}
     cache = hashlib.sha256(json.dumps(files, sort_keys=True).encode()).hexdigest()[:16]
     text = page_file(OFFLINE).replace("lambent-HASH", "lambent-" + cache)
     for name, value in kinds.items():
@@ -134,14 +134,14 @@ def make_page(folder):
         files[name] = open(os.path.join(HERE, name)).read()
     files[DECODERS] = open(os.path.join(folder, "decoders.wasm"), "rb").read()
     files["check.wasm"] = open(os.path.join(modules, "check.wasm"), "rb").read()
-    files["lambent-threads.wasm"] = open(os.path.join(with_threads, "lambent.wasm"), "rb").read()
     editor = bundle.codemirror(folder, packages(folder))
     if editor:
         files[bundle.CODEMIRROR] = editor
     for name, content in files.items():
         bundle.write(os.path.join(served, name), content)
     module_parts.split(os.path.join(modules, "lambent-unsplit"), [os.path.join(served, name) for name in module_parts.PARTS])
-    kept = {*files, *module_parts.PARTS, OFFLINE}
+    module_parts.split_threads(os.path.join(with_threads, "lambent-unsplit"), [os.path.join(served, name) for name in module_parts.THREADS_PARTS])
+    kept = {*files, *module_parts.PARTS, *module_parts.THREADS_PARTS, OFFLINE}
     for name in os.listdir(served): # of older scripts
         if re.sub(r"\.(gz|br)$", "", name) not in kept:
             os.remove(os.path.join(served, name))
@@ -152,7 +152,7 @@ def make_page(folder):
              "editor": shaders + [bundle.CODEMIRROR] * bool(editor)}
     bundle.write(os.path.join(folder, "scripts.json"), json.dumps(kinds)) # for sizes.py
     make_one_file(folder, bundles, editor)
-    bundle.write(os.path.join(folder, "lambent-threads.wasm"), files["lambent-threads.wasm"]) # for lambent view
+    bundle.write(os.path.join(folder, "lambent-threads.wasm"), open(os.path.join(with_threads, "lambent.wasm"), "rb").read()) # for lambent view, undivided
 
 
 def make_one_file(folder, bundles, editor):

@@ -24,7 +24,7 @@ const CODES = ['OK', 'BAD_ARGUMENT', 'CANNOT_READ', 'UNSUPPORTED', 'LIMIT', 'CAN
 export class PartMissing extends Error {
   constructor(part) {
     super(`the part '${part}' of the module is missing`);
-    this.part = part; // 'rest' or 'more'
+    this.part = part; // 'rest' or 'more'; 'threads-more': of the module with threads
   }
 }
 
@@ -54,7 +54,7 @@ export class Lambent {
     const decoders = Object.fromEntries(DECODING.map((name) => [name, decoding(name)]));
     const web_decoders = () => Number(Boolean(this.decoders) || !(this.wantsDecoders = true));
     this.instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, rest: placeholder('rest'), more: placeholder('more'),
-      unused: placeholder('unused'), env: { memory, ...decoders, web_decoders, web_progress: (share) => progress?.(share) } });
+      'threads-more': placeholder('threads-more'), unused: placeholder('unused'), env: { memory, ...decoders, web_decoders, web_progress: (share) => progress?.(share) } });
     host.attach(this.instance);
     for (const part of parts) this.complete(part);
     this.instance.exports._initialize();

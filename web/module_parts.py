@@ -1,18 +1,21 @@
 """module_parts.py: the served page's module in parts: what draws the first pictures (lambent.wasm), what most pages need after that (lambent-rest.wasm),
-and what is fetched when it is used (lambent-more.wasm): explanations, formulas, scene files that are written. wasm-split (Binaryen) divides them; what a
-page never calls is left out."""
+and what is fetched when it is used (lambent-more.wasm): explanations, formulas, scene files that are written. The module with threads has two parts: the first
+(lambent-threads.wasm) takes the place of both. wasm-split (Binaryen) divides them; what a page never calls is left out."""
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PARTS = ("lambent.wasm", "lambent-rest.wasm", "lambent-more.wasm")
+THREADS_PARTS = ("lambent-threads.wasm", "lambent-threads-more.wasm")
 # What the module uses of WebAssembly.
 FEATURES = ["--enable-" + name for name in ("simd", "exception-handling", "bulk-memory", "nontrapping-float-to-int", "sign-ext", "mutable-globals")]
 # Functions by their objects in the linker's map.
 UNUSED = r"libjpeg\.a\((jc(?!omapi)|jfdct)|jpeg_write\.c" # the page saves PNG; reading needs jcomapi too
+# Only the thread that is called runs them: the others have the first part alone.
 MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|formula_\w+\.c\.o|scene_write\.c\.o|:\((web|job)_explain\)$"
 
 
@@ -46,27 +49,52 @@ def relax_table(module, work):
     call("wasm-as", *FEATURES, work + ".wat", "-o", module)
 
 
-def split(unsplit, parts):
-    """Writes the three parts, of UNSPLIT.wasm and its map, unless they are newer."""
+def is_new(unsplit, parts):
     newest = max(os.path.getmtime(path) for path in (unsplit + ".wasm", os.path.abspath(__file__), os.path.join(HERE, "split.mjs")))
-    if all(os.path.exists(part) and os.path.getmtime(part) > newest for part in parts):
-        return
-    names = functions(unsplit + ".map")
-    with tempfile.TemporaryDirectory() as work:
-        at = lambda name: os.path.join(work, name)  # noqa: E731
+    return all(os.path.exists(part) and os.path.getmtime(part) > newest for part in parts)
+
+
+class Division:
+    """The divisions that all modules share, in a folder of files: `first` is a module without what pages never call and without `more`, its second part."""
+
+    def __init__(self, unsplit, work, more, features=()):
+        """`more`: the namespace in which the first part calls the second (web/lambent.js)."""
+        self.work, self.features = work, [*FEATURES, *features]
+        names = functions(unsplit + ".map")
+        self._divide(unsplit + ".wasm", names, UNUSED, "unused", ("a.wasm", "unused.wasm"))
+        self._divide(self.at("a.wasm"), [name for name in names if not re.search(UNUSED, name)], MORE, more, ("b.wasm", "more.wasm"))
+        self.first, self.more = self.at("c.wasm"), self.at("more.wasm")
+        call("wasm-opt", *self.features, "-Oz", self.at("b.wasm"), "-o", self.first) # as fast as by -O2
+
+    def at(self, name):
+        return os.path.join(self.work, name)
+
+    def _divide(self, module, names, pattern, namespace, parts):
         # Without names wasm-split calls functions by their numbers, and numbers those that stay anew.
-        with open(at("unused"), "w") as out:
-            out.write("\n".join(str(i) for i, name in enumerate(names) if re.search(UNUSED, name)))
-        call("wasm-split", *FEATURES, unsplit + ".wasm", "--split-funcs=@" + at("unused"), "--placeholder-namespace=unused", "--export-prefix=u.", "-o1", at("a.wasm"), "-o2",
-             at("unused.wasm"))
-        kept = [name for name in names if not re.search(UNUSED, name)]
-        with open(at("more"), "w") as out:
-            out.write("\n".join(str(i) for i, name in enumerate(kept) if re.search(MORE, name)))
-        call("wasm-split", *FEATURES, at("a.wasm"), "--split-funcs=@" + at("more"), "--placeholder-namespace=more", "--export-prefix=m.", "-o1", at("b.wasm"), "-o2",
-             at("more.wasm"))
-        call("wasm-opt", *FEATURES, "-O2", at("b.wasm"), "-o", at("c.wasm"))
-        relax_table(at("more.wasm"), at("more"))
-        call("wasm-opt", *FEATURES, "-O2", at("more.wasm"), "-o", parts[2])
-        call("wasm-split", *FEATURES, "--instrument", at("c.wasm"), "-o", at("counting.wasm"))
-        call("node", os.path.join(HERE, "split.mjs"), at("counting.wasm"), at("profile"))
-        call("wasm-split", *FEATURES, at("c.wasm"), "--profile=" + at("profile"), "--placeholder-namespace=rest", "-o1", parts[0], "-o2", parts[1])
+        with open(self.at(namespace), "w") as out:
+            out.write("\n".join(str(i) for i, name in enumerate(names) if re.search(pattern, name)))
+        call("wasm-split", *self.features, module, "--split-funcs=@" + self.at(namespace), "--placeholder-namespace=" + namespace, "--export-prefix=%s." % namespace[0],
+             "-o1", self.at(parts[0]), "-o2", self.at(parts[1]))
+
+
+def split(unsplit, parts):
+    """Writes the three parts of UNSPLIT.wasm and its map, unless they are newer."""
+    if is_new(unsplit, parts):
+        return
+    with tempfile.TemporaryDirectory() as work:
+        made = Division(unsplit, work, "more")
+        relax_table(made.more, made.at("more"))
+        call("wasm-opt", *FEATURES, "-Oz", made.more, "-o", parts[2])
+        call("wasm-split", *FEATURES, "--instrument", made.first, "-o", made.at("counting.wasm"))
+        call("node", os.path.join(HERE, "split.mjs"), made.at("counting.wasm"), made.at("profile"))
+        call("wasm-split", *FEATURES, made.first, "--profile=" + made.at("profile"), "--placeholder-namespace=rest", "-o1", parts[0], "-o2", parts[1])
+
+
+def split_threads(unsplit, parts):
+    """The same for the two parts of the module with threads."""
+    if is_new(unsplit, parts):
+        return
+    with tempfile.TemporaryDirectory() as work:
+        made = Division(unsplit, work, "threads-more", ["--enable-threads"])
+        shutil.copyfile(made.first, parts[0])
+        call("wasm-opt", *made.features, "-Oz", made.more, "-o", parts[1])

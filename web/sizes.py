@@ -24,6 +24,7 @@ PARTS = [
 ]
 
 FIRST, MODULE = "all that loads first", "the module of a page: the first two parts"
+THREADS = "the module with threads, fetched in place of the second part where the page is cross-origin isolated"
 
 
 def parts_of(map_path):
@@ -62,7 +63,7 @@ def table(folder):
              of(FIRST, [first, *start]), of("its second part, fetched after the first picture", [rest]), of(MODULE, [first, rest]),
              of("its third part, fetched when it is used: explanations, formulas, scene files", [more]),
              of("the decoders of Draco and meshoptimizer, fetched when a file needs them", ["lambent-decoders.wasm"]),
-             of("the module with threads, fetched in place of these where the page is cross-origin isolated", ["lambent-threads.wasm"]),
+             of(THREADS, [module_parts.THREADS_PARTS[0]]), of("its second part, fetched when it is used", [module_parts.THREADS_PARTS[1]]),
              of("scripts that are fetched when they are used", scripts["later"]),
              of("the editor of shaders", scripts["editor"]),
              of("checks of shaders, fetched when one is checked", ["check_worker.js", "check.wasm"])]

@@ -1,9 +1,16 @@
 // thread.js: a thread of a module (threads.js): a worker with an instance of its own in the memory of all. It has no files, and what the others import does nothing here.
+// Of a module in parts it has the first: what the others contain runs on the called thread alone.
 import { Files, system } from './wasi.js';
+
+const missing = new Proxy({}, {
+  get: () => () => {
+    throw new Error('a thread has no other parts of the module');
+  },
+});
 
 function start(port, { module, memory, thread }) {
   const host = system(new Files(), [], (stream, text) => console.error(text));
-  const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, env: new Proxy({ memory }, { get: (given, name) => given[name] ?? (() => 0) }) });
+  const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, 'threads-more': missing, unused: missing, env: new Proxy({ memory }, { get: (given, name) => given[name] ?? (() => 0) }) });
   host.attach(instance);
   const { __stack_pointer, web_thread_run, web_thread_failed } = instance.exports;
   __stack_pointer.value = thread; // its stack ends there, and grows downwards

@@ -56,8 +56,8 @@ class Threads extends Lambent {
   }
 }
 
-// `count`: threads that are wanted, the caller's among them. `progress`: as Lambent's.
-export async function openThreads(source, count, startWorker, files = undefined, progress = null) {
+// `count`: threads that are wanted, the caller's among them. `progress` and `parts`: as Lambent's.
+export async function openThreads(source, count, startWorker, files = undefined, progress = null, parts = []) {
   const module = source instanceof WebAssembly.Module ? source : await WebAssembly.compile(source), memory = sharedMemory();
-  return new Threads(module, files, { memory, progress }).start(module, memory, count - 1, startWorker);
+  return new Threads(module, files, { memory, progress, parts }).start(module, memory, count - 1, startWorker);
 }

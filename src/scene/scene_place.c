@@ -6,6 +6,12 @@
 #include "linear.h"
 #include "up_axis.h"
 
+// A point whose squared distance is below this number is nearer than `distance`, whatever rounding does.
+static double nearer_than(double distance)
+{
+    return distance > 1e-100 && distance < 1e100 ? distance * distance * (1 - 1e-9) : 0;
+}
+
 // Extends *radius so that the sphere contains the transformed vertices of a mesh.
 static void extend_radius(const lam_scene *scene, int mesh_index, const lam_mat4 *transform, lam_vec3 centre,
                           double *radius)
@@ -14,11 +20,22 @@ static void extend_radius(const lam_scene *scene, int mesh_index, const lam_mat4
     const struct scene_extent *extent = scene_extent(scene, mesh_index);
     lam_mat4 origin = mat4_translate(mesh->origin[0], mesh->origin[1], mesh->origin[2]);
     lam_mat4 whole = mat4_mul(transform, &origin);
+    const double(*m)[4] = whole.m;
+    double nearer = nearer_than(*radius);
     for (uint32_t i = 0; i < extent->used_count; i++) {
         const float *p = mesh->positions + 3 * (size_t)(extent->used ? extent->used[i] : i);
-        lam_vec3 at = v3_sub(mat4_point(&whole, v3((double)p[0], (double)p[1], (double)p[2])), centre);
+        const double x = (double)p[0], y = (double)p[1], z = (double)p[2];
+        // As mat4_point does it, which is not inlined.
+        lam_vec3 at = v3((m[0][0] * x + m[0][1] * y) + m[0][2] * z + m[0][3] - centre.x,
+                         (m[1][0] * x + m[1][1] * y) + m[1][2] * z + m[1][3] - centre.y,
+                         (m[2][0] * x + m[2][1] * y) + m[2][2] * z + m[2][3] - centre.z);
+        if (at.x * at.x + at.y * at.y + at.z * at.z < nearer)
+            continue;
         double distance = v3_length(at);
-        *radius = distance > *radius ? distance : *radius;
+        if (distance > *radius) {
+            *radius = distance;
+            nearer = nearer_than(distance);
+        }
     }
 }
 

@@ -169,3 +169,18 @@ class Requests(ViewCase):
             self.assertTrue(self.is_closed(connection))
         (self.folder / "cube.obj").write_text("v 0 0 0\n")
         events.until(b'data: "/cube.obj"')
+
+    def test_half_requests_end_while_bytes_arrive(self):
+        """Bytes that arrive while the server drops a request do not keep the connection open."""
+        server = self.serve("cube.obj")
+        connections = [socket.create_connection(("127.0.0.1", server.port), timeout=SOON) for _ in range(60)]
+        for connection in connections:
+            self.addCleanup(connection.close)
+            connection.sendall(self.HALVES[3])
+        sent = 0
+        while sent < 40000 and not select.select(connections, [], [], 0.0001)[0]:  # bytes of each, fewer than the server accepts
+            for connection in connections:
+                connection.sendall(b"a")
+            sent += 1
+        for connection in connections:
+            self.assertTrue(self.is_closed(connection, SOON))

@@ -1,13 +1,14 @@
-// threads.mjs MODULE THREADS_MODULE FOLDER: pictures by the module with threads, with 1, 2 and 4 of them, have the pixels of the module without. The
-// models are in FOLDER. Prints lines of the Test Anything Protocol without numbers.
+// threads.mjs MODULE THREADS_MODULE PART PART FOLDER: pictures by the module with threads, with 1, 2 and 4 of them, have the pixels of the module without; and
+// so have those of the two PARTs of a page. The models are in FOLDER. Prints lines of the Test Anything Protocol without numbers.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { Worker } from 'node:worker_threads';
-import { Files, LambentError, open } from '../../web/lambent.js';
+import { Files, LambentError, PartMissing, open } from '../../web/lambent.js';
 import { openThreads } from '../../web/threads.js';
 
-const [, , single, shared, folder] = process.argv;
+const [, , single, shared, firstPart, secondPart, folder] = process.argv;
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 const ok = (good, label, why = '') => console.log(`${good ? 'ok' : 'not ok'} ${label}${good || why === '' ? '' : `\n# ${why}`}`);
 const worker = (script) => () => new Worker(new URL(script, import.meta.url));
 const files = new Files();
@@ -46,6 +47,26 @@ for (const count of [1, 2, 4]) {
   ok(png(lambent) === png(one), `threads: the same file with ${count}`);
   lambent.end();
 }
+
+// In two parts: the first draws the same without the second, and says when it needs it.
+const parts = await Promise.all([firstPart, secondPart].map((path) => WebAssembly.compile(readFileSync(path))));
+const FORMULA = ['parametric', '--parametric=x=cos(u)*(2+cos(v)); y=sin(u)*(2+cos(v)); z=sin(v)', '--size=96'], IMPLICIT = ['implicit', '--implicit=x^2+y^2+z^2-1', '--size=96'];
+const missingPart = (call) => {
+  try {
+    return `found ${JSON.stringify(call()).slice(0, 200)}`;
+  } catch (error) {
+    return error instanceof PartMissing ? error.part : String(error);
+  }
+};
+const apart = await openThreads(parts[0], 2, worker('../../web/thread.js'), files), drawn = [...PICTURES, ...REFUSED].map((words) => pixels(apart, words));
+ok(same(drawn, expected), 'threads: the same pixels and sentences by the first of two parts', drawn.filter((one, i) => one !== expected[i]).join('; '));
+ok(missingPart(() => apart.explain(['teapot', '--size=96'], 48, 48)) === 'threads-more', 'threads: explaining asks for the second part', missingPart(() => apart.explain(['teapot', '--size=96'], 48, 48)));
+apart.end();
+const whole = await openThreads(parts[0], 2, worker('../../web/thread.js'), files, null, [parts[1]]);
+for (const words of [FORMULA, IMPLICIT, PICTURES[0]]) ok(pixels(whole, words) === pixels(one, words), `threads: both parts draw ${words[0]}`, pixels(whole, words));
+ok(same(whole.explain(['teapot', '--size=96'], 48, 48), one.explain(['teapot', '--size=96'], 48, 48)), 'threads: both parts explain as the whole module does');
+ok(same(whole.lights(['teapot']), one.lights(['teapot'])), 'threads: both parts list lights as the whole module does');
+whole.end();
 
 // A thread that ends in a trap ends the drawing too, which waits for it otherwise.
 const failing = await openThreads(module, 2, worker('failing_thread.mjs'));

@@ -37,6 +37,7 @@ export function openWorker() {
   return caller(() => new Worker(script, { type: 'module' }), wasm, {
     rest: [...withThreads(() => fetchModule('lambent-threads.wasm'), new URL('thread.js', import.meta.url)), part('rest')],
     more: [part('more')],
+    'threads-more': [part('threads-more')],
     decoders: [part('decoders')],
   });
 }

@@ -5,7 +5,8 @@ import { Decoders } from './decoders.js';
 import { Lambent, LambentError, PartMissing } from './lambent.js';
 
 const parts = new Map(); // by name, of a module in parts
-let lambent = null, decoders = null, first = null, broken = null, memory = 0, threaded = false;
+let lambent = null, decoders = null, first = null, broken = null, memory = 0;
+let threaded = null; // the module with threads, and how many
 
 let model = null; // the last one that was drawn
 
@@ -18,8 +19,17 @@ function use(made) {
   broken = null;
 }
 
+async function useThreads() {
+  const { openThreads } = await import('./threads.js'), { module, count, script } = threaded;
+  use(await openThreads(module, count, () => new Worker(script, { type: 'module' }), lambent.files, progress, parts.has('threads-more') ? [parts.get('threads-more')] : []));
+}
+
+// What the page is told of the threads; `flag`: where in their memory a call is asked to end.
+const aboutThreads = () => ({ threads: lambent.threads, shared: lambent.instance.exports.memory.buffer, flag: lambent.instance.exports.web_cancel_flag() });
+
 // What these calls need besides, if the module is in parts: asked for first, since a call that stops for it loses the loaded model.
 const NEEDS = { explain: 'more', lights: 'more', scene: 'more' };
+const neededPart = ({ call, parted }) => parted && NEEDS[call] && (threaded ? 'threads-' : '') + NEEDS[call];
 
 const calls = {
   async start({ wasm, memory: bytes }) {
@@ -31,11 +41,12 @@ const calls = {
   // A Lambent that has asked for a part is replaced, or gives way to one with threads; one that has not yet only gets it.
   async complete({ part, wasm, threads }) {
     if (threads) {
-      const { openThreads } = await import('./threads.js');
-      use(await openThreads(wasm, threads.count, () => new Worker(threads.script, { type: 'module' }), lambent.files, progress));
-      threaded = true;
-      const { memory: shared, web_cancel_flag } = lambent.instance.exports;
-      return { threads: lambent.threads, shared: shared.buffer, flag: web_cancel_flag() };
+      threaded = { module: await WebAssembly.compile(wasm), ...threads };
+      await useThreads().catch((error) => {
+        threaded = null;
+        throw error;
+      });
+      return aboutThreads();
     }
     if (part === 'decoders') {
       lambent.decoders = decoders = new Decoders(await WebAssembly.compile(wasm));
@@ -43,9 +54,12 @@ const calls = {
       return { threads: lambent.threads ?? 1 };
     }
     parts.set(part, await WebAssembly.compile(wasm));
-    if (broken) use(new Lambent(first, lambent.files, { parts: [...parts.values()], progress }));
+    if (threaded && broken) {
+      lambent.end();
+      await useThreads();
+    } else if (broken) use(new Lambent(first, lambent.files, { parts: [...parts.values()], progress }));
     else lambent.complete(parts.get(part));
-    return { threads: 1 };
+    return threaded ? aboutThreads() : { threads: 1 };
   },
   files({ files }) {
     for (const path of lambent.files.list()) lambent.files.delete(path);
@@ -70,8 +84,8 @@ const calls = {
 self.onmessage = async ({ data }) => {
   try {
     if (broken && data.call !== 'complete') throw new PartMissing(broken);
-    const needed = NEEDS[data.call];
-    if (needed && data.parted && !threaded && !parts.has(needed)) return self.postMessage({ id: data.id, missing: needed });
+    const needed = neededPart(data);
+    if (needed && !parts.has(needed)) return self.postMessage({ id: data.id, missing: needed });
     const result = await calls[data.call](data);
     if (lambent.wantsDecoders && !decoders) return self.postMessage({ id: data.id, missing: 'decoders' });
     const moved = result?.pixels ? [result.pixels.buffer] : [];

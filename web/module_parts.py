@@ -13,7 +13,7 @@ PARTS = ("lambent.wasm", "lambent-rest.wasm", "lambent-more.wasm")
 FEATURES = ["--enable-" + name for name in ("simd", "exception-handling", "bulk-memory", "nontrapping-float-to-int", "sign-ext", "mutable-globals")]
 # Functions by their objects in the linker's map.
 UNUSED = r"libjpeg\.a\((jc(?!omapi)|jfdct)|jpeg_write\.c" # the page saves PNG; reading needs jcomapi too
-MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|formula_\w+\.c\.o|scene_write\.c\.o|:\((web|job)_explain\)$"
+MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|formula_\w+\.c\.o|scene_write\.c\.o|:\((web_contents|(web|job)_explain)\)$"
 
 
 def call(*command):

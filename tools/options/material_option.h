@@ -14,6 +14,9 @@ struct material_option {
 // A text of lam_material_parse, with or without "@TARGET" after it.
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error);
 
+// Returns the keys of the physical metal of a name, "diffuse=…,metallic=1,roughness=0.2", or NULL for other materials.
+const char *material_option_metal(const char *name);
+
 // A metal's name alone then selects the physical metal, which reflects the studio, instead of the classic table's row.
 void material_option_mirror(struct material_option *option);
 
@@ -23,6 +26,9 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
 // Gives a scene's objects their new material, or (`back`) their back sides. `name` is the option's, for errors.
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                          lam_error *error);
+
+// Hides the objects of a name, or else its parts, or else the surfaces of its material (--hide).
+bool material_option_hide(const char *target, lam_scene *scene, lam_error *error);
 
 // A warning of the scene for each coefficient over 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene);

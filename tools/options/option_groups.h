@@ -92,6 +92,7 @@ struct lighting_options {
 struct material_options {
     struct texts materials; // as written, checked
     struct texts back_materials;
+    struct texts hidden;       // names of objects, parts or materials that are not drawn
     const char *model_color;   // of all materials, as written; NULL: their own
     double shininess, opacity; // valid if the flag below is set
     bool has_shininess, has_opacity;

@@ -216,6 +216,15 @@ static int hide_parts(const char *target, lam_scene *scene, lam_error *error)
     return found;
 }
 
+// Objects that show nothing else are hidden as a whole: their box does not count then.
+static bool hide_objects_of(int material, lam_scene *scene, lam_error *error)
+{
+    for (int i = 0; i < lam_scene_object_count(scene); i++)
+        if (front_of(scene, lam_scene_object(scene, i)) == material && !lam_scene_hide_object(scene, i, true, error))
+            return false;
+    return true;
+}
+
 static int hide_materials(const char *target, lam_scene *scene, lam_error *error)
 {
     int found = 0;
@@ -223,7 +232,7 @@ static int hide_materials(const char *target, lam_scene *scene, lam_error *error
         if (!same(lam_scene_material(scene, i)->name, target))
             continue;
         lam_material clear = clear_copy(*lam_scene_material(scene, i));
-        if (!lam_scene_set_material(scene, i, &clear, error))
+        if (!lam_scene_set_material(scene, i, &clear, error) || !hide_objects_of(i, scene, error))
             return -1;
         found++;
     }

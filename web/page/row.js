@@ -23,6 +23,7 @@ export class Row {
     this.option = option;
     this.prefix = prefix;
     this.range = range;
+    this.hint = plain ? (option.default ?? '') : option.value;
     this.change = (values, key) => setOption(option.name, values, key);
     this.label = ours('label', option.name, { htmlFor: `${prefix}-${option.name}`, title: option.summary });
     if (plain) this.label.replaceChildren(element('span', { textContent: plain, translate: true }), ' ', ours('code', option.name));
@@ -93,7 +94,7 @@ export class Row {
       control.value = value ?? '';
       control.onchange = () => take(control.value);
     } else {
-      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: o.value, translate: false });
+      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: this.hint, translate: false });
       if (control.type === 'number') {
         control.step = o.whole ? 1 : 'any';
         if (o.min !== undefined) Object.assign(control, { min: o.min, max: o.max });

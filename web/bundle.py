@@ -32,7 +32,7 @@ def correct_programs():
 
 def programs():
     """The script with the correct programs that the page offers."""
-    contracts = [name[:-5] for name in os.listdir(os.path.join(ROOT, "src", "check", "contracts"))]
+    contracts = [name[:-5] for name in os.listdir(os.path.join(ROOT, "classroom", "check", "contracts"))]
     rows = []
     for name in correct_programs():
         mine = max((contract for contract in contracts if name == contract or name.startswith(contract + "-")), key=len)

@@ -1,5 +1,5 @@
 """module_parts.py: the served page's module in parts: what draws the first pictures (lambent.wasm), what most pages need after that (lambent-rest.wasm),
-and what is fetched when it is used (lambent-more.wasm): explanations, formulas, scene files that are written. wasm-split (Binaryen) divides them; what a
+and what is fetched when it is used (lambent-more.wasm): explanations, formulas, sweeps, scene files that are written. wasm-split (Binaryen) divides them; what a
 page never calls is left out."""
 import os
 import re
@@ -13,7 +13,7 @@ PARTS = ("lambent.wasm", "lambent-rest.wasm", "lambent-more.wasm")
 FEATURES = ["--enable-" + name for name in ("simd", "exception-handling", "bulk-memory", "nontrapping-float-to-int", "sign-ext", "mutable-globals")]
 # Functions by their objects in the linker's map.
 UNUSED = r"libjpeg\.a\((jc(?!omapi)|jfdct)|jpeg_write\.c" # the page saves PNG; reading needs jcomapi too
-MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|formula_\w+\.c\.o|scene_write\.c\.o|:\((web_contents|(web|job)_explain)\)$"
+MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|sweep_option\.c\.o|show_all\.c\.o|formula_\w+\.c\.o|scene_write\.c\.o|:\((web_contents|(web|job)_explain)\)$"
 
 
 def call(*command):

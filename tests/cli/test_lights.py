@@ -385,7 +385,7 @@ class Materials(Pictures):
         self.assertEqual(self.picture(*seen, "--hide", "box", model="both.json"), alone)
         self.assertEqual(self.picture(*seen, "--hide", "blue", model="both.json"), alone)
         self.assertEqual(self.picture("--hide", "box", model="both.json"), self.picture(model="ball.json"))
-        self.bad(1, "both.json", "--hide", "bal", says=["option '--hide': the model has no object, part or material 'bal'", "did you mean 'ball'?"])
+        self.bad(1, "both.json", "--hide", "bal", says=["option '--hide': the model has no object, part or material 'bal'", "did you mean 'ball'?"], leaves=("ball.json", "both.json"))
 
     def test_list(self):
         text = self.good("materials", "--color-mode", "raw").stdout.decode()

@@ -111,7 +111,7 @@ const STRINGS = {
   lightHeight: 'Height',
   lightBright: 'Brightness',
   lightColor: 'Colour of the light',
-  plainProjection: 'Perspective',
+  plainProjection: 'Projection',
   plainColor: 'Colour',
   plainOpacity: 'Opacity',
   plainLightScale: 'All lights',

@@ -1,5 +1,5 @@
 // light_controls.js: one light of the picture, moved by buttons and sliders: around the model as it is seen, and above it.
-import { emit, gestureKey, on, refuse, state, view } from './app.js';
+import { gestureKey, on, refuse, state, view } from './app.js';
 import { add, cameraAxes, cross, dot, length, scale, sub, unit } from './camera.js';
 import { button, element } from './dom.js';
 import { lightText, movedTo, nameOf, newLight, parseLight, placeOf } from './lights.js';
@@ -85,7 +85,6 @@ export function lightControls() {
   const places = PLACES.map(([key, at, above]) => button(key, () => change((light) => placed(light, at, above))));
   choice.onchange = () => {
     chosen = Number(choice.value);
-    emit('fit');
     show();
   };
   function show() {

@@ -38,16 +38,18 @@ class Hand {
   }
 }
 
+const BEHIND = '--background=#8899aa'; // opaque: a PPM has no alpha
+
 // The mean of red, green and blue where the model is.
 const meanColor = (page) => page.evaluate(() => {
   const canvas = document.getElementById('canvas'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height), sum = [0, 0, 0];
   let count = 0;
-  for (let i = 0; i < data.length; i += 4) if (data[i + 3] === 255 && ++count) for (const k of [0, 1, 2]) sum[k] += data[i + k];
+  for (let i = 0; i < data.length; i += 4) if ((data[i] !== 0x88 || data[i + 1] !== 0x99 || data[i + 2] !== 0xaa) && ++count) for (const k of [0, 1, 2]) sum[k] += data[i + k];
   return sum.map((x) => Math.round(x / count));
 });
 
 async function tasks({ open, models, said }, address, label) {
-  const page = await open(address), hand = new Hand(page), textured = (command) => command.replace('quad.obj', 'textured/quad.obj');
+  const page = await open(address + fragment(['teapot', '--size=480x360', BEHIND])), hand = new Hand(page), textured = (command) => command.replace('quad.obj', 'textured/quad.obj');
   await drawn(page, label);
   await hand.choose('Open files…', ['quad.obj', 'quad.mtl', 'quad.jpg', 'side.png'].map((name) => join(models, 'textured', name)));
   await until(page, () => document.getElementById('model').value === '/quad.obj');
@@ -102,9 +104,9 @@ async function tasks({ open, models, said }, address, label) {
 
 const CONTROLS = [
   ['button', 'Front', /--view=front$/], ['button', 'Isometric', /--view=iso$/], ['button', 'ruby', /--material=ruby$/], ['button', 'sky', /--environment=sky$/],
-  ['button', 'technical', /--look=technical$/], ['button', 'Black', /--background=black$/], ['button', 'Left', /--light=point:position=\S+$/, 'Where the light comes from'],
+  ['button', 'technical', /--look=technical$/], ['button', 'Black', /--background=black /], ['button', 'Left', /--light=point:position=\S+$/, 'Where the light comes from'],
 ];
-const SMALL = ['sphere', '--size=96x96', '--light=point:position=1r/1r/2r'];
+const SMALL = ['sphere', '--size=96x96', BEHIND, '--light=point:position=1r/1r/2r'];
 
 async function controls({ open, origin, said }) {
   const page = await open(origin + fragment(SMALL));
@@ -157,7 +159,7 @@ async function contents({ open, origin, models, said }) {
     await settled(page, `without ${name}`);
     const isEmpty = await page.evaluate(() => {
       const canvas = document.getElementById('canvas');
-      return canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.every((byte) => byte === 0);
+      return canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.every((byte, i) => byte === [0x88, 0x99, 0xaa, 255][i % 4]);
     });
     ok(new RegExp(`--hide=${name}$`).test(await commandOf(page)) && isEmpty, `${name} is hidden`, await commandOf(page));
     await page.getByRole('checkbox', { name: `Show ${name}` }).check();

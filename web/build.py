@@ -92,7 +92,7 @@ def make_offline(served, bundles):
     names = sorted(name for name in os.listdir(served) if name.endswith((".js", ".css", ".html", ".wasm")) and name != OFFLINE)
     files = {"./" if name == "index.html" else name: integrity(os.path.join(served, name)) for name in names}
     shaders = bundles.shaders + ["check.wasm", bundle.CODEMIRROR]
-    kinds = {"FILES": files, "LATER": [name for name in names if name in shaders + [DECODERS]], "PLAIN": [*module_parts.PARTS[1:]], "THREADS": [*module_parts.THREADS_PARTS]}
+    kinds = {"FILES": files, "LATER": [name for name in names if name in shaders + [DECODERS, ALONE]], "PLAIN": [*module_parts.PARTS[1:]], "THREADS": [*module_parts.THREADS_PARTS]}
     cache = hashlib.sha256(json.dumps(files, sort_keys=True).encode()).hexdigest()[:16]
     text = page_file(OFFLINE).replace("lambent-HASH", "lambent-" + cache)
     for name, value in kinds.items():
@@ -103,6 +103,7 @@ def make_offline(served, bundles):
 
 
 OFFLINE, DECODERS = "offline_worker.js", "lambent-decoders.wasm"
+ALONE = "alone.html" # lambent.html beside the served page, which a page with a model is made of
 PACKED = (".js", ".css", ".html", ".wasm")
 PACKER = """
 const { readFileSync, statSync, utimesSync, writeFileSync, existsSync } = require('fs'), { brotliCompressSync, gzipSync, constants } = require('zlib');
@@ -141,7 +142,9 @@ def make_page(folder):
         bundle.write(os.path.join(served, name), content)
     module_parts.split(os.path.join(modules, "lambent-unsplit"), [os.path.join(served, name) for name in module_parts.PARTS])
     module_parts.split_threads(os.path.join(with_threads, "lambent-unsplit"), [os.path.join(served, name) for name in module_parts.THREADS_PARTS])
-    kept = {*files, *module_parts.PARTS, *module_parts.THREADS_PARTS, OFFLINE}
+    make_one_file(folder, bundles, editor)
+    bundle.write(os.path.join(served, ALONE), open(os.path.join(folder, "lambent.html")).read())
+    kept = {*files, *module_parts.PARTS, *module_parts.THREADS_PARTS, OFFLINE, ALONE}
     for name in os.listdir(served): # of older scripts
         if re.sub(r"\.(gz|br)$", "", name) not in kept:
             os.remove(os.path.join(served, name))
@@ -151,7 +154,6 @@ def make_page(folder):
     kinds = {"first": bundles.first + bundles.worker, "later": [name for name in bundles.later if name not in bundles.shaders],
              "editor": shaders + [bundle.CODEMIRROR] * bool(editor)}
     bundle.write(os.path.join(folder, "scripts.json"), json.dumps(kinds)) # for sizes.py
-    make_one_file(folder, bundles, editor)
     bundle.write(os.path.join(folder, "lambent-threads.wasm"), open(os.path.join(with_threads, "lambent.wasm"), "rb").read()) # for lambent view, undivided
 
 

@@ -101,6 +101,8 @@ export class Lambent {
   curves(words: string[], of: { light: number; farthest: number; shininess: number; reflection: string }): { type: string; attenuation: number[]; spot: number[]; highlight: number[] };
   /** The picture's lights in the form of a scene file, as `lambent lights` prints them. */
   lights(words: string[]): any;
+  /** What the model contains: its size and unit, objects with their parts, materials, animations, variants, cameras. */
+  contents(words: string[]): any;
   options(): Options;
   /** The files have changed: the model is read anew. */
   forget(): void;

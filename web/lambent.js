@@ -127,6 +127,11 @@ export class Lambent {
     return this.#call('web_lights', this.#words(words));
   }
 
+  // What the model contains: its size, objects, materials, animations.
+  contents(words) {
+    return this.#call('web_contents', this.#words(words));
+  }
+
   // The options of a picture, in the groups of the help; the names of shapes; the version.
   options() {
     return this.#call('web_options');

@@ -20,6 +20,7 @@ export class Files {
     this.files = new Map();
     this.folders = new Set(['']);
     this.absent = new Set(); // paths that were asked for, and are not there
+    this.used = new Set(); // paths of files that were opened
   }
 
   static clean(path) {
@@ -266,6 +267,7 @@ export function system(files, words, print) {
       }
       if (kind && create && exclusive) return EXIST;
       if (folder && kind !== FOLDER) return NOTDIR;
+      if (kind === FILE) files.used.add(clean);
       if (kind === FOLDER) {
         if (create || truncate) return ISDIR;
         open.set(next, { path: clean, folder: true });

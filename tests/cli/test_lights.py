@@ -373,6 +373,20 @@ class Materials(Pictures):
         for words in (("--shininess", "-1"), ("--shininess", "nan"), ("--opacity", "-0.1"), ("--opacity", "1.1")):
             self.bad(1, "sphere", *words, says=[words[0], "expected a number from 0"])
 
+
+    def test_hide(self):
+        objects = [{"name": "ball", "shape": "sphere", "material": "red"}, {"name": "box", "shape": "cube", "transform": [["translate", 2, 0, 0]], "material": "blue"}]
+        materials = {"red": {"diffuse": [1, 0, 0]}, "blue": {"diffuse": [0, 0, 1]}}
+        for name, list_of in (("both", objects), ("ball", objects[:1])):
+            (self.folder / f"{name}.json").write_text(json.dumps({"lambent": 1, "materials": materials, "objects": list_of}))
+        seen = ("--shadows", "--ground", "shadow", "--camera", "eye=1/3/9,target=1/0/0,fovy=40")
+        alone, both = (self.picture(*seen, model=f"{name}.json") for name in ("ball", "both"))
+        self.assertNotEqual(alone, both)
+        self.assertEqual(self.picture(*seen, "--hide", "box", model="both.json"), alone)
+        self.assertEqual(self.picture(*seen, "--hide", "blue", model="both.json"), alone)
+        self.assertEqual(self.picture("--hide", "box", model="both.json"), self.picture(model="ball.json"))
+        self.bad(1, "both.json", "--hide", "bal", says=["option '--hide': the model has no object, part or material 'bal'", "did you mean 'ball'?"], leaves=("ball.json", "both.json"))
+
     def test_list(self):
         text = self.good("materials", "--color-mode", "raw").stdout.decode()
         lines = {line.split()[0]: line.split()[1:] for line in text.splitlines() if line}

@@ -298,12 +298,14 @@ class View(ViewCase):
         server = self.serve("models/", "--background", "white")
         text = server.get("")[2].decode()
         names = ["/bad%20%3Cb%3E%20%26%20%22.obj", "/pictures/x.stl", "/quad.obj"]
-        self.assertEqual(re.findall(r'src="thumb([^"]*)"', text), names)
+        self.assertEqual(re.findall(r'data-thumb="thumb([^"]*)"', text), names)
         self.assertEqual(re.findall(r'href="page#([^"]*)"', text), [name + "&--background%3Dwhite" for name in names])
-        self.assertEqual(text.count('loading="lazy"'), 3)
+        sizes = [os.path.getsize(place / name) for name in ("bad <b> & \".obj", "pictures/x.stl", "quad.obj")]
+        self.assertEqual([int(size) for size in re.findall(r'<li data-size="(\d+)" data-time="\d{9,}">', text)], sizes)
         self.assertIn("bad &lt;b&gt; &amp; &quot;.obj", text)
-        self.assertNotIn("<script", text)
-        self.assertIn("default-src 'none'; img-src 'self'", text)
+        self.assertEqual(re.findall("<script[^>]*>", text), ['<script type="module" src="gallery.js">'])
+        self.assertIn("default-src 'none'; script-src 'self'; connect-src 'self'; img-src blob: data:;", text)
+        self.assertEqual(server.get("gallery.js")[1]["Content-Type"], "text/javascript")
         self.assertEqual(server.get("gallery.css")[1]["Content-Type"], "text/css")
         page = server.get("page")[2].decode()
         self.assertEqual(json.loads(re.search(r'id="served">([^<]*)<', page)[1]), {"gallery": True, "threads": False})
@@ -313,6 +315,7 @@ class View(ViewCase):
         self.assertEqual(body, self.good("models/quad.obj", "--background", "white", "--size", "256", "-o", "-").stdout)
         status, headers, body = server.get("thumb" + names[0])
         self.assertEqual((status, headers["Content-Type"]), (422, "image/svg+xml"))
+        self.assertNotIn("models/", body.decode())
         self.assertIn("&lt;b&gt; &amp; &quot;", re.sub(r"</tspan><tspan[^>]*>", " ", body.decode()))
         for path in ("/out.obj", "/../cube.obj", "/nothing.obj", "/data.txt"):
             self.assertEqual(server.get("thumb" + path)[0], 404, path)

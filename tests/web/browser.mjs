@@ -383,6 +383,7 @@ async function lights() {
     await settled(page, 'lights written out');
     ok((await pixels(page)) === hash, `lights are written out: the same picture of ${words.join(' ')}`, await commandOf(page));
     console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash })}`);
+    await page.locator('#export').click();
     const { name, bytes } = await saved(page, () => page.locator('#save-scene').click()), scene = JSON.parse(bytes.toString());
     ok(scene.lambent === 1 && scene.lights.length > 0 && name === `${words[0]}.json`, 'the scene file is saved', JSON.stringify(scene).slice(0, 300));
     await page.close();

@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { commandOf, drawn, fragment, ok, pixels, settled, until, watchedPage } from './driver.mjs';
 import { choose, fingers, isFirefoxPage } from './input.mjs';
+import { newcomerParts } from './newcomer.mjs';
 import { openBrowser } from './serve.mjs';
 
 const [, , playwright, executablePath, built, models] = process.argv, FIRST_MAX = 300_000;
@@ -210,7 +211,8 @@ async function screens() {
   }
 }
 
-const parts = { firstPicture, stop: () => interrupted(origin, 'one thread'), stopThreads: () => interrupted(`${origin}isolated/`, 'threads'), files, compressed, links, screens };
+const parts = { firstPicture, stop: () => interrupted(origin, 'one thread'), stopThreads: () => interrupted(`${origin}isolated/`, 'threads'), files, compressed, links, screens,
+  ...newcomerParts({ open, origin, models, built, said }) };
 const only = process.env.LAMBENT_BROWSER?.split(',');
 for (const [name, part] of Object.entries(parts)) {
   if (only && !only.includes(name)) continue;

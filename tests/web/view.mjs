@@ -1,8 +1,9 @@
 // view.mjs PLAYWRIGHT BROWSER MODEL FOLDER PROCESS LARGE: `lambent view` in a browser. MODEL: the address of a viewer of FOLDER's part.obj, a copy of
 // cube.obj, whose process id is PROCESS. LARGE: that of a viewer of a folder with points.ply, which is too large for the page; "": none. Prints lines of the Test
 // Anything Protocol without numbers, and as browser.mjs commands with the pixels that they have.
-import { copyFileSync, renameSync, writeFileSync } from 'node:fs';
+import { copyFileSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
 import { commandOf, drawn, fragment, ok, pixels, settled, until, watchedPage } from './driver.mjs';
 import { launch } from './serve.mjs';
 
@@ -35,6 +36,16 @@ async function oneModel() {
   const turned = await commandOf(page), before = await pixels(page);
   ok(/--camera=/.test(turned) && before !== first, 'it is turned', turned);
   said(turned.replace('part.obj', 'cube.obj'), before, 'the viewer draws it turned');
+
+  // The page that is sent has the model, and nothing of the viewer.
+  await page.locator('#export').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#save-page').click()]), sent = join(folder, 'sent.html'), text = readFileSync(await download.path(), 'utf8');
+  writeFileSync(sent, text);
+  const other = await watchedPage(context, reports);
+  await other.goto(pathToFileURL(sent).href);
+  await drawn(other, 'what was sent');
+  ok((await pixels(other)) === before && !text.includes(new URL(model).pathname.split('/')[1]), 'a page is sent from the viewer, without its address');
+  await other.close();
 
   // The file is replaced as editors do it, damaged, and written again.
   await page.evaluate(() => {
@@ -75,6 +86,22 @@ async function gallery() {
   for (const link of await page.locator('li a').all()) await link.scrollIntoViewIfNeeded();
   await until(page, () => [...document.images].every((image) => image.complete && image.naturalWidth === 256));
   ok(true, 'each has its picture, or its sentence');
+  const shown = () => page.evaluate(() => [...document.querySelectorAll('li:not([hidden]) a')].map((link) => link.dataset.name));
+  await page.keyboard.press('/');
+  await page.keyboard.type('CUBE');
+  ok((await shown()).length > 1 && (await shown()).every((name) => /cube/.test(name)), 'the gallery finds names', (await shown()).join(' '));
+  await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('ArrowRight');
+  ok((await page.evaluate(() => document.activeElement.dataset.name)) === (await shown())[1], 'arrow keys go from model to model');
+  await page.keyboard.press('Escape');
+  await page.locator('#order').selectOption('size');
+  const [largest] = await shown();
+  await page.locator('#order').selectOption('failed');
+  const [failed] = await shown();
+  ok(largest === 'points.ply' && /broken\.obj$/.test(failed), 'the gallery sorts by size, and by errors', `${largest} ${failed}`);
+  await page.locator('#order').selectOption('date');
+  const times = await page.evaluate(() => [...document.querySelectorAll('li')].map((item) => Number(item.dataset.time)));
+  ok(times.every((time, i) => !i || time <= times[i - 1]), 'and by date');
   await page.locator('li a', { hasText: 'cube.ply' }).click();
   await until(page, () => document.body.dataset.drawn);
   await drawn(page, 'of the gallery');

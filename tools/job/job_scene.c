@@ -80,7 +80,12 @@ static bool apply_materials(const struct options *o, lam_scene *scene, lam_error
             !material_option_set(&plain, false, "shininess", scene, error))
             return false;
     }
-    return set_materials(&o->material.back_materials, true, "back-material", o, scene, error);
+    if (!set_materials(&o->material.back_materials, true, "back-material", o, scene, error))
+        return false;
+    for (int i = 0; i < o->material.hidden.count; i++)
+        if (!material_option_hide(o->material.hidden.items[i], scene, error))
+            return false;
+    return true;
 }
 
 static bool apply_sides(const struct options *o, lam_scene *scene, lam_error *error)

@@ -176,3 +176,79 @@ bool material_option_set(const struct material_option *option, bool back, const 
         return not_found(option, back, name, scene, error);
     return found > 0;
 }
+
+// A copy that the mask leaves out everywhere: neither drawn nor in the way of light.
+static lam_material clear_copy(lam_material material)
+{
+    material.diffuse.a = 0;
+    material.alpha_mode = LAM_ALPHA_MASK;
+    material.alpha_cutoff = 0.5f;
+    return material;
+}
+
+// Returns how many objects have the name, or −1 with the error.
+static int hide_objects(const char *target, lam_scene *scene, lam_error *error)
+{
+    int found = 0;
+    for (int i = 0; i < lam_scene_object_count(scene); i++) {
+        if (!same(lam_scene_object(scene, i)->name, target))
+            continue;
+        if (!lam_scene_hide_object(scene, i, true, error))
+            return -1;
+        found++;
+    }
+    return found;
+}
+
+static int hide_parts(const char *target, lam_scene *scene, lam_error *error)
+{
+    int found = 0;
+    for (int m = 0; m < lam_scene_mesh_count(scene); m++)
+        for (uint32_t p = 0; p < lam_scene_mesh(scene, m)->part_count; p++) {
+            if (!same(lam_scene_mesh(scene, m)->parts[p].name, target))
+                continue;
+            lam_material clear = clear_copy(material_at(scene, lam_scene_mesh(scene, m)->parts[p].material));
+            int index = lam_scene_add_material(scene, &clear, error);
+            if (index < 0 || !lam_scene_set_part_material(scene, m, p, index, error))
+                return -1;
+            found++;
+        }
+    return found;
+}
+
+// Objects that show nothing else are hidden as a whole: their box does not count then.
+static bool hide_objects_of(int material, lam_scene *scene, lam_error *error)
+{
+    for (int i = 0; i < lam_scene_object_count(scene); i++)
+        if (front_of(scene, lam_scene_object(scene, i)) == material && !lam_scene_hide_object(scene, i, true, error))
+            return false;
+    return true;
+}
+
+static int hide_materials(const char *target, lam_scene *scene, lam_error *error)
+{
+    int found = 0;
+    for (int i = 0; i < lam_scene_material_count(scene); i++) {
+        if (!same(lam_scene_material(scene, i)->name, target))
+            continue;
+        lam_material clear = clear_copy(*lam_scene_material(scene, i));
+        if (!lam_scene_set_material(scene, i, &clear, error) || !hide_objects_of(i, scene, error))
+            return -1;
+        found++;
+    }
+    return found;
+}
+
+bool material_option_hide(const char *target, lam_scene *scene, lam_error *error)
+{
+    int found = hide_objects(target, scene, error);
+    if (found == 0)
+        found = hide_parts(target, scene, error);
+    if (found == 0)
+        found = hide_materials(target, scene, error);
+    if (found == 0) {
+        struct material_option option = {.target = target};
+        return not_found(&option, false, "hide", scene, error);
+    }
+    return found > 0;
+}

@@ -31,7 +31,7 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
     return true;
 }
 
-void material_option_mirror(struct material_option *option)
+const char *material_option_metal(const char *name)
 {
     // The linear reflectance of metals at normal incidence, from Akenine-Möller et al., Real-Time Rendering, 4th
     // edition, table 9.2. Bronze is the mean of copper and brass.
@@ -44,15 +44,22 @@ void material_option_mirror(struct material_option *option)
                   {"gold", "diffuse=1/0.782/0.344,metallic=1,roughness=0.2"},
                   {"silver", "diffuse=0.972/0.960/0.915,metallic=1,roughness=0.2"}};
     for (size_t i = 0; i < sizeof metals / sizeof *metals; i++)
-        if (strcmp(option->text, metals[i].name) == 0) {
-            size_t size = strlen(metals[i].words) + 1, rest = option->target ? strlen(option->target) + 1 : 0;
-            if (size + rest > sizeof option->text)
-                return;
-            if (option->target) // points behind the name in the same text
-                option->target = memmove(option->text + size, option->target, rest);
-            memcpy(option->text, metals[i].words, size);
-            return;
-        }
+        if (strcmp(name, metals[i].name) == 0)
+            return metals[i].words;
+    return NULL;
+}
+
+void material_option_mirror(struct material_option *option)
+{
+    const char *words = material_option_metal(option->text);
+    if (!words)
+        return;
+    size_t size = strlen(words) + 1, rest = option->target ? strlen(option->target) + 1 : 0;
+    if (size + rest > sizeof option->text)
+        return;
+    if (option->target) // lies behind the name, in the same text
+        option->target = memmove(option->text + size, option->target, rest);
+    memcpy(option->text, words, size);
 }
 
 lam_material material_option_apply(const struct material_option *option, lam_material material)

@@ -14,6 +14,9 @@ struct material_option {
 // Parses a text for lam_material_parse, optionally followed by "@TARGET".
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error);
 
+// Returns the keys of the physical metal of a name, "diffuse=…,metallic=1,roughness=0.2", or NULL for other materials.
+const char *material_option_metal(const char *name);
+
 // Makes a metal's name alone select the physical metal, which reflects the studio, instead of the row of the classic
 // table.
 void material_option_mirror(struct material_option *option);
@@ -24,6 +27,9 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
 // Sets the front or back (`back`) material of a scene's objects. Error messages use `name` as the option's name.
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                          lam_error *error);
+
+// Hides the objects of a name, otherwise its parts, otherwise the surfaces of its material (--hide).
+bool material_option_hide(const char *target, lam_scene *scene, lam_error *error);
 
 // Adds a warning to the scene for each coefficient above 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene);

@@ -92,6 +92,7 @@ struct lighting_options {
 struct material_options {
     struct texts materials; // as typed, checked
     struct texts back_materials;
+    struct texts hidden;       // names of objects, parts or materials that are not drawn
     const char *model_color;   // the colour of all materials, as typed; NULL keeps their own
     double shininess, opacity; // valid if the next flag is set
     bool has_shininess, has_opacity;

@@ -505,6 +505,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
      "The material of back faces, as in `--material`; properties without a key are copied from the front.", NULL,
      .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
+    {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
+     "NAME selects the objects of that name, or else the parts (OBJ groups, STL solids), or else the surfaces of the "
+     "material of that name. They are neither drawn nor cast shadows. `lambent view` and the web page list the names.",
+     .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
      "It replaces the shininess of every material, including materials of `--material`.", .store = store_number,
      .others = "gloss glossiness specular-exponent exponent", FIELD(material.shininess),

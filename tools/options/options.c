@@ -29,6 +29,7 @@ void options_free(struct options *options)
     free(options->lighting.lights.items);
     free(options->material.materials.items);
     free(options->material.back_materials.items);
+    free(options->material.hidden.items);
     free(options->shading.rotations.items);
     free(options->shading.sheet_rotations.items);
     free(options->sheet.across.items);
@@ -56,6 +57,7 @@ bool options_copy(struct options *to, const struct options *from)
     bool ok = texts_copy(&to->lighting.lights);
     ok = texts_copy(&to->material.materials) && ok;
     ok = texts_copy(&to->material.back_materials) && ok;
+    ok = texts_copy(&to->material.hidden) && ok;
     ok = texts_copy(&to->shading.rotations) && ok;
     ok = texts_copy(&to->shading.sheet_rotations) && ok;
     ok = texts_copy(&to->sheet.across) && ok;

@@ -84,7 +84,7 @@ enum MHD_Result view_answer_result(struct view_connection *c)
     memmove(result.bytes, result.bytes + result.notes_at, size);
     if (c->thumbnail && result.status == 422) { // browsers also show the picture of an error status
         result.bytes[size] = 0;                 // the process has reserved a byte for it
-        char *picture = view_gallery_failed(result.bytes, &size);
+        char *picture = view_gallery_failed(c->view, result.bytes, &size);
         free(result.bytes);
         return picture ? view_answer(c->view, c->connection, 422, "image/svg+xml", picture, size, VIEW_OWNED) : MHD_NO;
     }

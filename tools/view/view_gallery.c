@@ -3,24 +3,16 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "batch_sources.h"
 #include "console.h"
 #include "html.h"
+#include "gallery.inc"
 
-const char view_gallery_style[] =
-    ":root { color-scheme: light dark; font: 16px/1.4 system-ui, sans-serif; }\n"
-    "body { margin: 0 auto; max-width: 1600px; padding: 1rem; }\n"
-    "h1 { font-size: 1.3rem; overflow-wrap: anywhere; } small { display: block; opacity: .7; }\n"
-    "ul { display: grid; gap: .75rem; grid-template-columns: repeat(auto-fill, minmax(min(11rem, 45%), 1fr)); "
-    "list-style: "
-    "none; margin: 0; padding: 0; }\n"
-    "a { border-radius: .5rem; color: inherit; display: block; padding: .5rem; text-decoration: none; }\n"
-    "a:hover, a:focus-visible { background: color-mix(in srgb, currentColor 12%, transparent); }\n"
-    "a:focus-visible { outline: 3px solid Highlight; }\n"
-    "img { aspect-ratio: 1; display: block; height: auto; object-fit: contain; width: 100%; }\n"
-    "span { display: block; font-size: .9rem; overflow-wrap: anywhere; text-align: center; }\n";
+const char *const view_gallery_style = text_gallery_css;
+const char *const view_gallery_script = text_gallery_js;
 
 char *view_gallery_words(const struct view *view, const char *model, size_t *size)
 {
@@ -38,22 +30,27 @@ char *view_gallery_words(const struct view *view, const char *model, size_t *siz
     return words;
 }
 
-static bool is_open(const struct view *view, const char *path)
+// Reads a model's size and time. Returns false if it cannot be opened: a link that leads out of the folder.
+static bool is_open(const struct view *view, const char *path, struct stat *about)
 {
     int file = view_files_open(&view->files, path);
+    bool ok = file >= 0 && fstat(file, about) == 0;
     if (file >= 0)
         close(file);
-    return file >= 0;
+    return ok;
 }
 
-static void put_model(FILE *out, const struct view *view, const char *path)
+static void put_model(FILE *out, const struct view *view, const char *path, const struct stat *about)
 {
     const char *name = strrchr(path, '/') + 1;
     char *folder = strndup(path + 1, (size_t)(name - path - 1));
-    fputs("<li><a href=\"page#", out);
+    fprintf(out, "<li data-size=\"%lld\" data-time=\"%lld\"><a data-name=\"", (long long)about->st_size,
+            (long long)about->st_mtime);
+    html_text(out, path + 1);
+    fputs("\" href=\"page#", out);
     html_address(out, path);
     fputs(view->page.fragment, out);
-    fputs("\"><img loading=\"lazy\" width=\"256\" height=\"256\" alt=\"\" src=\"thumb", out);
+    fputs("\"><img width=\"256\" height=\"256\" alt=\"\" data-thumb=\"thumb", out);
     html_address(out, path);
     fputs("\"><span><small>", out);
     html_text(out, folder);
@@ -70,8 +67,9 @@ static void put_models(FILE *out, const struct view *view, const struct batch_pl
     for (size_t i = 0; i < plan->count; i++) {
         const char *path = plan->models[i].path + prefix;
         path += *path == '/' && path[1] == '/'; // the folder's name ends with '/'
-        if (is_open(view, path))                // false for a link that leads out of the folder
-            put_model(out, view, path);
+        struct stat about;
+        if (is_open(view, path, &about)) // false for a link that leads out of the folder
+            put_model(out, view, path, &about);
     }
     fputs("</ul>\n", out);
 }
@@ -97,8 +95,11 @@ static void put_lines(FILE *out, const char *sentence)
     }
 }
 
-char *view_gallery_failed(const char *sentence, size_t *size)
+char *view_gallery_failed(const struct view *view, const char *sentence, size_t *size)
 {
+    size_t prefix = strlen(view->files.prefix);
+    if (prefix && strncmp(sentence, view->files.prefix, prefix) == 0 && sentence[prefix] == '/')
+        sentence += prefix + 1;
     char *text = NULL;
     FILE *out = open_memstream(&text, size);
     if (!out)
@@ -116,6 +117,14 @@ char *view_gallery_failed(const char *sentence, size_t *size)
     return NULL;
 }
 
+static const char gallery_bar[] =
+    "</h1>\n<output id=\"count\" aria-label=\"Models\"></output>\n"
+    "<input id=\"search\" type=\"search\" placeholder=\"Search names (/)\" aria-label=\"Search names\">\n"
+    "<label>Sort by <select id=\"order\"><option value=\"name\">name</option><option value=\"size\">size</option>"
+    "<option value=\"date\">date, newest first</option><option value=\"failed\">errors "
+    "first</option></select></label>\n"
+    "</header>\n<main>\n<noscript>The gallery needs JavaScript.</noscript>\n";
+
 bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_error *error)
 {
     struct batch_plan plan;
@@ -128,18 +137,17 @@ bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_e
         ok = complain(error, LAM_LIMIT, "out of memory");
     if (ok) {
         fputs("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-              "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src 'self' data:; "
-              "style-src "
-              "'self'; "
-              "base-uri 'none'; form-action 'none'\">\n"
+              "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self'; "
+              "connect-src 'self'; img-src blob: data:; style-src 'self'; base-uri 'none'; form-action 'none'\">\n"
               "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
               "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
-              "<link rel=\"stylesheet\" href=\"gallery.css\">\n<title>",
+              "<link rel=\"stylesheet\" href=\"gallery.css\">\n<script type=\"module\" "
+              "src=\"gallery.js\"></script>\n<title>",
               out);
         html_text(out, view->folder);
-        fputs(" · Lambent</title>\n</head>\n<body>\n<h1>", out);
+        fputs(" · Lambent</title>\n</head>\n<body>\n<header>\n<h1>", out);
         html_text(out, view->folder);
-        fputs("</h1>\n<main>\n", out);
+        fputs(gallery_bar, out);
         put_models(out, view, &plan);
         fputs("</main>\n</body>\n</html>\n", out);
         if (fclose(out) != 0)

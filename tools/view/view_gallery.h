@@ -1,5 +1,4 @@
-// view_gallery.h: makes the gallery of a folder: a page without scripts, whose pictures the browser requests when they
-// become visible.
+// view_gallery.h: makes the gallery of a folder: a page whose script (gallery.js) requests the pictures that are visible.
 #ifndef VIEW_GALLERY_H
 #define VIEW_GALLERY_H
 
@@ -11,11 +10,11 @@ enum { VIEW_THUMBNAIL = 256 }; // pixels, the width and height
 // LAM_CANNOT_READ or LAM_LIMIT.
 bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_error *error);
 
-// Returns an SVG with a sentence, shown for a picture that cannot be drawn. It is allocated with malloc; NULL if memory
-// runs out.
-char *view_gallery_failed(const char *sentence, size_t *size);
+// Returns an SVG with a sentence, shown for a picture that cannot be drawn; the sentence names the file relative to the
+// folder. It is allocated with malloc; NULL if memory runs out.
+char *view_gallery_failed(const struct view *view, const char *sentence, size_t *size);
 
-extern const char view_gallery_style[]; // "gallery.css"
+extern const char *const view_gallery_style, *const view_gallery_script; // "gallery.css", "gallery.js"
 
 // Returns the command line for the thumbnail of a model, each word with a terminating zero, allocated with malloc.
 // Returns NULL if memory runs out.

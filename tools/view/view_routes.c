@@ -231,6 +231,9 @@ static enum MHD_Result answer_address(struct view_connection *c, const char *add
     if (strcmp(address, "gallery.css") == 0)
         return view_answer(view, c->connection, 200, "text/css", view_gallery_style, strlen(view_gallery_style),
                            VIEW_BORROWED);
+    if (strcmp(address, "gallery.js") == 0)
+        return view_answer(view, c->connection, 200, "text/javascript", view_gallery_script,
+                           strlen(view_gallery_script), VIEW_BORROWED);
     if (strcmp(address, "threads.wasm") == 0 && view->page.module)
         return view_answer(view, c->connection, 200, "application/wasm", view->page.module, view->page.module_size,
                            VIEW_BORROWED);

@@ -7,6 +7,7 @@
 
 #include "command_table.h"
 #include "console.h"
+#include "contents.h"
 #include "device_option.h"
 #include "environment_cache.h"
 #include "exit_codes.h"
@@ -15,6 +16,7 @@
 #include "job_check.h"
 #include "json.h"
 #include "kept_model.h"
+#include "material_option.h"
 #include "picture_json.h"
 
 static struct kept_model model;
@@ -271,6 +273,27 @@ int web_lights(int count)
     return code;
 }
 
+int web_contents(int count)
+{
+    struct options options;
+    struct job job = {0};
+    lam_error error = {0};
+    bool ok = start(count, &options, &job, &error) && job_load(&job, NULL, &error);
+    if (ok) {
+        struct json json = {.file = stdout};
+        json_open(&json, NULL, '{');
+        contents_json(&json, job.scene);
+        json_close(&json, '}');
+        putc('\n', stdout);
+        fflush(stdout);
+        job.scene = NULL;
+        job_free(&job);
+    }
+    int code = ok ? 0 : answer(&job, false, &error);
+    options_free(&options);
+    return code;
+}
+
 static void option_json(struct json *json, const struct option *o)
 {
     json_open(json, NULL, '{');
@@ -317,6 +340,18 @@ void web_options(void)
     json_open(&json, "shapes", '[');
     for (int i = 0; i < lam_shape_count(); i++)
         json_text(&json, NULL, lam_shape_name(i));
+    json_close(&json, ']');
+    json_open(&json, "materials", '[');
+    for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
+        json_open(&json, NULL, '{');
+        json_text(&json, "name", lam_material_name((lam_material_id)i));
+        json_text(&json, "metal", material_option_metal(lam_material_name((lam_material_id)i)));
+        json_close(&json, '}');
+    }
+    json_close(&json, ']');
+    json_open(&json, "environments", '[');
+    for (int i = 0; lam_environment_built_in_name(i); i++)
+        json_text(&json, NULL, lam_environment_built_in_name(i));
     json_close(&json, ']');
     json_open(&json, "endings", '[');
     for (int i = 0; lam_model_format_extensions(i); i++)

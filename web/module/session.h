@@ -33,8 +33,11 @@ int web_curves(int count, int light, double farthest, double shininess) WEB_EXPO
 // Prints that picture's lights, as `lambent lights` does.
 int web_lights(int count) WEB_EXPORT(web_lights);
 
-// Lists the options of a picture with all that the help says of them, in its groups, the names of shapes, and the
-// endings of models that it reads.
+// Lists what the model of the words contains (contents.h), without drawing it.
+int web_contents(int count) WEB_EXPORT(web_contents);
+
+// Lists the options of a picture with all that the help says of them, in its groups, the names of shapes, materials and environments, and
+// the endings of models that it reads.
 void web_options(void) WEB_EXPORT(web_options);
 
 // Forgets the model: its files may be others now.

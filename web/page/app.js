@@ -18,7 +18,7 @@ import { localize } from './strings.js';
 localize(document); // the stage has its size once the page has its texts
 
 // The size that fills the stage, at most 1.6 million pixels.
-function stageSize() {
+export function stageSize() {
   const { clientWidth, clientHeight } = $('view'), ratio = devicePixelRatio || 1;
   const width = Math.max(320, clientWidth * ratio), height = Math.max(240, clientHeight * ratio), k = Math.min(1, Math.sqrt(1.6e6 / (width * height)));
   return `${Math.floor((k * width) / 8) * 8}x${Math.floor((k * height) / 8) * 8}`;
@@ -47,6 +47,8 @@ export const view = {
   shapes: [],
   options: [],
   endings: [], // of models
+  materials: [], // their names, and those of built-in environments
+  environments: [],
   missing: [], // paths of the model's files that are not there
   refusal: null, // why there is no picture, if files are missing; null: there is one
 };

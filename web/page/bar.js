@@ -10,8 +10,18 @@ on('words', () => {
   $('command').replaceChildren(...commandWords(state.words).flatMap((word) => [ours('span', word), ' ']).slice(0, -1));
   $('undo').disabled = !state.canUndo;
   $('redo').disabled = !state.canRedo;
-  if (!view.moving) history.replaceState(null, '', toFragment(state.words));
+  if (!view.moving) remember(toFragment(state.words));
 });
+
+// The address is the picture's. The browser's Back leads to the picture as it was opened, and Forward to what has been done with it: the first change, and each
+// other model, is an entry of the history.
+let isFirst = true;
+function remember(hash) {
+  const before = fromFragment(location.hash), isSame = before?.join('\n') === state.words.join('\n');
+  if (!isFirst && !isSame && (!history.state?.isChanged || before?.[0] !== state.model)) history.pushState({ isChanged: true }, '', hash);
+  else history.replaceState(history.state, '', hash);
+  isFirst = false;
+}
 
 $('undo').onclick = () => state.undo();
 $('redo').onclick = () => state.redo();
@@ -21,7 +31,7 @@ addEventListener('keydown', (event) => {
   if (event.key === 'y') (state.redo(), event.preventDefault());
 });
 
-async function copy(copied, button) {
+export async function copy(copied, button) {
   const label = button.textContent;
   try {
     await navigator.clipboard.writeText(copied);
@@ -33,8 +43,9 @@ async function copy(copied, button) {
   setTimeout(() => (button.textContent = label), 1500);
 }
 $('copy-command').onclick = (event) => copy(command(state.words), event.target);
+export const linkOf = () => location.href.split('#')[0] + toFragment(state.words);
 $('copy-link').onclick = (event) => {
-  copy(location.href.split('#')[0] + toFragment(state.words), event.target);
+  copy(linkOf(), event.target);
   if (setOf(state.model)) $('status').textContent = text('linkCopied', { file: state.model.slice(1) });
 };
 
@@ -48,9 +59,10 @@ export function download(bytes, ending, type) {
   return link.download;
 }
 
-$('save').onclick = async () => {
+// Saves the picture of words, which are those of the page or others.
+export async function saveNamed(words) {
   try {
-    const bytes = await call('save', { words: state.words, ending: 'png' });
+    const bytes = await call('save', { words, ending: 'png' });
     const digest = await crypto.subtle?.digest('SHA-256', bytes);
     const hash = [...new Uint8Array(digest ?? [])].map((b) => b.toString(16).padStart(2, '0')).join('');
     const file = download(bytes, '.png', 'image/png');
@@ -58,7 +70,8 @@ $('save').onclick = async () => {
   } catch (error) {
     refuse(error.message);
   }
-};
+}
+$('save').onclick = () => saveNamed(state.words);
 
 addEventListener('hashchange', () => {
   const words = fromFragment(location.hash);

@@ -5,7 +5,7 @@ import { text } from './strings.js';
 export class Ended extends Error {}
 
 // `open`: starts the worker. `wasm`: its module. `ways`: by the name of a part of the module, ways to it, of which the first that succeeds is taken: the part's
-// bytes, or those of a module with threads, which has all parts. Empty: the module is whole.
+// bytes, or those of a module with threads, which has all parts. Empty: the module is whole. `helps`: it is not the worker that draws the picture.
 export function caller(open, wasm, ways = {}) {
   const waiting = new Map(), fetched = new Map(), parted = Boolean(ways.more);
   let next = 0, worker = null, setup = [], ready = Promise.resolve(), cancel = null, onprogress = () => {};
@@ -50,7 +50,7 @@ export function caller(open, wasm, ways = {}) {
   }
 
   function completed({ threads, shared, flag }) {
-    document.body.dataset.threads = threads;
+    if (!ways.helps) document.body.dataset.threads = threads;
     cancel = shared ? new Int32Array(shared, flag, 1) : cancel;
   }
 

@@ -26,10 +26,13 @@ function showModels() {
 on('words', showModels);
 on('ready', showModels);
 
+// Options that name what is in a model.
+const OF_MODEL = /^--(camera|hide|animation|time|variant|scene)=|^--(back-)?material=.*@/;
+
 // Another model is seen whole: its own view. A file's materials are its own, not those of the first picture.
 function takeModel(name) {
   const own = setOf(name) ? START : [];
-  state.set(withModel(state.words.filter((word, i) => !i || (!word.startsWith('--camera') && !own.includes(word))), name));
+  state.set(withModel(state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word))), name));
 }
 
 async function read(list) {

@@ -1,6 +1,9 @@
 // inside.js: what stands in the page itself: the scripts and modules of the page in one file, packed by gzip; files, and the command line that
 // `lambent MODEL -o page.html` puts there (tools/page/page_write.c). They are texts that no browser runs, in base64.
 
+// The page in one file as it was before any script ran.
+export const pristine = ONE_FILE ? document.documentElement.cloneNode(true) : null;
+
 export const insideText = (id) => document.getElementById(id).textContent;
 export const insideScript = (code) => URL.createObjectURL(new Blob([code], { type: 'text/javascript' }));
 

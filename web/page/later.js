@@ -7,6 +7,7 @@ import { text } from './strings.js';
 
 const used = (loading) => loading.catch((error) => refuse(error.message));
 
+addTab('contents', text('tabContents'), () => used(import('./contents_tab.js')));
 addTab('options', text('tabOptions'), () => used(import('./panel.js')));
 addTab('lights', text('tabLights'), () => used(import('./light_tab.js')));
 addTab('explain', text('tabExplain'), () => used(import('./explaining.js')));
@@ -27,4 +28,4 @@ on('still', () => {
 });
 
 $('compare').onclick = async () => (await used(import('./split.js')))?.toggle();
-$('save-scene').onclick = async () => (await used(import('./scene.js')))?.saveScene();
+$('export').onclick = async () => (await used(import('./save_dialog.js')))?.openSaveDialog();

@@ -1,11 +1,13 @@
 // light_tab.js: the tab of the lights of --light: what they say, as words and as sliders, with their curves; it adds and removes them, and writes down
 // those that the program has chosen.
-import { beginGesture, call, endGesture, gestureKey, on, refuse, say, state, view } from './app.js';
+import { gestureKey, on, refuse, say, state, view } from './app.js';
 import { curvesOf } from './curves.js';
 import './explaining.js';
 import { $, button, element, ours } from './dom.js';
-import { lightText, lightWords, nameOf, newLight, parseLight } from './lights.js';
+import { lightText, nameOf, newLight, parseLight } from './lights.js';
+import { slider } from './slider.js';
 import { text } from './strings.js';
+import { writtenLights } from './written_lights.js';
 
 const place = $('panel-lights'), list = element('ul', { className: 'lights' });
 const adders = ['point', 'spot', 'directional'].map((type) =>
@@ -25,27 +27,13 @@ const SLIDERS = {
 SLIDERS.spot = [...SLIDERS.point, ['cutoff', 0, 1, 90, 1, 45], ['exponent', 0, 0, 64, 1, 0]];
 const SOFT = [['inner', 0, 0, 89, 1, 0], ['outer', 0, 1, 90, 1, 45]];
 
-// A slider; `take` gets its number while it moves. One gesture is one step of undo.
-function slider(name, label, [least, most, step], value, take) {
-  const input = element('input', { type: 'range', min: least, max: most, step, attributes: { 'aria-label': label } });
-  input.value = value;
-  const output = element('output', { textContent: value, translate: false });
-  input.oninput = () => {
-    output.textContent = input.value;
-    beginGesture();
-    take(input.value);
-  };
-  input.onchange = endGesture;
-  return element('label', { className: 'slider' }, ours('span', name), input, output);
-}
-
 function slidersOf(i, light) {
   const soft = light.keys.has('outer') ? SOFT : null;
   const rows = (SLIDERS[light.type] ?? []).filter(([key]) => !soft || (key !== 'cutoff' && key !== 'exponent')).concat((light.type === 'spot' && soft) || []);
   return rows.map(([key, part, least, most, step, standard]) => {
     const parts = (light.keys.get(key) ?? (key === 'attenuation' ? '1/0/0' : String(standard))).split('/'), unit = parts[part].endsWith('r') ? 'r' : '';
     const name = key === 'attenuation' ? `${key} ${'abc'[part]}` : key;
-    return slider(name, text('sliderOf', { name, light: nameOf(light, i) }), [least, most, step], parseFloat(parts[part]), (value) => {
+    return slider(ours('span', name), text('sliderOf', { name, light: nameOf(light, i) }), [least, most, step], parseFloat(parts[part]), (value) => {
       const texts = state.values('light'), now = parseLight(texts[i]), values = [...parts];
       values[part] = value + unit;
       if (key === 'attenuation' && values.every((one) => parseFloat(one) === 0)) values[0] = '0.01';
@@ -81,7 +69,7 @@ function showLight(one, i) {
 }
 
 // The shininess of the material, with the highlight of the explained point.
-const exponent = slider('shininess', text('sliderShininess'), [0, 3, 0.01], 1.5, (log) => {
+const exponent = slider(ours('span', 'shininess'), text('sliderShininess'), [0, 3, 0.01], 1.5, (log) => {
   state.set(state.withValues('shininess', [String(Number((10 ** log).toPrecision(3)))]), gestureKey());
 });
 const plotted = element('div');
@@ -114,20 +102,12 @@ function refresh() {
   for (const curves of list.querySelectorAll('.curves-of')) curves.refresh();
 }
 
-// The lights of the picture as words: what the program has chosen can be changed from then on. The picture must stay the same, which is checked.
 async function makeMine() {
   try {
-    const before = state.words, { lights, ambient } = await call('lights', { words: before });
-    let words = state.withValues('rig', []);
-    const change = (name, values) => (words = new state.constructor(words).withValues(name, values));
-    change('light', lights.map(lightWords));
-    change('ambient', ambient.some((x) => x > 0) ? [ambient.join('/')] : []);
-    const [old, now] = [await call('draw', { words: before }), await call('draw', { words })];
-    if (old.pixels.some((byte, i) => byte !== now.pixels[i])) refuse(text('mineDiffers'));
-    else {
-      state.set(words);
-      say(text('mineDone', { count: lights.length }));
-    }
+    const made = await writtenLights();
+    if (!made) return refuse(text('mineDiffers'));
+    state.set(made.words);
+    say(text('mineDone', { count: made.count }));
   } catch (error) {
     refuse(error.message);
   }

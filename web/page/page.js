@@ -9,6 +9,7 @@ import './files.js';
 import './quick.js';
 import './later.js';
 import './gestures.js';
+import './window_size.js';
 import './bar.js';
 
 async function start() {

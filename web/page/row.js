@@ -1,34 +1,50 @@
 // row.js: a control for an option of the program's table: its name, its value, what it is for.
-import { state } from './app.js';
+import { gestureKey, state } from './app.js';
 import { element, ours } from './dom.js';
+import { Picker } from './picker.js';
+import { showNumber, slider } from './slider.js';
 import { FORMULAS, State, VIEW, withModel } from './state.js';
 import { text } from './strings.js';
 
 // An angle takes the place of a camera, and a camera that of every angle. A formula is a model.
-export function setOption(name, values) {
+export function setOption(name, values, key = null) {
   if (name in FORMULAS && state.model !== name) return values.length ? state.set(withModel(state.words, name, values[0])) : undefined;
   if (name in FORMULAS && !values.length) values = [FORMULAS[name]];
   let words = state.withValues(name, values);
   const without = VIEW.includes(name) ? ['camera'] : name === 'camera' ? VIEW : [];
   for (const other of without) words = new State(words).withValues(other, []);
-  state.set(words);
+  state.set(words, key);
 }
 
 export class Row {
-  // `prefix`: of the identifiers of its elements, since an option can have controls in two places.
-  constructor(option, prefix) {
+  // `prefix`: of the identifiers of its elements, since an option can have controls in two places. `plain`: its name in the page's language, which the
+  // option's own follows; `range`: least, most, step and start of a slider.
+  constructor(option, prefix, { plain = null, range = null } = {}) {
     this.option = option;
     this.prefix = prefix;
-    this.change = (values) => setOption(option.name, values);
+    this.range = range;
+    this.hint = plain ? (option.default ?? '') : option.value;
+    this.change = (values, key) => setOption(option.name, values, key);
     this.label = ours('label', option.name, { htmlFor: `${prefix}-${option.name}`, title: option.summary });
+    if (plain) this.label.replaceChildren(element('span', { textContent: plain, translate: true }), ' ', ours('code', option.name));
+    if (option.kind === 'color') this.picker = new Picker(plain ?? text('pickColor', { option: option.name }), (value, key) => this.change([value], key));
+    if (range) this.#addSlider(plain ?? option.name);
     this.reset = element('button', { type: 'button', className: 'reset', textContent: '×', title: text('without', { option: `--${option.name}` }), hidden: true,
       attributes: { 'aria-label': text('without', { option: `--${option.name}` }) } });
     this.reset.onclick = () => this.change([]);
-    this.inputs = element('div');
+    this.inputs = element('div', { className: this.picker ? 'with-color' : '' });
     const about = element('p', { id: `about-${prefix}-${option.name}` }, ours('span', option.summary));
     if (option.default) about.append(' ', element('span', { textContent: text('standard', { value: option.default }) }));
-    this.place = element('div', { className: 'option' }, this.label, this.inputs, this.reset, about);
+    this.place = element('div', { className: 'option' }, this.label, this.slider ?? this.inputs, this.reset, about);
     this.show([]);
+  }
+
+  // The slider's number at the start is the option's default, if that is a number.
+  #addSlider(label) {
+    const [least, , , start] = this.range;
+    this.standard = start ?? (parseFloat(this.option.default ?? '') || Math.max(0, least));
+    this.slider = slider('', label, this.range, this.standard, (value) => this.change([value], gestureKey()));
+    this.slider.querySelector('input').id = this.label.htmlFor;
   }
 
   matches(wanted) {
@@ -42,9 +58,11 @@ export class Row {
     this.shown = key;
     this.reset.hidden = !values.length;
     this.label.classList.toggle('given', values.length > 0);
+    this.picker?.show(values.at(-1) ?? this.option.default ?? '');
+    if (this.slider) return showNumber(this.slider, values.length && isFinite(values.at(-1)) ? values.at(-1) : this.standard);
     const focused = this.inputs.contains(document.activeElement);
     const shown = this.option.repeats ? [...values, null] : [values.length ? values.at(-1) : null];
-    this.inputs.replaceChildren(...shown.map((value, i) => this.#control(value, i, values)));
+    this.inputs.replaceChildren(...shown.map((value, i) => this.#control(value, i, values)), ...(this.picker ? [this.picker.input] : []));
     if (focused) this.inputs.firstChild.focus();
   }
 
@@ -76,7 +94,7 @@ export class Row {
       control.value = value ?? '';
       control.onchange = () => take(control.value);
     } else {
-      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: o.value, translate: false });
+      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: this.hint, translate: false });
       if (control.type === 'number') {
         control.step = o.whole ? 1 : 'any';
         if (o.min !== undefined) Object.assign(control, { min: o.min, max: o.max });

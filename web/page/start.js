@@ -21,24 +21,33 @@ export async function fetchModule(name, progress = () => {}) {
   return new Blob(parts).arrayBuffer();
 }
 
-export function openWorker() {
+// The same, asked for once in a page.
+const modules = new Map();
+function moduleOnce(name, progress) {
+  if (!modules.has(name)) modules.set(name, fetchModule(name, progress).catch((error) => (modules.delete(name), Promise.reject(error))));
+  return modules.get(name);
+}
+
+// `helps`: a second worker, for small pictures, which has one thread.
+export function openWorker({ helps = false } = {}) {
   if (ONE_FILE) {
     const served = document.getElementById('served'), threads = served && JSON.parse(served.textContent).threads; // by lambent view
     const script = insideScript(insideText('worker')), load = async () => (await import('./served.js')).fetchThreads();
     const decoders = [async () => ({ wasm: await insideStream('decoders').arrayBuffer() })];
-    return caller(() => new Worker(script), insideStream('wasm').arrayBuffer(), { decoders, ...(threads ? { rest: withThreads(load, insideScript(insideText('thread'))) } : {}) });
+    return caller(() => new Worker(script), insideStream('wasm').arrayBuffer(), { decoders, ...(threads && !helps ? { rest: withThreads(load, insideScript(insideText('thread'))) } : {}), helps });
   }
   const name = 'lambent.wasm', script = new URL('worker.js', import.meta.url);
-  const wasm = fetchModule(name, (size, whole) => {
+  const wasm = moduleOnce(name, (size, whole) => {
     const amount = whole ? `${Math.min(100, Math.round((100 * size) / whole))} %` : `${Math.round(size / 1000)} kB`;
     document.getElementById('status').textContent = text('loading', { name, amount });
   });
-  const part = (name) => async () => ({ wasm: await fetchModule(`lambent-${name}.wasm`) });
+  const part = (name) => async () => ({ wasm: await moduleOnce(`lambent-${name}.wasm`) });
   return caller(() => new Worker(script, { type: 'module' }), wasm, {
-    rest: [...withThreads(() => fetchModule('lambent-threads.wasm'), new URL('thread.js', import.meta.url)), part('rest')],
+    rest: [...(helps ? [] : withThreads(() => fetchModule('lambent-threads.wasm'), new URL('thread.js', import.meta.url))), part('rest')],
     more: [part('more')],
     'threads-more': [part('threads-more')],
     decoders: [part('decoders')],
+    helps,
   });
 }
 

@@ -17,6 +17,9 @@ export function withModel(words, name, formula = FORMULAS[name]) {
 // The options that make the view; a camera takes the place of all of them.
 export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'fov', 'projection'];
 
+// Whether a value of --material is a metal that mirrors its surroundings.
+export const isMetal = (material) => /\bmetallic=1\b/.test(material ?? '');
+
 export class State {
   #past = [];
   #future = [];
@@ -34,6 +37,15 @@ export class State {
     this.#mergeKey = mergeKey;
     this.#future = [];
     this.words = words;
+    this.onchange();
+  }
+
+  // Writes another word in place of one, in the steps of undo and redo too: no step of its own.
+  replace(old, word) {
+    const change = (words) => words.map((one) => (one === old ? word : one));
+    this.#past = this.#past.map(change);
+    this.#future = this.#future.map(change);
+    this.words = change(this.words);
     this.onchange();
   }
 

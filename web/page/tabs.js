@@ -8,12 +8,21 @@ export function addTab(id, label, opened = null) {
   const tab = element('button', { type: 'button', id: `tab-${id}`, textContent: label, tabIndex: -1,
     attributes: { role: 'tab', 'aria-selected': 'false', 'aria-controls': `panel-${id}` } });
   const panel = element('section', { id: `panel-${id}`, hidden: true, attributes: { role: 'tabpanel', 'aria-labelledby': tab.id } });
-  tab.onclick = () => selectTab(id);
+  tab.onclick = () => {
+    selectTab(id);
+    bringUp();
+  };
   tabs.push({ id, tab, panel, opened });
   $('tabs').append(tab);
   $('panels').append(panel);
   if (tabs.length === 1) selectTab(id);
   return panel;
+}
+
+// In a narrow window the tabs lie below the picture, which stays: they come up to it.
+function bringUp() {
+  const below = $('stage').getBoundingClientRect().bottom, { top } = $('tabs').getBoundingClientRect();
+  if (getComputedStyle($('stage')).position === 'sticky' && top > below) scrollBy(0, top - below);
 }
 
 // `focus`: of keys; a tab that opens by itself leaves the focus where it is.

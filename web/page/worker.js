@@ -28,7 +28,7 @@ async function useThreads() {
 const aboutThreads = () => ({ threads: lambent.threads, shared: lambent.instance.exports.memory.buffer, flag: lambent.instance.exports.web_cancel_flag() });
 
 // What these calls need besides, if the module is in parts: asked for first, since a call that stops for it loses the loaded model.
-const NEEDS = { explain: 'more', lights: 'more', scene: 'more' };
+const NEEDS = { explain: 'more', lights: 'more', scene: 'more', contents: 'more' };
 const neededPart = ({ call, parted }) => parted && NEEDS[call] && (threaded ? 'threads-' : '') + NEEDS[call];
 
 const calls = {
@@ -70,7 +70,7 @@ const calls = {
   },
   // `missing`: the paths that reading the model has asked for, and not found.
   draw({ words }) {
-    if (model !== words[0]) lambent.files.absent.clear();
+    if (model !== words[0]) for (const paths of [lambent.files.absent, lambent.files.used]) paths.clear();
     model = words[0];
     return { ...lambent.draw(words), missing: [...lambent.files.absent] };
   },
@@ -79,6 +79,9 @@ const calls = {
   curves: ({ words, of }) => lambent.curves(words, of),
   lights: ({ words }) => lambent.lights(words),
   scene: ({ words }) => lambent.scene(words),
+  contents: ({ words }) => lambent.contents(words),
+  // The files that the model of the last picture has read, as [path, bytes].
+  used: () => [...lambent.files.used].filter((path) => lambent.files.get(path)).map((path) => [path, lambent.files.get(path).slice()]),
 };
 
 self.onmessage = async ({ data }) => {

@@ -1,0 +1,111 @@
+// light_controls.js: one light of the picture, moved by buttons and sliders: around the model as it is seen, and above it.
+import { gestureKey, on, refuse, state, view } from './app.js';
+import { add, cameraAxes, cross, dot, length, scale, sub, unit } from './camera.js';
+import { button, element } from './dom.js';
+import { lightText, movedTo, nameOf, newLight, parseLight, placeOf } from './lights.js';
+import { Picker } from './picker.js';
+import { showNumber, slider } from './slider.js';
+import { State, isMetal } from './state.js';
+import { text } from './strings.js';
+import { writtenLights } from './written_lights.js';
+
+// Degrees around the model, from where it is seen, to the right; and above the horizon.
+const PLACES = [['lightFront', 0, 25], ['lightLeft', -75, 25], ['lightRight', 75, 25], ['lightAbove', 0, 85], ['lightBehind', 180, 35]];
+const DEGREES = 180 / Math.PI, MOVABLE = ['point', 'spot', 'directional'];
+let chosen = 0; // its number among the lights of --light
+
+const isMovable = (one) => MOVABLE.includes(parseLight(one).type) && Boolean(placeOf(parseLight(one), view.camera, view.sphere));
+
+// The level axes of the view: to the eye, and to the right; and the model's upright one.
+function axes() {
+  const { side, above, back } = cameraAxes(view.camera), pole = unit(view.picture.camera.pole);
+  let front = sub(back, scale(pole, dot(back, pole)));
+  if (length(front) < 1e-6) front = scale(above, dot(back, pole) > 0 ? -1 : 1);
+  front = unit(front);
+  return { front, right: length(cross(pole, front)) ? unit(cross(pole, front)) : side, pole };
+}
+
+function anglesOf(light) {
+  const { front, right, pole } = axes(), way = unit(sub(placeOf(light, view.camera, view.sphere).position, view.sphere.centre));
+  return { around: Math.atan2(dot(way, right), dot(way, front)) * DEGREES, height: Math.asin(Math.max(-1, Math.min(1, dot(way, pole)))) * DEGREES };
+}
+
+function placed(light, around, height) {
+  const { front, right, pole } = axes(), far = Math.max(1.2 * view.sphere.radius, length(sub(placeOf(light, view.camera, view.sphere).position, view.sphere.centre)));
+  const level = add(scale(front, Math.cos(around / DEGREES)), right, Math.sin(around / DEGREES));
+  const way = add(scale(level, Math.cos(height / DEGREES)), pole, Math.sin(height / DEGREES));
+  return movedTo(light, 'position', add(view.sphere.centre, way, far), view.camera, view.sphere);
+}
+
+function chosenIn(texts) {
+  if (texts[chosen] && isMovable(texts[chosen])) return chosen;
+  return texts.findIndex(isMovable);
+}
+
+// The words with lights that can be moved: the program's own, written out; else a new one. Of a model that only its surroundings lit, a metal
+// mirrors them still, and other materials get some light from everywhere, since its other side would be black.
+async function words() {
+  const written = await writtenLights(), made = new State(written?.words ?? state.words), texts = made.values('light');
+  if (texts.some(isMovable)) return made.words;
+  const lit = made.withValues('light', [...texts, newLight('directional', texts, texts.length)]), [name, value] = state.values('material').some(isMetal) ? ['environment', 'studio'] : ['ambient', '0.25'];
+  return made.values(name).length ? lit : new State(lit).withValues(name, [value]);
+}
+
+function changed(from, change, key) {
+  const made = new State(from), texts = made.values('light'), i = chosenIn(texts);
+  texts[i] = lightText(change(parseLight(texts[i])));
+  state.set(made.withValues('light', texts), key);
+}
+
+// Of several changes that wait for the lights to be written out, the newest alone.
+let waiting = null, isBusy = false;
+async function change(how, key = null) {
+  if (!view.camera) return;
+  if (state.values('light').some(isMovable)) return changed(state.words, how, key);
+  waiting = how;
+  if (isBusy) return;
+  isBusy = true;
+  try {
+    changed(await words(), waiting, null);
+  } catch (error) {
+    refuse(error.message);
+  }
+  isBusy = false;
+}
+
+const withKey = (key, value) => (light) => ({ ...light, keys: new Map(light.keys).set(key, value) });
+const titled = (key) => element('span', { textContent: text(key) });
+
+export function lightControls() {
+  const choice = element('select', { attributes: { 'aria-label': text('lightChoice') } });
+  const around = slider(titled('lightAround'), text('lightAround'), [-180, 180, 1], 0, (value) => change((light) => placed(light, Number(value), anglesOf(light).height), gestureKey()));
+  const height = slider(titled('lightHeight'), text('lightHeight'), [-90, 90, 1], 0, (value) => change((light) => placed(light, anglesOf(light).around, Number(value)), gestureKey()));
+  const bright = slider(titled('lightBright'), text('lightBright'), [0, 4, 0.05], 1, (value) => change(withKey('intensity', value), gestureKey()));
+  const color = new Picker(text('lightColor'), (value, key) => change(withKey('color', value), key));
+  const places = PLACES.map(([key, at, above]) => button(key, () => change((light) => placed(light, at, above))));
+  choice.onchange = () => {
+    chosen = Number(choice.value);
+    show();
+  };
+  function show() {
+    const texts = view.camera && view.sphere ? state.values('light') : [], i = texts.length ? chosenIn(texts) : -1, movable = texts.flatMap((one, at) => (isMovable(one) ? [at] : []));
+    choice.hidden = movable.length < 2;
+    const key = movable.map((at) => nameOf(parseLight(texts[at]), at)).join('\n');
+    if (choice.dataset.names !== key) choice.replaceChildren(...movable.map((at) => new Option(nameOf(parseLight(texts[at]), at), at)));
+    choice.dataset.names = key;
+    choice.translate = false;
+    if (i < 0) return;
+    choice.value = i;
+    if (view.moving) return;
+    const light = parseLight(texts[i]), angles = anglesOf(light);
+    showNumber(around, Math.round(angles.around) === -180 ? 180 : Math.round(angles.around));
+    showNumber(height, Math.round(angles.height));
+    showNumber(bright, light.keys.get('intensity') ?? 1);
+    color.show(light.keys.get('color') ?? 'white');
+  }
+  on('words', show);
+  on('picture', show);
+  show();
+  return element('div', {}, choice, element('div', { className: 'buttons', attributes: { role: 'group', 'aria-label': text('lightPlaces') } }, ...places), around, height, bright,
+    element('div', { className: 'slider' }, titled('lightColor'), color.input));
+}

@@ -1,0 +1,38 @@
+// packed_page.js: a page in one file with a model in it, as `lambent MODEL -o page.html` writes it: it opens from a disk, without a network.
+import { fetchModule } from './start.js';
+import { pristine } from './inside.js';
+import { text } from './strings.js';
+
+const MOST = 1e8; // bytes of files, as in the program
+
+async function packed(bytes) {
+  const gzip = await new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream('gzip'))).blob();
+  const url = await new Promise((done, failed) => {
+    const reader = new FileReader();
+    reader.onload = () => done(reader.result);
+    reader.onerror = () => failed(reader.error);
+    reader.readAsDataURL(gzip);
+  });
+  return url.slice(url.indexOf(',') + 1);
+}
+
+// The text of the page in one file: this one, as it was, or the one beside the served page.
+async function emptyPage() {
+  if (!pristine) return new TextDecoder().decode(await fetchModule('alone.html'));
+  const page = pristine.cloneNode(true);
+  for (const own of page.querySelectorAll('#served, #inside-words, .inside-file')) own.remove();
+  return `<!doctype html>\n${page.outerHTML}\n`;
+}
+
+const quoted = (path) => path.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
+
+// `files`: [path, bytes]. Returns a Blob.
+export async function pageWithModel(words, files) {
+  const size = files.reduce((sum, [, bytes]) => sum + bytes.length, 0);
+  if (size > MOST) throw new Error(text('pageTooLarge', { size: Math.round(size / 1e6), most: MOST / 1e6 }));
+  const page = await emptyPage(), end = page.lastIndexOf('</body>');
+  const texts = [];
+  for (const [path, bytes] of files) texts.push(`<script type="text/plain" class="inside-file" data-path="${quoted(path)}" data-packed="gzip">${await packed(bytes)}</script>\n`);
+  texts.push(`<script type="application/json" id="inside-words">${JSON.stringify(words).replaceAll('<', '\\u003c')}</script>\n`);
+  return new Blob([page.slice(0, end), ...texts, page.slice(end)], { type: 'text/html' });
+}

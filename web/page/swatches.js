@@ -1,0 +1,30 @@
+// swatches.js: choices with small pictures, of which one may be chosen.
+import { on, state } from './app.js';
+import { element, ours } from './dom.js';
+import { thumbnail } from './thumbnails.js';
+
+// `choices`: { value, name, words (of the picture), label (a text of the page; else the program's name is shown), color (in place of a picture) }.
+// `chosen`: returns the value of the state; `take`: sets it. `named`: the names stand below the pictures.
+export function swatches({ title, choices, chosen, take, named = false }) {
+  const current = ours('span', '', { className: 'chosen' });
+  const buttons = choices.map((choice) => {
+    const shown = choice.color ? element('span', { className: 'swatch-color' }) : element('canvas', { width: 8, height: 8, attributes: { 'aria-hidden': 'true' } });
+    if (choice.color) shown.style.background = choice.color;
+    else if (choice.words) thumbnail(shown, choice.words);
+    const name = choice.label ?? choice.name, made = element('button', { type: 'button', className: 'swatch', title: name, translate: Boolean(choice.label), attributes: { 'aria-label': name, 'aria-pressed': 'false' } }, shown);
+    if (named) made.append(element('span', { textContent: name, attributes: { 'aria-hidden': 'true' } }));
+    made.onclick = () => take(choice.value);
+    return made;
+  });
+  function show() {
+    const value = chosen();
+    choices.forEach((choice, i) => buttons[i].setAttribute('aria-pressed', String(choice.value === value)));
+    const one = choices.find((choice) => choice.value === value);
+    current.textContent = one ? (one.label ?? one.name) : (value ?? '');
+    current.translate = Boolean(one?.label);
+  }
+  on('words', show);
+  show();
+  return element('div', { className: 'swatches', attributes: { role: 'group', 'aria-label': title } },
+    element('p', {}, element('span', { textContent: title }), ' ', current), element('div', { className: named ? 'swatch-grid named' : 'swatch-grid' }, ...buttons));
+}

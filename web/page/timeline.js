@@ -1,0 +1,46 @@
+// timeline.js: animations of the model with a time line: it plays, stops, and stands at the time of the slider.
+import { beginGesture, endGesture, gestureKey, on, state, view } from './app.js';
+import { button, element } from './dom.js';
+import { setOption } from './row.js';
+import { showNumber, slider } from './slider.js';
+import { text } from './strings.js';
+
+export function timeline(animations) {
+  const indexOf = (value) => Math.max(0, animations.findIndex(({ name }, i) => name === value || String(i) === value));
+  const choice = element('select', { translate: false, attributes: { 'aria-label': text('timelineChoice') } }, ...animations.map(({ name }, i) => new Option(name ?? i, i)));
+  const play = button('timelinePlay', () => (began === null ? start() : stop()));
+  const length = () => animations[Number(choice.value)].seconds;
+  const time = slider(element('span', { textContent: text('timelineTime') }), text('timelineTime'), [0, 1, 0.01], 0, (value) => {
+    began = null;
+    setOption('time', [value], gestureKey());
+  });
+  let began = null; // when, by the clock, the animation was at 0; null: it stands
+
+  function step() {
+    if (began === null || !time.isConnected) return stop();
+    const at = ((performance.now() - began) / 1000) % Math.max(length(), 1e-3);
+    beginGesture();
+    setOption('time', [at.toFixed(3)], gestureKey());
+  }
+  function start() {
+    began = performance.now() - 1000 * Number(time.querySelector('input').value);
+    play.textContent = text('timelineStop');
+    step();
+  }
+  function stop() {
+    if (began !== null || view.moving) endGesture();
+    began = null;
+    play.textContent = text('timelinePlay');
+  }
+  choice.onchange = () => setOption('animation', [animations[Number(choice.value)].name ?? choice.value]);
+  function show() {
+    choice.value = indexOf(state.values('animation').at(-1));
+    time.querySelector('input').max = length();
+    showNumber(time, state.values('time').at(-1) ?? 0);
+  }
+  on('words', () => time.isConnected && show());
+  on('picture', () => began !== null && requestAnimationFrame(step)); // the next time once the picture of the last one is there
+  show();
+  choice.hidden = animations.length < 2;
+  return element('div', {}, choice, element('div', { className: 'buttons' }, play), time);
+}

@@ -1,0 +1,15 @@
+// written_lights.js: the lights of the picture as words: what the program has chosen can be changed from then on.
+import { call, state } from './app.js';
+import { lightWords } from './lights.js';
+import { State } from './state.js';
+
+// The words with the picture's lights, and how many there are. The picture must stay the same, which is checked; null: it would not.
+export async function writtenLights() {
+  const before = state.words, { lights, ambient } = await call('lights', { words: before });
+  let words = state.withValues('rig', []);
+  const change = (name, values) => (words = new State(words).withValues(name, values));
+  change('light', lights.map(lightWords));
+  change('ambient', ambient.some((x) => x > 0) ? [ambient.join('/')] : []);
+  const [old, now] = [await call('draw', { words: before }), await call('draw', { words })];
+  return old.pixels.some((byte, i) => byte !== now.pixels[i]) ? null : { words, count: lights.length };
+}

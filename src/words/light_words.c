@@ -497,7 +497,7 @@ static bool add_light(lam_scene *scene, const char *text, const lam_light_text_p
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_light_text: text is NULL");
     if (!check_reserved("lam_light_text_params", params, error) ||
         (params->camera && !check_reserved("lam_camera", params->camera, error)) || !word_copy(text, copy, error) ||
-        !read_light(copy, &reading, error))
+        !read_light(copy, &parser, error))
         return false;
     if (!scene)
         return true;

@@ -21,7 +21,7 @@ static const struct {
 
 enum { OTHERS = sizeof others / sizeof *others };
 
-struct reading {
+struct parser {
     lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none
     const char *words;  // of one of `others`; NULL: none
     bool given[MATERIAL_KEYS];
@@ -150,14 +150,14 @@ static void set_factor(const struct parser *parser, int index, lam_material *m)
 
 static lam_material apply(const struct parser *parser, lam_color_mode mode, lam_material m)
 {
-    if (reading->id != LAM_MATERIAL_COUNT)
-        m = lam_material_named(reading->id, mode);
-    if (reading->words) {
+    if (parser->id != LAM_MATERIAL_COUNT)
+        m = lam_material_named(parser->id, mode);
+    if (parser->words) {
         m = lam_material_default();
-        lam_material_parse(reading->words, mode, &m, NULL);
+        lam_material_parse(parser->words, mode, &m, NULL);
     }
-    const double *color = reading->numbers[MATERIAL_COLOR], *specular = reading->numbers[MATERIAL_SPECULAR_COLOR];
-    if (given(reading, MATERIAL_COLOR)) {
+    const double *color = parser->numbers[MATERIAL_COLOR], *specular = parser->numbers[MATERIAL_SPECULAR_COLOR];
+    if (given(parser, MATERIAL_COLOR)) {
         m.ambient = (lam_rgb){(float)color[0], (float)color[1], (float)color[2]};
         m.diffuse = (lam_rgba){m.ambient.r, m.ambient.g, m.ambient.b, m.diffuse.a};
     }
@@ -189,13 +189,13 @@ bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *mat
     size_t first = strcspn(rest, ",");
     if (!memchr(rest, '=', first) && !is_flag(rest, first)) {
         char *name = strsep(&rest, ",");
-        reading.id = lam_material_find(name);
+        parser.id = lam_material_find(name);
         for (int i = 0; i < OTHERS; i++)
-            reading.words = strcasecmp(others[i].name, name) == 0 ? others[i].words : reading.words;
-        bool known = reading.id != LAM_MATERIAL_COUNT || reading.words;
+            parser.words = strcasecmp(others[i].name, name) == 0 ? others[i].words : parser.words;
+        bool known = parser.id != LAM_MATERIAL_COUNT || parser.words;
         if (!known && !is_color_alone(name, mode))
             return unknown_material(name, error);
-        if (!known && !read_color_alone(name, mode, &reading, error))
+        if (!known && !read_color_alone(name, mode, &parser, error))
             return false;
     }
     for (char *pair; (pair = strsep(&rest, ",")) != NULL;)

@@ -52,8 +52,8 @@ static const uint8_t *read_index(const struct stroke_parser *r, const uint8_t *a
 }
 
 // Returns the next vertex of a statement; *found is false if there are no more.
-static const uint8_t *read_vertex(const struct stroke_parser *r, const uint8_t *at, uint32_t *position, uint32_t *texcoord,
-                                  bool *found)
+static const uint8_t *read_vertex(const struct stroke_parser *r, const uint8_t *at, uint32_t *position,
+                                  uint32_t *texcoord, bool *found)
 {
     struct obj *obj = r->obj;
     *texcoord = OBJ_MISSING;

@@ -24,11 +24,13 @@ static struct memory_stream {
     FILE *file;
     char **text;
     size_t *size;
+    char *fixed; // fmemopen's memory of `capacity` bytes, in place of a text; else NULL
+    size_t capacity;
     struct memory_stream *next;
 } *streams;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-FILE *open_memstream(char **text, size_t *size)
+static FILE *start(struct memory_stream how)
 {
     wchar_t folder[MAX_PATH + 1], path[MAX_PATH + 1];
     struct memory_stream *stream = calloc(1, sizeof *stream);
@@ -38,15 +40,26 @@ FILE *open_memstream(char **text, size_t *size)
         free(stream);
         return NULL;
     }
-    stream->text = text;
-    stream->size = size;
-    *text = NULL;
-    *size = 0;
+    how.file = stream->file;
+    *stream = how;
     pthread_mutex_lock(&lock);
     stream->next = streams;
     streams = stream;
     pthread_mutex_unlock(&lock);
     return stream->file;
+}
+
+FILE *open_memstream(char **text, size_t *size)
+{
+    *text = NULL;
+    *size = 0;
+    return start((struct memory_stream){.text = text, .size = size});
+}
+
+FILE *fmemopen(void *data, size_t size, const char *mode)
+{
+    (void)mode;
+    return start((struct memory_stream){.fixed = data, .capacity = size});
 }
 
 // Gives the caller the stream's bytes. Returns false if memory runs out, or an earlier write has failed.
@@ -55,6 +68,12 @@ static bool give_text(const struct memory_stream *stream)
     if (fflush(stream->file) != 0 || ferror(stream->file))
         return false;
     long long end = _ftelli64(stream->file);
+    if (stream->fixed) {
+        size_t size = end >= 0 && (size_t)end < stream->capacity ? (size_t)end : stream->capacity;
+        rewind(stream->file);
+        return end >= 0 && fread(stream->fixed, 1, size, stream->file) == size &&
+               _fseeki64(stream->file, end, SEEK_SET) == 0;
+    }
     char *text = end >= 0 ? realloc(*stream->text, (size_t)end + 1) : NULL;
     if (!text)
         return false;

@@ -15,6 +15,7 @@ int windows_fflush(FILE *file);
 #define fflush windows_fflush
 
 FILE *open_memstream(char **text, size_t *size);
+FILE *fmemopen(void *data, size_t size, const char *mode); // only to write
 ssize_t getline(char **line, size_t *capacity, FILE *file);
 
 #endif

@@ -13,7 +13,7 @@ import paths
 
 PAGE, README = os.path.join(paths.ROOT, "docs", "speed.md"), os.path.join(paths.ROOT, "README.md")
 BEGIN, END = "<!-- %s: made by bench/report.py -->", "<!-- end of %s -->"
-ISA_NAMES = {"avx512": "AVX-512", "avx2": "AVX2", "neon": "NEON", "auto": "widest"}
+ISA_NAMES = {"avx512": "AVX-512", "avx2": "AVX2", "neon": "NEON", "auto": "widest", "shown": "as shown"}
 
 
 def times(value):
@@ -42,6 +42,8 @@ def measured(row):
     if "encoders" in row:
         ours, theirs = row["encoders"]["lambent"], row["encoders"]["libpng_1"]
         return "%s ms, %d kB (libpng %s ms, %d kB)" % (ms(ours["ms"]), ours["bytes"] // 1000, ms(theirs["ms"]), theirs["bytes"] // 1000)
+    if "frames_per_s" in row:
+        return "%.0f frames a second, whole after %s ms" % (row["frames_per_s"]["median"], ms(row["ms"]["the whole picture"]["median"]))
     if "shares" in row:
         return ", ".join("%s: %.0f %%" % (ISA_NAMES.get(isa, isa), 100 * share["median"]) for isa, share in row["shares"].items())
     if "rates" in row:
@@ -97,6 +99,8 @@ def beside(row):
     extra = ["%s: %s" % (key, times(r["median"])) for key, r in row.get("ratio", {}).items() if key not in ISA_NAMES]
     if "alone_ratio" in row:
         extra += ["%s: %.2f of one alone, %.0f %% busy" % (ISA_NAMES.get(isa, isa), r["median"], 100 * row["busy"][isa]) for isa, r in row["alone_ratio"].items()]
+    if "scale" in row:
+        extra.append("%.0f %% of width and height; %d threads" % (100 * row["scale"], row["threads"]))
     if "peers_tried_ms" in row:
         extra.append("tried: " + ", ".join("%s %s" % (name, ms(t)) for name, t in row["peers_tried_ms"].items()))
     extra += ["failed: " + problem for problem in row.get("peers_failed", [])]

@@ -21,6 +21,7 @@ import paths
 import report
 import steps
 import three_rows
+import turning_rows
 import whole
 
 NO_TARGET = "none"
@@ -115,6 +116,7 @@ def row_list(isas, gl_device, display, full):
     yield "start", "≤ 2 ms over /bin/true, no OpenGL or GUI library", judge_start
     for name, target, run in three_rows.rows(isas, gl_device):
         yield ratio_row(name, target, run)
+    yield from turning_rows.rows()
 
 
 def geometric_mean(rows, isas):

@@ -27,6 +27,8 @@ MOST_DIFFERENT = 0.04
 class Browser:
     """three.mjs, as a context: tasks in, answers out. `folder` has the files of the tasks."""
 
+    name = "three.js"
+
     def __init__(self, folder):
         self.folder = folder
 
@@ -58,7 +60,7 @@ class Browser:
             line = ""
         told = json.loads(line) if line else {"error": "the browser has ended"}
         if isinstance(told, dict) and "error" in told:
-            raise measure.Failed("three.js: " + told["error"])
+            raise measure.Failed("%s: %s" % (self.name, told["error"]))
         return told
 
 

@@ -2,8 +2,8 @@
 //
 // Reads a task on each line of standard input, and answers with a line of JSON, {"error": …} where it failed:
 //     {"load": "glb/a.glb", "size": [w, h], "camera": {eye, target, up, fovy_deg, near, far}, "light": {direction, intensity},
-//      "environment": "env/a.hdr"}           a model of FOLDER; one of light and environment      -> {"renderer", "version"}
-//     {"frames": n}                           -> [milliseconds of each]
+//      "environment": "env/a.hdr", "antialias": true}   a model of FOLDER; one of light and environment   -> {"renderer", "version"}
+//     {"frames": n, "turn": degrees}          the camera turns between frames                    -> [milliseconds of each]
 //     {"save": "picture.png"}                 writes the picture                                  -> {}
 // A frame ends when a pixel of it has been read back: gl.finish() does not wait in Chromium.
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -19,21 +19,21 @@ const PAGE = `<!doctype html><link rel="icon" href="data:,"><body style="margin:
 import * as THREE from 'three';
 import { GLTFLoader } from '/three/examples/jsm/loaders/GLTFLoader.js';
 import { HDRLoader } from '/three/examples/jsm/loaders/HDRLoader.js';
-let renderer, scene, camera;
+let renderer, scene, camera, target = new THREE.Vector3();
 window.load = async (task) => {
   const [width, height] = task.size;
-  renderer = new THREE.WebGLRenderer({ antialias: false, alpha: true });
+  renderer = new THREE.WebGLRenderer({ antialias: Boolean(task.antialias), alpha: true });
   renderer.setPixelRatio(1);
   renderer.setSize(width, height);
   renderer.setClearColor(0, 0);
   renderer.toneMapping = THREE.NeutralToneMapping; // as lambent's
   document.body.append(renderer.domElement);
   scene = new THREE.Scene();
-  const { eye, target, up, fovy_deg, near, far } = task.camera;
+  const { eye, up, fovy_deg, near, far } = task.camera;
   camera = new THREE.PerspectiveCamera(fovy_deg, width / height, near, far);
   camera.position.set(...eye);
   camera.up.set(...up);
-  camera.lookAt(...target);
+  camera.lookAt(target.set(...task.camera.target));
   scene.add((await new GLTFLoader().loadAsync('/models/' + task.load)).scene);
   if (task.light) {
     // Lambert's term here is the base colour, three's is divided by pi.
@@ -55,7 +55,9 @@ const draw = () => {
   gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
   if (gl.getError() || gl.isContextLost()) throw new Error('WebGL failed');
 };
-window.frames_of = (count) => Array.from({ length: count }, () => {
+window.frames_of = (count, turn = 0) => Array.from({ length: count }, () => {
+  camera.position.sub(target).applyAxisAngle(camera.up, turn * Math.PI / 180).add(target);
+  camera.lookAt(target);
   const begun = performance.now();
   draw();
   return performance.now() - begun;
@@ -100,7 +102,7 @@ const commands = {
     if (failed.length) throw new Error(failed.join('; '));
     return told;
   },
-  frames: (task) => page.evaluate((count) => window.frames_of(count), task.frames),
+  frames: (task) => page.evaluate(([count, turn]) => window.frames_of(count, turn), [task.frames, task.turn ?? 0]),
   async save(task) {
     const url = await page.evaluate(() => window.picture());
     writeFileSync(task.save, Buffer.from(url.split(',')[1], 'base64'));

@@ -107,6 +107,8 @@ export function caller(open, wasm, ways = {}) {
       if (cancel) Atomics.store(cancel, 0, 1);
       return Boolean(cancel);
     },
+    // Whether cancel() ends the running call.
+    endsByFlag: () => Boolean(cancel),
     restart,
     end: () => worker.terminate(),
     set onprogress(listener) {

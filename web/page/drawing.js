@@ -1,19 +1,25 @@
-// drawing.js: draws the command line in the worker: of waiting drawings the newest alone, with one sample and fewer pixels while something moves; and
-// places the picture in the page, as large as there is room. A drawing that is out of date is ended, and Stop ends any.
+// drawing.js: draws the command line in the worker: of waiting drawings the newest alone, with one sample and fewer pixels while something moves (pace.js); and
+// places the picture in the page, as large as there is room. When the hand rests, the whole picture is drawn. A drawing that is out of date is ended, and Stop
+// ends any.
 import { call, emit, on, plainNames, refuse, say, state, view, worker } from './app.js';
 import { Ended } from './caller.js';
 import { $, button } from './dom.js';
+import { Pace } from './pace.js';
 import { text } from './strings.js';
 import { finished, isTooLong, started, stopped } from './unfinished.js';
 
-const canvas = $('canvas'), context = canvas.getContext('2d'), QUICK = 5e5; // pixels
+const canvas = $('canvas'), context = canvas.getContext('2d'), pace = new Pace();
 const PATIENCE_MS = 1000, SHOWN_MS = 400, FLAG_MS = 50;
-let running = null, wanted = null, model = null;
+const REST_MS = 50; // without a step of a gesture: the hand rests
+const SHORT_MS = 200; // a whole picture that takes no longer is drawn when the hand rests, even if no flag could end it
+let running = null, wanted = null, model = null, whole_ms = 0; // of the last whole picture, without reading the model
+let resting = 0, sharp = null; // the task of a whole picture that was wanted since the hand rests
 
-// A quick picture's words: one sample, and half of the width and height if it is large.
+// A quick picture's words: one sample, and fewer pixels.
 export function quickWords(words) {
   const [, width, height = width] = /^(\d+)(?:x(\d+))?$/.exec(state.values('size').at(-1) ?? '1024') ?? [], few = words.filter((word) => !word.startsWith('--samples'));
-  const sized = width * height > QUICK ? [...few.filter((word) => !word.startsWith('--size')), `--size=${Math.round(width / 2)}x${Math.round(height / 2)}`] : few;
+  const scale = pace.scale(width * height);
+  const sized = scale < 1 ? [...few.filter((word) => !word.startsWith('--size')), `--size=${Math.round(width * scale)}x${Math.round(height * scale)}`] : few;
   return [...sized, '--samples=1'];
 }
 
@@ -67,10 +73,32 @@ worker.onprogress = (share) => {
   $('progress').value = share;
 };
 
-function draw() {
-  wanted = { words: state.words, quick: view.moving };
+function draw(quick = false) {
+  wanted = { words: state.words, quick };
   if (!running) work();
   else if (!running.task.quick || running.task.words[0] !== state.model) running.end();
+}
+
+// Draws whole what has been drawn quickly: the gesture rests, and may go on.
+function sharpen() {
+  draw();
+  sharp = wanted ?? running.task;
+}
+
+// The picture of the command line: a quick one while something moves, and a whole one when it rests, unless that is there by now or being drawn.
+function drawNow() {
+  clearTimeout(resting);
+  const isSharp = !view.moving && sharp?.words === state.words, { picture } = sharp ?? {};
+  sharp = null;
+  if (!isSharp) draw(view.moving);
+  else if (picture) rest(picture, 'picture', 'still');
+  if (view.moving && (worker.endsByFlag() || whole_ms < SHORT_MS)) resting = setTimeout(sharpen, REST_MS);
+}
+
+// Nothing moves any more, and this picture is shown. `events`: what the page's parts have not heard of it.
+function rest({ camera, sphere }, ...events) {
+  Object.assign(view, { camera, sphere });
+  events.forEach(emit);
 }
 
 async function work() {
@@ -79,19 +107,21 @@ async function work() {
     wanted = null;
     running = new Running(task);
     if (!task.quick) started(task.words);
-    const [name] = task.words;
+    const [name] = task.words, began = performance.now();
     try {
       if (name !== model) forgetModel(name);
       canvas.setAttribute('aria-busy', String(name !== model));
       const picture = await call('draw', { words: task.quick ? quickWords(task.words) : task.words, endable: true });
-      model = name;
       if (!task.quick) finished();
       show(picture, task);
+      measure(task, performance.now() - began - (name === model ? 0 : picture.read_ms));
+      model = name;
     } catch (error) {
       $('status').textContent = '';
       finished();
+      if (task === sharp) sharp = null;
       if (running.isStopped) stopped(task.words);
-      if (!wanted && error instanceof Ended) refuse(text('stopped'), button('drawAgain', draw));
+      if (!wanted && error instanceof Ended) refuse(text('stopped'), button('drawAgain', () => draw()));
       else if (!wanted) refused(error);
     }
     running.close();
@@ -100,10 +130,16 @@ async function work() {
   }
 }
 
+function measure(task, ms) {
+  if (task.quick) pace.measured(ms);
+  else whole_ms = ms;
+}
+
 // Another model is read: what was said of the one before it is stale.
 function forgetModel(name) {
   $('status').textContent = text('loadingModel', { name: name.replace(/^\//, '') });
   $('warnings').textContent = '';
+  pace.reset();
   view.missing = [];
   view.refusal = null;
   emit('missing');
@@ -135,6 +171,7 @@ function show({ pixels, ...picture }, task) {
   view.missing = picture.missing ?? [];
   view.refusal = null;
   if (!task.quick || !view.size) view.size = { width: picture.width, height: picture.height };
+  if (task === sharp) task.picture = picture;
   if (!view.moving) ({ camera: view.camera, sphere: view.sphere } = picture);
   document.body.dataset.drawn = task.quick ? '' : JSON.stringify(task.words);
   $('message').hidden = true;
@@ -142,7 +179,7 @@ function show({ pixels, ...picture }, task) {
   fit();
   emit('missing');
   emit('picture');
-  if (!task.quick && !view.moving) emit('still');
+  if (!task.quick && !view.moving) rest(picture, 'still');
 }
 
 function showStatus({ width, height, triangles, frame_ms, warnings }) {
@@ -164,8 +201,8 @@ new ResizeObserver(fit).observe($('view'));
 // The first picture is not drawn if it was too long before the page was loaded again.
 let isFirst = true;
 on('words', () => {
-  if (isFirst && isTooLong(state.words)) refuse(text('tooLong'), button('drawAgain', draw));
-  else draw();
+  if (isFirst && isTooLong(state.words)) refuse(text('tooLong'), button('drawAgain', () => draw()));
+  else drawNow();
   isFirst = false;
 });
 

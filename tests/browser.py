@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""browser.py PROGRAM [--long]: the page of `make web` in Debian's chromium, driven by playwright-core (web/browser.mjs): gestures and the command
+"""browser.py PROGRAM [--long|--firefox]: the page of `make web` in Debian's chromium, or firefox-esr, driven by playwright-core (web/browser.mjs): gestures and the command
 lines that they make, controls, links, drops, explanations, the page in one file, without its server, names and roles, texts. After random
 sequences of gestures, 3 or with --long 30, PROGRAM draws the copied command, and the canvas has the same pixels. Shaders are checked with the
 browser's WebGL 2 (web/shaders.mjs): correct ones pass, known mistakes have their names, with --long all. `lambent view` (web/view.mjs): a model is turned,
 its file changes; with --long a gallery, and a model that is too large for the page. The page as people meet it (web/people.mjs): the bytes before the
 first picture, drawings that take long, missing and compressed files, small screens.
 
-Skipped where chromium, a package of the group `web`, or playwright-core is missing; npm installs that in build-web/npm, as web/package-lock.json
+With --firefox these tests run in Firefox, by WebDriver BiDi (web/input.mjs has the little that differs). Skipped where the browser, a package of the group `web`, or playwright-core is missing; npm installs that in build-web/npm, as web/package-lock.json
 has it."""
 import hashlib
 import json
@@ -79,12 +79,18 @@ def shader_tasks(long):
     return tasks
 
 
-def check_shaders(results, modules, chromium, folder, long):
+def check_shaders(results, modules, browser, folder, long):
     path = os.path.join(folder, "shaders.json")
     tasks = shader_tasks(long)
     json.dump(tasks, open(path, "w"))
-    done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "shaders.mjs"), modules, chromium, OUT, path, "all" if long else "some"], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True)
+    display, with_display = [], {}
+    if "firefox" in browser: # it has WebGL with a display alone
+        if not shutil.which("xvfb-run"):
+            print("# no xvfb: shaders are not checked in Firefox")
+            return
+        display, with_display = ["xvfb-run", "-a"], {"LAMBENT_DISPLAY": "1"}
+    done = subprocess.run([*display, "node", os.path.join(ROOT, "tests", "web", "shaders.mjs"), modules, browser, OUT, path, "all" if long else "some"], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, env={**os.environ, **with_display})
     for line in done.stdout.splitlines():
         if line.startswith("#"):
             print(line)
@@ -115,7 +121,7 @@ def make_points(path):
     open(path, "wb").write((header + "property float x\nproperty float y\nproperty float z\nend_header\n").encode() + body)
 
 
-def check_view(results, program, modules, chromium, folder, long):
+def check_view(results, program, modules, browser, folder, long):
     watched = os.path.join(folder, "watched")
     os.makedirs(watched)
     for name in ("part.obj", "cube.obj"):
@@ -130,7 +136,7 @@ def check_view(results, program, modules, chromium, folder, long):
         print("# no libmicrohttpd: lambent view is not tested")
         return
     try:
-        done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "view.mjs"), modules, chromium, viewers[0][1], watched, str(viewers[0][0].pid),
+        done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "view.mjs"), modules, browser, viewers[0][1], watched, str(viewers[0][0].pid),
                                viewers[1][1] if long else ""], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     finally:
         for viewer, _ in viewers:
@@ -161,10 +167,10 @@ def skip(why):
 
 
 def main():
-    program, long = os.path.abspath(sys.argv[1]), "--long" in sys.argv
-    chromium = shutil.which("chromium")
-    if not chromium or build.missing():
-        return skip("not installed: " + " ".join(build.missing() + ([] if chromium else ["chromium"])))
+    program, long, name = os.path.abspath(sys.argv[1]), "--long" in sys.argv, "firefox-esr" if "--firefox" in sys.argv else "chromium"
+    browser = shutil.which(name)
+    if not browser or build.missing():
+        return skip("not installed: " + " ".join(build.missing() + ([] if browser else [name])))
     results = Results()
     done = subprocess.run([sys.executable, os.path.join(ROOT, "web", "build.py"), OUT], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode:
@@ -176,19 +182,22 @@ def main():
         return skip("npm cannot install playwright-core")
     sequences = 30 if long else 3
     with tempfile.TemporaryDirectory() as folder:
-        check_shaders(results, modules, chromium, folder, long)
+        check_shaders(results, modules, browser, folder, long)
         make_models(folder)
-        check_view(results, program, modules, chromium, folder, long)
+        check_view(results, program, modules, browser, folder, long)
         with open(os.path.join(OUT, "included.html"), "w") as out:
             model = open(os.path.join(folder, "cube.ply"), "rb").read()
             out.write(build.with_files(open(os.path.join(OUT, "lambent.html")).read(), {"/cube.ply": model}))
         filled = subprocess.run([program, "-q", "textured/quad.obj", "--size", "96", "--background", "white", "-o", os.path.join(OUT, "filled.html")], cwd=folder,
                                 env={**os.environ, "LAMBENT_PAGE": os.path.join(OUT, "lambent.html")}, stderr=subprocess.PIPE, text=True)
         results.ok(filled.returncode == 0, "a page is written with a model in it", filled.stderr)
-        done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "browser.mjs"), modules, chromium, OUT, folder, str(sequences)],
+        done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "browser.mjs"), modules, browser, OUT, folder, str(sequences)],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         drawn = report(results, program, done.stdout, lambda said: folder)
-        people = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "people.mjs"), modules, chromium, OUT, folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        axe = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "axe.mjs"), modules, browser, OUT], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        report(results, program, axe.stdout, lambda said: folder)
+        results.ok(axe.returncode == 0 and axe.stdout.count("ok axe: the tab") == 20, "axe-core has looked at every tab", axe.stderr)
+        people = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "people.mjs"), modules, browser, OUT, folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 text=True)
         report(results, program, people.stdout, lambda said: folder)
         results.ok(people.returncode == 0 and "links ran" in people.stdout, "the page was met as people meet it", people.stderr)

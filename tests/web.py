@@ -19,13 +19,14 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT = os.path.join(ROOT, "build-web")
 sys.path.insert(0, os.path.join(ROOT, "web"))
 import build  # noqa: E402
+import module_parts  # noqa: E402
 import sizes  # noqa: E402
 
 PARTS = 2 # node's, at once
 # The folders of modules, and the threads of each part of the image table; 0: a module without.
 TABLE = {"wasm": ["0", "0"], "threads": ["2", "4"]}
 
-# What a page loads first, and its module, in bytes after brotli (docs/web.md has the table).
+# What a page loads first, and its module, without and with threads, in bytes after brotli (docs/web.md has the table).
 FIRST_LOAD_MAX, MODULE_MAX = 300_000, 450_000
 
 # Pictures: words, and the ending of the file. The folder of the models is made by make_models.
@@ -103,13 +104,14 @@ def check_hashes(results):
 def check_threads(results):
     with tempfile.TemporaryDirectory() as folder:
         make_models(folder)
-        done = node("threads.mjs", *[os.path.join(OUT, kind, "web", "lambent.wasm") for kind in TABLE], folder)
+        done = node("threads.mjs", *[os.path.join(OUT, kind, "web", "lambent.wasm") for kind in TABLE],
+                    *[os.path.join(OUT, "page", name) for name in module_parts.THREADS_PARTS], folder)
         for line in done.stdout.splitlines():
             if line.startswith("#"):
                 print(line)
             else:
                 results.ok(line.startswith("ok "), line.split("ok ", 1)[1])
-        results.ok(done.returncode == 0 and done.stdout.count("ok threads:") == 15, "threads: all of the checks ran", done.stderr)
+        results.ok(done.returncode == 0 and done.stdout.count("ok threads:") == 22, "threads: all of the checks ran", done.stderr)
 
 
 def make_models(folder):
@@ -214,7 +216,7 @@ def check_sizes(results):
         for number, text in zip(found, said.groups() if said else [None] * 3):
             good = bool(said) and (not text if number is None else bool(text) and abs(int(text) * 1000 - number) <= number / 10 + 3000)
             results.ok(good, "docs/web.md has the size of: " + title, "found %s, the page says %s; web/sizes.py prints the table" % (number, text))
-    for title, most in ((sizes.FIRST, FIRST_LOAD_MAX), (sizes.MODULE, MODULE_MAX)):
+    for title, most in ((sizes.FIRST, FIRST_LOAD_MAX), (sizes.MODULE, MODULE_MAX), (sizes.THREADS, MODULE_MAX)):
         bytes_sent = next(row[3] for row in rows if row[0] == title)
         results.ok(bytes_sent <= most, "%s: %d bytes, of %d" % (title, bytes_sent, most))
 
@@ -241,6 +243,10 @@ def main():
         for line in done.stdout.splitlines():
             results.ok(line.startswith("ok "), "page: " + line.split(" ", 1 if line.startswith("ok ") else 2)[-1])
         results.ok(done.returncode == 0 and len(done.stdout.splitlines()) > 15, "page: all of its checks ran", done.stderr)
+        done = node("pace.mjs")
+        for line in done.stdout.splitlines():
+            results.ok(line.startswith("ok "), "pace: " + line.partition("ok ")[2], line)
+        results.ok(done.returncode == 0 and len(done.stdout.splitlines()) == 8, "pace: all of its checks ran", done.stderr)
     print("1..%d" % results.count)
     return 1 if results.failed else 0
 

@@ -1,17 +1,18 @@
-// browser.mjs PLAYWRIGHT CHROMIUM BUILD_WEB MODELS SEQUENCES: the page in a browser, by what a person does: pointers, keys, drops. Prints lines of the
+// browser.mjs PLAYWRIGHT BROWSER BUILD_WEB MODELS SEQUENCES: the page in a browser, by what a person does: pointers, keys, drops. Prints lines of the
 // Test Anything Protocol without numbers, and for each random sequence of gestures "pixels {command, hash}": the command that the page copies,
 // and the SHA-256 of the canvas' colours; the caller (browser.py) draws that command with the program.
 // Above 600 lines: one test for each thing that a person does, in one browser, which takes seconds to start.
 import { createHash } from 'node:crypto';
-import { readFileSync, truncateSync, writeFileSync } from 'node:fs';
-import { extname, join, resolve } from 'node:path';
+import { truncateSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { commandOf, drawn, fragment, ok, pixels, same, settled, until, watchedPage } from './driver.mjs';
-import { openBrowser } from './serve.mjs';
+import { drop, fingers, saved } from './input.mjs';
+import { isFirefox, openBrowser } from './serve.mjs';
 
 const [, , playwright, executablePath, built, models, sequences] = process.argv, all = Number(sequences) > 3; // all: of make test-long
 const { browser, origin, close } = await openBrowser(playwright, executablePath, built);
-const context = await browser.newContext({ viewport: { width: 1100, height: 800 }, permissions: ['clipboard-read', 'clipboard-write'] });
+const context = await browser.newContext({ viewport: { width: 1100, height: 800 }, permissions: isFirefox(executablePath) ? [] : ['clipboard-read', 'clipboard-write'] });
 
 // What the browser reports about the page: errors, and all that its content-security policy has refused.
 const reports = [];
@@ -93,7 +94,8 @@ const cameraOf = (text) => {
   const found = /--camera=(\S+)/.exec(text);
   return found && Object.fromEntries(found[1].split(',').map((part) => part.split('=')).map(([name, value]) => [name, value.split('/').map(Number)]));
 };
-const near = (a, b) => a?.length === b.length && a.every((x, i) => Math.abs(x - b[i]) < 0.002);
+const NEAR = isFirefox(executablePath) ? 0.005 : 0.002; // Firefox moves the pointer by whole pixels
+const near = (a, b) => a?.length === b.length && a.every((x, i) => Math.abs(x - b[i]) < NEAR);
 
 async function gestures() {
   const page = await start(START);
@@ -179,12 +181,40 @@ async function words() {
   await page.close();
 }
 
+// --- while something moves: quick pictures, and the whole one when the hand rests, with the button still down
+
+async function rested() {
+  // With threads, whatever the machine does: a flag can end the whole picture.
+  const page = await openPage(`${origin}isolated/${fragment(['sphere', '--size=400x300', '--background=white'])}`);
+  await drawn(page, 'with threads');
+  await until(page, () => document.body.dataset.threads);
+  const at = await middle(page);
+  if ((await page.evaluate(() => navigator.hardwareConcurrency)) < 2) return console.log('# one processor: the page waits for the button');
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x + 40, at.y);
+  await page.mouse.move(at.x + 80, at.y);
+  const camera = /--camera=\S+/.exec(await commandOf(page))?.[0];
+  await until(page, (word) => document.body.dataset.drawn?.includes(word) && document.body.dataset.gesture !== undefined, camera);
+  const hash = await pixels(page);
+  ok(Boolean(camera), 'a hand that rests: the whole picture is drawn before the button is released', camera);
+  await page.mouse.up();
+  await settled(page, 'released');
+  ok((await pixels(page)) === hash, 'a hand that rests: the same picture when it is released');
+  console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash })}`);
+  await page.locator('#canvas').press('ArrowRight');
+  await settled(page, 'turned on');
+  await undoIn(page);
+  await settled(page, 'undone');
+  ok((await pixels(page)) === hash && (await commandOf(page)).endsWith(camera), 'a hand that rests: it is one step of undo', await commandOf(page));
+  await page.close();
+}
+
 // --- touch
 
 async function touch() {
-  const fingers = await browser.newContext({ viewport: { width: 700, height: 900 }, hasTouch: true });
-  const page = await start(START, fingers), session = await fingers.newCDPSession(page), at = await middle(page);
-  const send = (type, ...points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const touched = await browser.newContext({ viewport: { width: 700, height: 900 }, hasTouch: true });
+  const page = await start(START, touched), send = await fingers(page), at = await middle(page);
   await send('touchStart', [at.x - 40, at.y], [at.x + 40, at.y]);
   for (const apart of [50, 60, 70, 80]) await send('touchMove', [at.x - apart, at.y], [at.x + apart, at.y]);
   await send('touchEnd');
@@ -196,7 +226,7 @@ async function touch() {
   await until(page, () => document.getElementById('pinned') && !document.getElementById('pinned').hidden && document.querySelector('#overlay-arrows .arrow'));
   await page.locator('#pinned button').first().click();
   ok((await arrowsIn(page)).length === 0, 'touch: a tap pins the point, and its button lets it go');
-  await fingers.close();
+  await touched.close();
 }
 
 // --- controls, links, copies
@@ -229,8 +259,7 @@ async function controls() {
   await drawn(other, 'link');
   ok((await commandOf(other)) === copied && (await pixels(other)) === (await pixels(page)), 'a link opens the same picture', link);
   await other.close();
-  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#save').click()]);
-  const png = createHash('sha256').update(readFileSync(await download.path())).digest('hex');
+  const { bytes } = await saved(page, () => page.locator('#save').click()), png = createHash('sha256').update(bytes).digest('hex');
   await until(page, () => /[0-9a-f]{64}/.test(document.getElementById('status').textContent));
   ok((await page.locator('#status').textContent()).includes(png), 'the saved picture has the hash that is shown');
   console.log(`file ${JSON.stringify({ command: copied, hash: png })}`);
@@ -276,7 +305,7 @@ async function arrows() {
   const length = 0.2 * 2 * away * half, tip = 0.5 + (n[0] + length * n[0]) / (2 * (away - length * n[1]) * half);
   const found = (await arrowsIn(page)).find(({ name }) => name === 'n');
   ok(found && Math.abs(found.tip[0] / at.height - tip) < 0.004 && Math.abs(found.tip[1] / at.height - 0.5) < 0.004, 'arrows: the normal ends where geometry has it', `${found?.tip.map((x) => x / at.height)}, expected ${tip}`);
-  await page.mouse.move(at.x, at.y + at.height);
+  await page.mouse.move(at.x, Math.min(at.y + at.height, 795)); // within the window
   await until(page, () => !document.querySelector('#overlay-arrows .arrow'));
   ok((await commandOf(page)) === before, 'arrows: pointing changes no command line');
 
@@ -354,8 +383,8 @@ async function lights() {
     await settled(page, 'lights written out');
     ok((await pixels(page)) === hash, `lights are written out: the same picture of ${words.join(' ')}`, await commandOf(page));
     console.log(`pixels ${JSON.stringify({ command: await commandOf(page), hash })}`);
-    const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#save-scene').click()]), scene = JSON.parse(readFileSync(await download.path(), 'utf8'));
-    ok(scene.lambent === 1 && scene.lights.length > 0 && download.suggestedFilename() === `${words[0]}.json`, 'the scene file is saved', JSON.stringify(scene).slice(0, 300));
+    const { name, bytes } = await saved(page, () => page.locator('#save-scene').click()), scene = JSON.parse(bytes.toString());
+    ok(scene.lambent === 1 && scene.lights.length > 0 && name === `${words[0]}.json`, 'the scene file is saved', JSON.stringify(scene).slice(0, 300));
     await page.close();
   }
 }
@@ -395,12 +424,6 @@ async function sizes() {
 }
 
 // --- files and folders, as the system drops them
-
-async function drop(page, ...paths) {
-  const session = await page.context().newCDPSession(page), at = await middle(page);
-  const data = { items: [], files: paths.map((path) => resolve(path)), dragOperationsMask: 1 };
-  for (const type of ['dragEnter', 'dragOver', 'drop']) await session.send('Input.dispatchDragEvent', { type, x: at.x, y: at.y, data });
-}
 
 async function files() {
   const page = await start(['sphere', '--size=96x96', '--background=white']);
@@ -547,6 +570,19 @@ async function isolated() {
   await until(page, () => document.getElementById('explain').textContent.length > 100);
   ok(true, 'isolated: explains');
   for (const one of [page, plain]) await one.close();
+
+  // A formula needs the other part of the module with threads, which is fetched then.
+  const formula = ['implicit', '--implicit=x^2+y^2+z^2-1', '--size=96x96'], hashes = [];
+  for (const address of [`${origin}isolated/`, origin]) {
+    const one = await openPage(address + fragment(formula));
+    await drawn(one, 'a formula');
+    if (address !== origin) await until(one, () => document.body.dataset.threads);
+    await one.locator('#canvas').press('ArrowRight');
+    await settled(one, 'a formula, turned');
+    hashes.push(await pixels(one));
+    await one.close();
+  }
+  ok(hashes[0] === hashes[1], 'isolated: a formula has the same pixels');
   const alone = await browser.newContext({ serviceWorkers: 'block' }), refused = await alone.newPage();
   await refused.route('**/lambent-threads.wasm', (route) => route.abort());
   await refused.goto(`${origin}isolated/${fragment(words)}`);
@@ -557,15 +593,20 @@ async function isolated() {
 
 // --- roles, names and the order of the focus; texts; narrow pages
 
-async function accessible() {
-  const page = await start(START), session = await context.newCDPSession(page);
-  const { nodes } = await session.send('Accessibility.getFullAXTree');
+// By the tree of Chromium, as its DevTools tell it; axe.mjs looks at both browsers.
+async function named(page) {
+  const { nodes } = await (await context.newCDPSession(page)).send('Accessibility.getFullAXTree');
   const property = (node, name) => node.properties?.find((p) => p.name === name)?.value.value;
   const unnamed = nodes.filter((node) => !node.ignored && property(node, 'focusable') && !node.name?.value && node.role.value !== 'RootWebArea' && node.role.value !== 'scrollable');
   ok(nodes.length > 100 && !unnamed.length, 'whatever has the focus has a name', JSON.stringify(unnamed.map((node) => [node.role.value, node.properties])).slice(0, 500));
   const roleOf = (name) => nodes.find((node) => node.name?.value?.includes(name))?.role.value;
   ok(roleOf('The model') === 'application' && nodes.some((node) => node.role.value === 'tab') && nodes.some((node) => node.role.value === 'combobox'), 'roles: the picture, the tabs, the choice of a model');
   ok(nodes.some((node) => node.role.value === 'main') && nodes.some((node) => node.role.value === 'contentinfo') && nodes.some((node) => node.role.value === 'complementary'), 'roles: main, the options, the footer');
+}
+
+async function accessible() {
+  const page = await start(START);
+  if (!isFirefox(executablePath)) await named(page);
   const order = [];
   for (let i = 0; i < 400; i++) {
     await page.keyboard.press('Tab');
@@ -661,7 +702,7 @@ async function sequencesOf(count) {
   await page.close();
 }
 
-const parts = { gestures, words, touch, controls, explained, arrows, compared, lights, formulas, sizes, files, memory, oneFile, offline, twoParts, isolated, accessible, pseudo, random: () => sequencesOf(Number(sequences)) };
+const parts = { gestures, words, rested, touch, controls, explained, arrows, compared, lights, formulas, sizes, files, memory, oneFile, offline, twoParts, isolated, accessible, pseudo, random: () => sequencesOf(Number(sequences)) };
 
 const only = process.env.LAMBENT_BROWSER?.split(',');
 for (const [name, part] of Object.entries(parts)) {

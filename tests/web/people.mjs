@@ -1,10 +1,11 @@
-// people.mjs PLAYWRIGHT CHROMIUM BUILD_WEB MODELS: the page as somebody meets it: what the first picture needs of the line, drawings that take long, files that are
+// people.mjs PLAYWRIGHT BROWSER BUILD_WEB MODELS: the page as somebody meets it: what the first picture needs of the line, drawings that take long, files that are
 // missing, links without files, small screens. Prints lines of the Test Anything Protocol without numbers, and as browser.mjs commands with the
 // pixels that they have.
 import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { commandOf, drawn, fragment, ok, pixels, settled, until, watchedPage } from './driver.mjs';
+import { choose, fingers, isFirefoxPage } from './input.mjs';
 import { openBrowser } from './serve.mjs';
 
 const [, , playwright, executablePath, built, models] = process.argv, FIRST_MAX = 300_000;
@@ -173,8 +174,7 @@ async function links() {
   const camera = '--camera=eye=0/0/5,target=0/0/0,up=0/1/0,fovy=30', page = await open(origin + fragment(['/cube.ply', '--size=96x96', '--background=white', camera]));
   await until(page, () => !document.getElementById('message').hidden);
   ok(/link to cube\.ply\. Links contain no files/.test(await messageOf(page)) && (await page.locator('#missing').isHidden()), 'a link to a model of one\'s own says that it holds no files', await messageOf(page));
-  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Open it…' }).click()]);
-  await chooser.setFiles(join(models, 'cube.ply'));
+  await choose(page, () => page.getByRole('button', { name: 'Open it…' }).click(), join(models, 'cube.ply'));
   await drawn(page, 'of a link');
   ok((await commandOf(page)) === `lambent cube.ply --size=96x96 --background=white ${camera}`, 'and has its options once the file is opened', await commandOf(page));
   await said(page);
@@ -190,9 +190,9 @@ async function screens() {
     const page = await open(origin, { viewport: { width, height }, hasTouch: true }), label = `${width} pixels wide`;
     await drawn(page, label);
     const box = (name) => page.locator(name).boundingBox(), canvas = await box('#canvas'), aside = await box('aside');
-    ok(canvas.y < 40 && canvas.width >= width - 8 && aside.y > canvas.y + canvas.height - 1, `${label}: the picture is on top and fills the width`, JSON.stringify([canvas, aside]));
+    ok(canvas.y < 40 && canvas.width >= (await page.evaluate(() => document.documentElement.clientWidth)) - 8 && aside.y > canvas.y + canvas.height - 1, `${label}: the picture is on top and fills the width`, JSON.stringify([canvas, aside]));
     ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${label}: nothing is wider`);
-    const session = await page.context().newCDPSession(page), send = (type, ...points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const send = await fingers(page);
     const x = width / 2, y = canvas.y + canvas.height / 2;
     await send('touchStart', [x, y]);
     for (const step of [10, 20, 30]) await send('touchMove', [x + step, y]);
@@ -203,6 +203,7 @@ async function screens() {
     await send('touchStart', [x, low]);
     for (let step = 1; step <= 10; step++) await send('touchMove', [x, low - 20 * step]);
     await send('touchEnd');
+    if (isFirefoxPage(page)) await page.mouse.move(x, low).then(() => page.mouse.wheel(0, 200)); // fingers of WebDriver do not scroll there
     await until(page, () => scrollY > 40);
     ok((await box('#canvas')).y < 40, `${label}: the page scrolls below the picture, which stays`, JSON.stringify(await box('#canvas')));
     await page.context().close();

@@ -8,13 +8,18 @@ import { extname, join, resolve } from 'node:path';
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 
-export function launch(playwright, executablePath) {
-  const { chromium } = createRequire(join(resolve(playwright), 'x'))('playwright-core');
+export const isFirefox = (executablePath) => /firefox/.test(executablePath);
+
+// Firefox by WebDriver BiDi, which playwright-core has under a name of its own; Chromium by its DevTools. Firefox has WebGL with a display alone:
+// LAMBENT_DISPLAY says that there is one (tests/browser.py). `dark`: pages of Firefox are told that a person prefers dark colours; in Chromium a context is.
+export function launch(playwright, executablePath, { dark = false } = {}) {
+  const { chromium, _bidiFirefox: firefox } = createRequire(join(resolve(playwright), 'x'))('playwright-core');
+  if (isFirefox(executablePath)) return firefox.launch({ executablePath, headless: !process.env.LAMBENT_DISPLAY, firefoxUserPrefs: { 'webgl.force-enabled': true, 'layout.css.prefers-color-scheme.content-override': dark ? 0 : 1 } });
   return chromium.launch({ executablePath, headless: true, args: ['--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-background-networking',
     '--disable-component-update', '--disable-sync'] });
 }
 
-export async function openBrowser(playwright, executablePath, built) {
+export async function openBrowser(playwright, executablePath, built, options) {
   const sent = [];
   const server = createServer((request, answer) => {
     const path = new URL(request.url, 'http://x').pathname, isolated = path.startsWith('/isolated/');
@@ -31,7 +36,7 @@ export async function openBrowser(playwright, executablePath, built) {
     }
   });
   await new Promise((done) => server.listen(0, '127.0.0.1', done));
-  const browser = await launch(playwright, executablePath);
+  const browser = await launch(playwright, executablePath, options);
   const close = async () => {
     await browser.close();
     server.closeAllConnections();

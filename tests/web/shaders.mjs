@@ -1,9 +1,10 @@
-// shaders.mjs PLAYWRIGHT CHROMIUM BUILD_WEB TASKS EXERCISES: checks of shaders in a browser, by its WebGL 2. TASKS: a JSON file, a list of {name, vertex, fragment,
+// shaders.mjs PLAYWRIGHT BROWSER BUILD_WEB TASKS EXERCISES: checks of shaders in a browser, by its WebGL 2. TASKS: a JSON file, a list of {name, vertex, fragment,
 // contract, verdict, mistakes}; EXERCISES: all or some. Prints lines of the Test Anything Protocol without numbers, and what the browser's pictures differ by from the references.
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { ok, until, watchedPage } from './driver.mjs';
+import { insertText } from './input.mjs';
 import { openBrowser } from './serve.mjs';
 
 const [, , playwright, executablePath, built, tasks, exercises] = process.argv;
@@ -140,7 +141,7 @@ async function tab(address, label) {
   await there.locator('.shader-mistakes button').click();
   await there.keyboard.press('Home');
   await there.keyboard.press('Shift+End');
-  await there.keyboard.insertText(lines[0]);
+  await insertText(there, textIn(there, 'Fragment shader'), lines[0]);
   await judged(there, 'passes');
   say((await there.locator('#shader-verdict').textContent()).startsWith('Solved') && (await hint.isDisabled()), 'it is solved');
   await there.locator('#shader-task').selectOption('exercise:reflect-sign');
@@ -178,7 +179,7 @@ async function delayed() {
     await textIn(there, 'Fragment shader').click();
     await there.keyboard.press('Control+a');
     await there.keyboard.press('Delete');
-    await there.keyboard.insertText(readFileSync(new URL('../check/angel.frag', import.meta.url), 'utf8').replace('pow(', '0.5 * pow('));
+    await insertText(there, textIn(there, 'Fragment shader'), readFileSync(new URL('../check/angel.frag', import.meta.url), 'utf8').replace('pow(', '0.5 * pow('));
   };
 
   // The search takes too long: the report without it stays.

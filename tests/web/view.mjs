@@ -1,4 +1,4 @@
-// view.mjs PLAYWRIGHT CHROMIUM MODEL FOLDER PROCESS LARGE: `lambent view` in a browser. MODEL: the address of a viewer of FOLDER's part.obj, a copy of
+// view.mjs PLAYWRIGHT BROWSER MODEL FOLDER PROCESS LARGE: `lambent view` in a browser. MODEL: the address of a viewer of FOLDER's part.obj, a copy of
 // cube.obj, whose process id is PROCESS. LARGE: that of a viewer of a folder with points.ply, which is too large for the page; "": none. Prints lines of the Test
 // Anything Protocol without numbers, and as browser.mjs commands with the pixels that they have.
 import { copyFileSync, renameSync, writeFileSync } from 'node:fs';

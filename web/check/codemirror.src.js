@@ -35,7 +35,7 @@ export function makeEditor(place, { label, onchange }) {
     parent: root,
     state: EditorState.create({
       extensions: [basicSetup, keymap.of([indentWithTab]), StreamLanguage.define(shader), syntaxHighlighting(colors), theme, lintGutter(),
-        EditorView.contentAttributes.of({ 'aria-label': label }), EditorView.updateListener.of((update) => update.docChanged && !silent && onchange())],
+        EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }), EditorView.updateListener.of((update) => update.docChanged && !silent && onchange())],
     }),
   });
   return {

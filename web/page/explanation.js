@@ -52,15 +52,15 @@ export class Explanation {
     parts.push(sentence(text('surface', { object: triangle.object_name ?? text('unnamedObject', { number: triangle.object }), triangle: triangle.triangle, side: triangle.side })));
     if (triangle.points.length > 1) parts.push(this.#corners(triangle));
     parts.push(vector('n', point.n, triangle.lit_normal === '-n' ? 'aboutNormalBack' : 'aboutNormal'), vector('v', point.v, 'aboutView'));
-    parts.push(element('h3', { textContent: text('sumTitle') }), equation(sumEquation(point)));
+    parts.push(element('h2', { textContent: text('sumTitle') }), equation(sumEquation(point)));
     if (triangle.points.length > 1) parts.push(sentence(text('interpolated', { color: triple(triangle.color.slice(0, 3)) })));
     parts.push(sentence(text('bytes', { bytes: this.pixel.bytes.join(' ') })));
     if (this.pixel.triangles.length > 1) parts.push(sentence(text('moreTriangles', { count: this.pixel.triangles.length - 1 })));
     const around = aroundEquations(triangle, point);
-    if (around.length) parts.push(element('h3', { textContent: text('aroundTitle') }));
+    if (around.length) parts.push(element('h2', { textContent: text('aroundTitle') }));
     if (point.environment && around.length) parts.push(vector('R', point.environment.R, 'aboutReflected'));
     parts.push(...around.map(equation));
-    if (point.lights.length) parts.push(element('h3', { textContent: text('lightsTitle') }));
+    if (point.lights.length) parts.push(element('h2', { textContent: text('lightsTitle') }));
     point.lights.forEach((light, i) => parts.push(this.#light(triangle, point, light, i)));
     return parts;
   }

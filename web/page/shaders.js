@@ -28,8 +28,8 @@ place.append(
   element('div', { className: 'buttons shader-bar' }, element('label', { textContent: text('shaderContract') + ' ' }, contracts),
     element('label', { textContent: text('shaderTask') + ' ' }, tasks), button('shaderReset', () => start()), hint),
   verdict, again,
-  element('div', { className: 'shader-texts' }, element('section', {}, element('h3', { textContent: text('shaderFragment') }), places.fragment),
-    element('section', {}, element('h3', { textContent: text('shaderVertexMade') }), places.vertex)),
+  element('div', { className: 'shader-texts' }, element('section', {}, element('h2', { textContent: text('shaderFragment') }), places.fragment),
+    element('section', {}, element('h2', { textContent: text('shaderVertexMade') }), places.vertex)),
   found, names);
 
 // --- checking: the newest texts alone

@@ -91,14 +91,14 @@ function drawNow() {
   const isSharp = !view.moving && sharp?.words === state.words, { picture } = sharp ?? {};
   sharp = null;
   if (!isSharp) draw(view.moving);
-  else if (picture) rest(picture);
+  else if (picture) rest(picture, 'picture', 'still');
   if (view.moving && (worker.endsByFlag() || whole_ms < SHORT_MS)) resting = setTimeout(sharpen, REST_MS);
 }
 
-// Nothing moves any more, and this picture is shown.
-function rest({ camera, sphere }) {
+// Nothing moves any more, and this picture is shown. `events`: what the page's parts have not heard of it.
+function rest({ camera, sphere }, ...events) {
   Object.assign(view, { camera, sphere });
-  emit('still');
+  events.forEach(emit);
 }
 
 async function work() {
@@ -179,7 +179,7 @@ function show({ pixels, ...picture }, task) {
   fit();
   emit('missing');
   emit('picture');
-  if (!task.quick && !view.moving) rest(picture);
+  if (!task.quick && !view.moving) rest(picture, 'still');
 }
 
 function showStatus({ width, height, triangles, frame_ms, warnings }) {

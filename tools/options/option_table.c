@@ -136,10 +136,10 @@ static const struct word view_words[] = {
     {"three-quarter", LAM_SIDE_THREE_QUARTER, "30 degrees to the right of the front, 20 above"},
     {"front", LAM_SIDE_FRONT, "from the front (+Z with Y up), level"},
     {"back", LAM_SIDE_BACK, "from behind, level"},
-    {"left", LAM_SIDE_LEFT, "from the left side of the model in the picture (-X), level"},
+    {"left", LAM_SIDE_LEFT, "from the left (-X), level"},
     {"right", LAM_SIDE_RIGHT, "from the right (+X), level"},
-    {"top", LAM_SIDE_TOP, "straight down"},
-    {"bottom", LAM_SIDE_BOTTOM, "straight up"},
+    {"top", LAM_SIDE_TOP, "from above"},
+    {"bottom", LAM_SIDE_BOTTOM, "from below"},
     {"iso", LAM_SIDE_ISO, "isometric: 45 degrees to the right, 35.26 above"},
     {NULL, 0, NULL}};
 
@@ -238,18 +238,18 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest instr
 
 struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
-     "The extension selects the format; `lambent formats` lists the numbers that each format stores. `-` writes a PNG "
-     "to standard output. Lambent also writes a PNG to a file, pipe or device without a known extension. Without this "
-     "option Lambent writes `MODEL.png` to the current folder (`model.png` if the model comes from standard input). "
-     "Without this option, it never overwrites a file that it did not write. `-o pictures/`, with a trailing slash, "
+     "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. "
+     "Lambent also writes a PNG to a file, pipe or device without a known extension. By default, Lambent writes "
+     "`MODEL.png` to the current folder (`model.png` if the model comes from standard input), and never replaces a "
+     "file that another program wrote. `-o pictures/`, with a trailing slash, "
      "writes to that folder and creates it if it is missing; every command that writes files accepts it. `--out` is an "
-     "alias.\nA name that contains words in braces is a pattern that Lambent fills in for each model: `-o "
+     "alias.\nA name with words in braces is a pattern. Lambent fills it in for each model: `-o "
      "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
      "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
      "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
      "If two models would be written to the same file, it reports an error before it starts. Write `{{` and `}}` for "
-     "braces.\n`.html` writes one file that contains the picture and the model. In a browser, its reader can turn the "
-     "model and change every option, without a network (`docs/web.md`). This format needs the page that `make web` "
+     "braces.\n`.html` writes one file that contains the picture and the model. In a browser, you can turn the model "
+     "and change every option, without a network (`docs/web.md`). This format needs the page that `make web` "
      "builds.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
@@ -264,16 +264,16 @@ struct option option_table[OPTIONS_MAX] = {
     {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
      "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, most visibly in small pictures. On a sheet, the default depends on the size of "
-     "each picture. Lambent lights each triangle once in each pixel that it covers or partly covers.",
+     "each picture. Lambent computes the lighting once per triangle and pixel, at any number of samples.",
      sample_words, .store = store_word,
      .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples)},
     {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
-     "On a slanted surface, the footprint of a pixel in the texture is long and narrow. One probe is as wide as the "
-     "longer axis and blurs along the shorter axis. N probes along the longer axis are N times as sharp.",
+     "A pixel on a slanted surface covers a long, narrow area of the texture. A single texture sample blurs the whole "
+     "area. N samples along it are up to N times as sharp.",
      .others = "anisotropic anisotropic-filtering"},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
-     "Lines of OBJ (`l`), PLY (`edge`) and glTF files have the same width at every distance. Lambent draws them nearer "
-     "to the eye by their width, so that lines on a surface are visible. Lines end without caps.",
+     "Lines of OBJ (`l`), PLY (`edge`) and glTF files have the same width at every distance. Lambent moves them "
+     "towards the eye by their width, so that lines on a surface are visible. Lines end without caps.",
      .others = "linewidth stroke-width thickness"},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
      "Points of OBJ (`p`) and glTF files, and vertices of PLY files without faces and edges, have the same size at "
@@ -296,12 +296,13 @@ struct option option_table[OPTIONS_MAX] = {
      "of the file depend on the version of libdeflate. With `fast` the bytes depend only on the picture.",
      compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress)},
     {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG; lossless WebP", "The quality of JPEG and WebP files, 1 to 100.",
-     "A lower number gives a smaller, less exact file. JPEG stores the colour of every pixel from 90 up, and of every "
-     "block of four pixels below 90. WebP is lossless at 100 and by default. Other formats ignore it. The bytes depend "
+     "A lower number gives a smaller, less exact file. From 90 up, JPEG stores a colour for every pixel; below 90, one "
+     "for every four pixels. WebP is lossless at 100 and by default. Other formats ignore the option. The bytes depend "
      "on the version of libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
      .max = 100},
-    {"term", 0, GROUP_PICTURE, "METHOD", "auto", "Also show the picture in the terminal: a method, or off.",
+    {"term", 0, GROUP_PICTURE, "METHOD", "auto",
+     "Also show the picture in the terminal, by this method; off disables it.",
      "If the terminal can show pictures and `-o` is missing, a single picture appears above the line that names its "
      "file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by "
      "environment variables, and queries other terminals (for at most half a second). It reduces the picture to the "
@@ -312,8 +313,8 @@ struct option option_table[OPTIONS_MAX] = {
      term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,
      .others = "terminal sixel kitty preview inline", FIELD(picture.term)},
     {"durable", 0, GROUP_PICTURE, NULL, NULL, "Flush each picture and its folder to disk before continuing (fsync).",
-     "After a power failure, the disk contains either the complete old picture or the complete new one. Without the "
-     "option the system writes pictures to disk within seconds, and most file systems give the same guarantee.",
+     "After a power failure, the disk contains either the complete old picture or the complete new one. Without this "
+     "option, the system writes pictures to disk within seconds. Most file systems give the same guarantee.",
      .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
      "Brighten or darken the picture: 1 doubles the light, -1 halves it; or auto.",
@@ -358,19 +359,21 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "anim clip action", FIELD(model.animation)},
     {"time", 0, GROUP_MODEL, "SECONDS", "0",
      "The time, in seconds, in the animation given by `--animation`, or in the file's first animation.",
-     "Before the first keyframe and after the last, the pose is the pose of that keyframe.", NULL,
+     "Before the first keyframe, the model has the pose of the first keyframe; after the last, of the last.", NULL,
      .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time), .min = -1e9,
      .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
-     "Without this option Lambent refuses such a file (exit 3), because its picture may lack the extension's effect. "
+     "Without this option Lambent refuses such a file (exit 3), because the picture could be wrong without the "
+     "extension. "
      "With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML prefixes in "
      "3MF files.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side to view the model from, or a list: front, back, left, right, top, bottom, iso or three-quarter.",
-     "By default the camera is 30 degrees to the right of the front and 20 degrees above. The model always fills 92 % "
-     "of the picture's tighter dimension. `--azimuth` and `--elevation` change the angles of a named side.\n`render` "
+     "By default the camera is 30 degrees to the right of the front and 20 degrees above. The model fills 92 % of the "
+     "picture's width or height, whichever limits it. `--azimuth` and `--elevation` override the angles of a "
+     "side.\n`render` "
      "and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. Without a pattern in "
      "`-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
      view_words, .several = "views", .brief = "front, left, top, iso ...; or a list: front,left", .store = store_word,
@@ -386,9 +389,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "Magnification: 2 shows the model twice as large.", NULL,
      .store = store_number, .others = "scale magnify magnification distance", FIELD(view.zoom), .min = 0.001,
      .max = 1000},
-    {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The fitted camera's vertical field of view, above 0 and below 180.",
-     "With a wide angle, the camera moves closer, which makes near surfaces look larger. The model still fills the "
-     "picture. `--camera fovy=60` has the same effect.",
+    {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The camera's vertical field of view, above 0 and below 180.",
+     "With a wide angle, the camera moves closer, so near surfaces look larger. The model still fills the picture. "
+     "`--camera fovy=60` has the same effect.",
      .store = store_number, .others = "field-of-view view-angle perspective-angle focal-length", .alias = "fovy",
      FIELD(view.fov_deg), .min = FOV_MIN, .max = FOV_MAX},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
@@ -460,20 +463,20 @@ struct option option_table[OPTIONS_MAX] = {
      "its light. The camera is fitted without the markers, and Lambent reports markers outside the picture.",
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
-     "With more than 16 lights, each part of the picture skips its weakest lights, as long as their greatest possible "
-     "sum in a channel stays below this share of the channel's full range. The default is half a step of an 8-bit "
-     "channel (0.5/255): no byte changes by more than 1. Lights that contribute exactly nothing (behind the surface, "
-     "out of range, outside their cone) are always skipped.",
+     "With more than 16 lights, Lambent skips the weakest lights in each part of the picture. Together, the skipped "
+     "lights can change a channel by at most this share of its range. The default is half a step of an 8-bit "
+     "channel (0.5/255): no byte changes by more than 1. Lambent always skips lights that contribute nothing: behind "
+     "the surface, out of range or outside their cone.",
      .words = NULL},
     {"ao", 0, GROUP_LIGHTS, "METHOD", NULL, NULL,
      "A recess receives less light from its surroundings than an open face. Occlusion dims ambient, hemisphere and "
-     "environment light. It also dims the share `occluded` of other lights: the studio's lights set this key, and "
-     "lights of `--light` do not. Ambient occlusion needs Phong shading. `docs/lighting/occlusion.md` has the "
+     "environment light. It also dims lights whose key `occluded` is above 0, such as the studio's lights. Ambient "
+     "occlusion needs Phong shading. `docs/lighting/occlusion.md` has the "
      "formulas.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "Cavity shading makes letters, holes, seams and wrinkles visible. It computes ambient occlusion at a small "
-     "radius, and the same measure for ridges. It affects the same light as `--ao`. `--show ao --ao off --cavity on` "
+     "Cavity shading makes letters, holes, seams and wrinkles visible. It measures valleys and ridges at a small "
+     "radius. It affects the same light as `--ao`. `--show ao --ao off --cavity on` "
      "shows its effect.",
      .others = "curvature ridges valleys no-cavity"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
@@ -484,11 +487,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@NAME]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "The value is a material name from the classic table (with sRGB colours), keys separated by commas, or a name "
-     "followed by keys (`gold,shininess=80`). Under the default lights `brass`, `bronze`, `chrome`, `copper`, `gold` "
-     "and `silver` alone are physical metals that reflect the studio. `glass` is clear glass (`lambent help glass`). "
-     "Properties without a key keep "
-     "the model's values. `lambent help materials` lists the keys (a colour is `#rrggbb`, a name, `r/g/b` or one "
-     "number). `color` "
+     "followed by keys (`gold,shininess=80`). Under the default lights, `brass`, `bronze`, `chrome`, `copper`, `gold` "
+     "and `silver` without keys are physical metals that reflect the studio. `glass` is clear glass (`lambent help glass`). Properties without a key keep the model's "
+     "values. `lambent help materials` lists the keys (a colour is `#rrggbb`, a name, `r/g/b` or one number). `color` "
      "sets ambient and diffuse; `specular_color` sets specular. The factors `ka`, `kd`, `ks` and `kr` multiply "
      "ambient, diffuse, specular and mirrored light (`kr` multiplies the specular colour, white by default).\n`@NAME` "
      "limits the option to the objects of that name, or else to the parts (OBJ groups, STL solids), or else to the "
@@ -510,11 +511,11 @@ struct option option_table[OPTIONS_MAX] = {
      "material of that name. They are neither drawn nor cast shadows. `lambent view` and the web page list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
-     "It replaces the shininess of every material, including materials of `--material`.", .store = store_number,
+     "It replaces the shininess of every material, including materials set by `--material`.", .store = store_number,
      .others = "gloss glossiness specular-exponent exponent", FIELD(material.shininess),
      .has_field = offsetof(struct options, material.has_shininess), .min = 0, .max = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
-     "It replaces the opacity of every material, including materials of `--material`. The alpha of vertex colours "
+     "It replaces the opacity of every material, including materials set by `--material`. The alpha of vertex colours "
      "still multiplies it.",
      .store = store_number, .others = "alpha transparency translucency", FIELD(material.opacity),
      .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
@@ -544,16 +545,16 @@ struct option option_table[OPTIONS_MAX] = {
      "`docs/lighting/shadows.md` describes the method and well-known shadow errors.",
      .others = "shadow cast-shadows raytrace shadow-map"},
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
-     "With a ground, lights cast shadows, on the ground and on the model. A `shadow` ground shows only the shadows, "
-     "over any background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to "
+     "Lights then cast shadows on the ground and on the model. A `shadow` ground shows only the shadows, over any "
+     "background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to "
      "the up axis (`--up`) and fades out with distance. It is invisible from below, and the camera is fitted without "
      "it. A ground needs Phong shading. `docs/lighting/ground.md` has pictures.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
     {"shadow-samples", 0, GROUP_SHADING, "N", NULL, NULL,
-     "The fraction of rays that are not blocked is the fraction of the light that arrives. Above 48, points in full "
-     "light or full shadow use 48 rays. Fewer rays are faster but cause visible banding.",
+     "The fraction of unblocked rays is the brightness of the light at that point. Above 48, points in full light or "
+     "full shadow use only 48 rays. Fewer rays are faster but cause visible banding.",
      .others = "soft-shadow-samples light-samples"},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, NULL,
      "Lambent omits edges behind surfaces (see `--hidden-lines`) and edges that split polygons of OBJ and PLY files "
@@ -620,15 +621,16 @@ struct option option_table[OPTIONS_MAX] = {
      .has_field = offsetof(struct options, material.has_reflectivity), .max = 1000},
 
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
-     "The model rotates about its up axis in equal steps, counter-clockwise from above; frame k is the picture of "
-     "`--rotate y:` k 360/N. All frames share one camera distance and one exposure. By default, and with a name that "
+     "The model rotates about its up axis in equal steps, counter-clockwise from above; frame k is identical to a "
+     "picture with `--rotate y:A`, where A is 360 k/N. All frames share one camera distance and one exposure. By "
+     "default, and with a name that "
      "ends in `.png` or `.webp`, Lambent writes all frames to one animated PNG or WebP that loops forever. With "
      "`{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a separate file, in any format. "
      "`docs/animation.md` has examples.",
      .store = store_integer, .others = "spin turnaround orbit rotate360 animate gif apng", FIELD(animation.turntable),
      .min = 2, .max = 100000},
     {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
-     "Whether the lights of a turntable stay with the camera or turn with the model: camera or model.",
+     "Keep the lights of a turntable with the camera, or turn them with the model: camera or model.",
      "Lights in the frame of an object or of the model always turn with that object or model.", turntable_light_words,
      .store = store_word, .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
     {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
@@ -638,8 +640,9 @@ struct option option_table[OPTIONS_MAX] = {
      "`roughness@NAME`); or a number of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's name or "
      "its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first light that "
      "has this key. A light's numbers are its fields (`diffuse`, `range`, `position.x`; angles in degrees), "
-     "`intensity`, which multiplies its light, and `azimuth` and `elevation`. These two angles state the direction "
-     "that the light comes from, in its own frame, like the camera's angles: 0 is the front, 90 the right. `time` is "
+     "`intensity`, which multiplies its light, `azimuth` and `elevation`. Azimuth and elevation are the direction from "
+     "which the light comes, in its own frame. They count like the camera's angles: 0 is the front, 90 the right. "
+     "`time` is "
      "the time of a glTF file's animation; without numbers it covers the whole length.\nMore stops may follow: "
      "`light.elevation=10..80..10`. If a sweep ends as it begins (after a whole turn, for example), its last frame is "
      "one step before the end, so that the loop is seamless. Several sweeps run at the same time, also with "
@@ -659,8 +662,8 @@ struct option option_table[OPTIONS_MAX] = {
      NULL, .store = store_integer, .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024,
      .single = TAKES_THREADS},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
-     "All instruction sets draw identical pictures. Lambent rejects a set that this machine or this build does not "
-     "support (exit 3).",
+     "All instruction sets draw identical pictures. Lambent rejects an instruction set that this machine or this build "
+     "does not support (exit 3).",
      isa_words, .store = store_word, .others = "simd instruction-set", FIELD(work.isa)},
     {"device", 0, GROUP_WORK, "NAME", "auto", "The device that draws: cpu, gl, gles or auto.",
      "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If it is unavailable, the error states the "
@@ -705,14 +708,15 @@ struct option option_table[OPTIONS_MAX] = {
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a picture has more layers per pixel than this, on average (exit 4).",
      "A layer is a translucent or masked surface over a pixel. Each of these also counts as one layer: 32 lights on a "
-     "point, 32 opaque surfaces behind each other, and environment light on a surface. The default is 40 plus one per "
+     "point, 32 opaque surfaces one behind the other, and environment light on a surface. The default is 40 plus one "
+     "per "
      "16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as 65536 pixels. The OpenGL "
      "devices ignore this limit.",
      .store = store_count, .others = "max-layers overdraw-limit", FIELD(limits.layer_limit), .max = 2147483647},
     {"expansion-limit", 0, GROUP_LIMITS, "N", "2000",
      "Stop if a model needs more memory than N times the size of its files plus 500 MB (exit 4).",
-     "The option limits how much a small file can expand, for example by compressed textures and meshes or by implied "
-     "values. `--memory-limit` limits memory independently of the file size.",
+     "A small file can expand to much memory, for example by compressed textures or meshes. This option limits the "
+     "expansion. `--memory-limit` limits memory independently of the file size.",
      .store = store_count, .others = "ratio-limit compression-limit bomb", FIELD(limits.expansion_limit),
      .max = 2147483647, .single = TAKES_PICTURE_LIMITS},
     {"pixel-limit", 0, GROUP_LIMITS, "N", "400M",
@@ -768,7 +772,7 @@ struct option option_table[OPTIONS_MAX] = {
      "journal. `docs/batch.md` describes every field.",
      .kind = VALUE_FILE, .store = store_text, .others = "log record", FIELD(batch.journal)},
     {"resume", 0, GROUP_BATCH, NULL, NULL, "Resume: skip pictures that the journal lists as done.",
-     "Without a journal everything is drawn, so that the same command starts and resumes a run. Lambent refuses to "
+     "Without a journal, Lambent draws everything, so the same command starts and resumes a run. Lambent refuses to "
      "resume if the options of the picture differ from the journal's. If a run was killed, it first repeats the models "
      "that were in progress, each in a process of its own.",
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
@@ -801,8 +805,8 @@ struct option option_table[OPTIONS_MAX] = {
      "(`docs/batch.md`). `lambent journal` summarises them.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or list.",
-     "With `name` each shard reads all names, which takes a second or two for a million. With `list` it reads the K-th "
-     "of N parts of one list (`@FILE`), by its bytes. The models must be sorted by the names of their pictures "
+     "With `name` each shard reads all names, which takes a second or two for a million. With `list`, it reads only "
+     "the K-th of N equal parts of one list (`@FILE`). The models must be sorted by the names of their pictures "
      "(`LC_ALL=C sort`), so that no two pictures share a name. If the list changes, models move to other shards; "
      "`--resume` then refuses to continue.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
@@ -811,12 +815,12 @@ struct option option_table[OPTIONS_MAX] = {
      "For servers, one process draws all jobs until its standard input ends (`docs/worker.md`). A job has an `id`, a "
      "`model` or its bytes, `options`, and an `output`. Without `output` the answer contains the picture. Files are "
      "read and written only below the folders of `--allow-path`. The options of the command line apply to every job; a "
-     "job's own options follow them. A file or a pipe can replace `-`.",
+     "job's own options are added after them. A file or a pipe can replace `-`.",
      .kind = VALUE_FILE, .store = store_jobs, .others = "worker server daemon serve", FIELD(batch.jobs)},
     {"ahead", 0, GROUP_BATCH, "N", "twice the number of models drawn at once",
-     "The number of jobs that may wait; then Lambent stops reading lines.", NULL, .store = store_integer,
+     "The largest number of waiting jobs; at this number Lambent stops reading lines.", NULL, .store = store_integer,
      .others = "queue backlog queue-length", FIELD(batch.ahead), .min = 1, .max = 100000},
-    {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The longest line of `--jobs`; longer ones are errors.",
+    {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The longest line of `--jobs`; longer lines are errors.",
      "A line can include the bytes of a model. Base64 needs four bytes for every three bytes of the model. The models "
      "of waiting jobs use at most twice this limit.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
@@ -884,7 +888,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"caption", 0, GROUP_SHEET, "TEXT", NULL, "The caption of a sheet's next picture, in any language; repeatable.",
      NULL, .store = store_texts, .others = "captions label labels", FIELD(captions.texts)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
-     "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across adds columns.",
+     "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across makes a grid.",
      "OPTION is one of the options above without its dashes. Values are separated by commas; if they contain commas, "
      "as for `light` and `material`, by semicolons (`light=point;directional:color=red,frame=camera`). By default the "
      "values are all names that the option accepts; for `shininess` 10, 50 and 1000, for `light` one light of each "
@@ -922,7 +926,7 @@ struct option option_table[OPTIONS_MAX] = {
      "time may be up to 20 times as long.",
      .store = store_number, FIELD(check.stop_after_s), .min = 0.1, .max = 1e6},
     {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000",
-     "Stop the search for mistakes after this many pictures of single mistakes and of sets.",
+     "Stop the search for mistakes after drawing this many pictures.",
      "If the search finds no set of mistakes, the report states how many sets it tried and whether it stopped at this "
      "limit.",
      .store = store_integer, .others = "effort budget tries", FIELD(check.search_limit), .min = 1, .max = 1000000000},

@@ -77,8 +77,8 @@ OWNER/REPOSITORY/PATH, and run this command, which writes this page:
 
 The command fails in these cases:
 
-- A right shader differs, or a wrong one passes.
-- A shader that cannot be judged passes or differs.
+- A correct shader differs, or a wrong shader passes.
+- The check gives a verdict on a shader that was labelled as impossible to judge.
 - The check reports a wrong mistake as certain.
 - Fewer than 70 %% of the pairs get a verdict.
 

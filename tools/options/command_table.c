@@ -41,15 +41,12 @@ static const struct own_default materials_defaults[] = {{"output", "no sheet", N
                                                         {NULL, NULL, NULL}};
 
 const struct command command_table[] = {
-    [COMMAND_render] = {"render", "MODEL...",
-                        "Light models and write a picture of each. The word `render` may be omitted.",
-                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 1,
-                        .max_operands = -1},
-    [COMMAND_batch] =
-        {"batch", "[MODEL|FOLDER|@LIST|-]...",
-         "Draw many models, from folders with their sub-folders, lists or standard input, and keep a journal.",
-         ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
-         .defaults = batch_defaults},
+    [COMMAND_render] = {"render", "MODEL...", "Draw a picture of each model. You can omit the word `render`.",
+                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 1, .max_operands = -1},
+    [COMMAND_batch] = {"batch", "[MODEL|FOLDER|@LIST|-]...",
+                       "Draw many models, from folders, lists or standard input, and keep a journal.",
+                       ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
+                       .defaults = batch_defaults},
     [COMMAND_journal] = {"journal", "JOURNAL|FOLDER...",
                          "Summarise the journals of a batch: written, failed and missing pictures; -o FILE merges the "
                          "journals of its shards.",
@@ -62,13 +59,12 @@ const struct command command_table[] = {
                          .min_operands = 1, .max_operands = 1,
                          .one_more = "it shows one model in several ways; lambent diff compares pictures",
                          .defaults = compare_defaults},
-    [COMMAND_explain] = {"explain", "MODEL X,Y",
-                         "Print the calculation of one pixel: vectors, angles and terms of each light, the sum, the "
-                         "byte. -o FILE (SVG, PNG) draws a figure: arrows over the picture, the point's coordinates, "
-                         "the terms. Lambent ignores --save-scene.",
-                         ALL | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SETTINGS | TAKES_TITLE, .min_operands = 2,
-                         .max_operands = 2, .one_more = "write the pixel as one word, such as 512,400",
-                         .defaults = explain_defaults},
+    [COMMAND_explain] =
+        {"explain", "MODEL X,Y",
+         "Print the calculation of one pixel: the vectors, angles and terms of each light, and the resulting bytes. -o "
+         "FILE (SVG, PNG) draws a figure with arrows, coordinates and terms. Lambent ignores --save-scene.",
+         ALL | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SETTINGS | TAKES_TITLE, .min_operands = 2, .max_operands = 2,
+         .one_more = "write the pixel as one word, such as 512,400", .defaults = explain_defaults},
     [COMMAND_info] =
         {"info", "MODEL...",
          "Print the contents of models: size, triangles, materials, pictures, lights, cameras, animations, extensions.",
@@ -140,7 +136,7 @@ const struct command command_table[] = {
                         ABOUT | 1ull << GROUP_SETTINGS | TAKES_JSON, .min_operands = 0, .max_operands = 0,
                         .one_more = "it prints the settings; write them to the file that it names"},
     [COMMAND_devices] = {"devices", NULL,
-                         "List the devices that can draw on this machine, and the reasons why others cannot.",
+                         "List the devices that can draw on this machine, and the reasons why other devices cannot.",
                          ABOUT | TAKES_JSON, .min_operands = 0, .max_operands = 0},
     [COMMAND_help] = {"help", "[TOPIC]", "Explain a subject, a command or an option; without a name, list all of them.",
                       ABOUT, .min_operands = 0, .max_operands = -1, .verbatim = true},

@@ -379,19 +379,20 @@ struct option option_table[OPTIONS_MAX] = {
      view_words, .several = "views", .brief = "front, left, top, iso ...; or a list: front,left", .store = store_word,
      .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
      FIELD(view.side)},
-    {"azimuth", 0, GROUP_VIEW, "DEGREES", "30", "The camera's angle around the model: 0 is the front, 90 the right.",
-     NULL, .store = store_number, .others = "yaw heading orbit", FIELD(view.azimuth_deg),
-     .has_field = offsetof(struct options, view.has_azimuth), .min = -3600, .max = 3600},
+    {"azimuth", 0, GROUP_VIEW, "DEGREES", "30",
+     "The camera's angle around the model: 0 is the front, 90 is the right side.", NULL, .store = store_number,
+     .others = "yaw heading orbit", FIELD(view.azimuth_deg), .has_field = offsetof(struct options, view.has_azimuth),
+     .min = -3600, .max = 3600},
     {"elevation", 0, GROUP_VIEW, "DEGREES", "20",
-     "The camera's angle above the horizon: 0 is level, 90 straight above.", NULL, .store = store_number,
+     "The camera's angle above the horizon: 0 is level, 90 is straight above.", NULL, .store = store_number,
      .others = "pitch altitude tilt", FIELD(view.elevation_deg),
      .has_field = offsetof(struct options, view.has_elevation), .min = -90, .max = 90},
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "Magnification: 2 shows the model twice as large.", NULL,
      .store = store_number, .others = "scale magnify magnification distance", FIELD(view.zoom), .min = 0.001,
      .max = 1000},
     {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The camera's vertical field of view, above 0 and below 180.",
-     "With a wide angle, the camera moves closer, so near surfaces look larger. The model still fills the picture. "
-     "`--camera fovy=60` has the same effect.",
+     "A wide angle moves the camera closer, which exaggerates the perspective. The model still fills the picture. "
+     "`--camera fovy=60` is equivalent.",
      .store = store_number, .others = "field-of-view view-angle perspective-angle focal-length", .alias = "fovy",
      FIELD(view.fov_deg), .min = FOV_MIN, .max = FOV_MAX},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
@@ -460,7 +461,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw a marker at each light: a ball, and a cone along the light's direction.",
      "The marker of a directional light is one and a half radii from the model's centre. Each marker has the colour of "
-     "its light. The camera is fitted without the markers, and Lambent reports markers outside the picture.",
+     "its light. The markers do not change the camera. Lambent reports markers outside the picture.",
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
      "With more than 16 lights, Lambent skips the weakest lights in each part of the picture. Together, the skipped "
@@ -547,8 +548,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
      "Lights then cast shadows on the ground and on the model. A `shadow` ground shows only the shadows, over any "
      "background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to "
-     "the up axis (`--up`) and fades out with distance. It is invisible from below, and the camera is fitted without "
-     "it. A ground needs Phong shading. `docs/lighting/ground.md` has pictures.",
+     "the up axis (`--up`) and fades out with distance. It is invisible from below. A ground needs Phong shading. "
+     "`docs/lighting/ground.md` has pictures.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
@@ -598,7 +599,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth", FIELD(shading.crease_angle_deg),
      .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
-     "Segments of a built-in shape: slices around and stacks along, such as 64x32.",
+     "Segments of a built-in shape, such as 64x32: slices around the axis, and stacks along it.",
      "With `--parametric`, N is the number along u and M the number along v; N alone sets both. N is 3 to 16384; "
      "`lambent shapes` describes the segments of each shape. The default of M depends on the shape. `gyroid`, "
      "`metaballs` and `--implicit` allow at most 1024 cells and no M.",
@@ -607,7 +608,7 @@ struct option option_table[OPTIONS_MAX] = {
      "The surroundings that shiny surfaces reflect: an image, six faces, sky or studio.",
      "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, TGA, PPM, "
      "PFM, EXR or Radiance (.hdr). Six faces are files separated by commas in OpenGL's order, `px,nx,py,ny,pz,nz`, all "
-     "square and of the same size. `sky` and `studio` are built in; write `./sky` for a file of that name. Classic "
+     "square and of the same size. `sky` and `studio` are built in. For a file named `sky`, write `./sky`. Classic "
      "materials reflect the environment only if they have a reflectivity (see `--reflectivity`). "
      "`docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
@@ -622,7 +623,7 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
      "The model rotates about its up axis in equal steps, counter-clockwise from above; frame k is identical to a "
-     "picture with `--rotate y:A`, where A is 360 k/N. All frames share one camera distance and one exposure. By "
+     "picture with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and exposure. By "
      "default, and with a name that "
      "ends in `.png` or `.webp`, Lambent writes all frames to one animated PNG or WebP that loops forever. With "
      "`{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a separate file, in any format. "
@@ -631,29 +632,26 @@ struct option option_table[OPTIONS_MAX] = {
      .min = 2, .max = 100000},
     {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
      "Keep the lights of a turntable with the camera, or turn them with the model: camera or model.",
-     "Lights in the frame of an object or of the model always turn with that object or model.", turntable_light_words,
-     .store = store_word, .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
+     "Lights in an object's frame always turn with the object.", turntable_light_words, .store = store_word,
+     .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
     {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
      "Animate a number: light.azimuth=0..360, roughness=0..1; repeatable.",
-     "KEY is one of these: an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, "
-     "`ambient`, `crease-angle`); `rotate.x`, `rotate.y` or `rotate.z`; a key of `--material` (`roughness`, `kd`, also "
-     "`roughness@NAME`); or a number of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's name or "
+     "KEY is an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, `ambient`, "
+     "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. It may also be a key of `--material` (`roughness`, `kd`, "
+     "`roughness@NAME`) or a number of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's name or "
      "its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first light that "
-     "has this key. A light's numbers are its fields (`diffuse`, `range`, `position.x`; angles in degrees), "
-     "`intensity`, which multiplies its light, `azimuth` and `elevation`. Azimuth and elevation are the direction from "
-     "which the light comes, in its own frame. They count like the camera's angles: 0 is the front, 90 the right. "
-     "`time` is "
-     "the time of a glTF file's animation; without numbers it covers the whole length.\nMore stops may follow: "
-     "`light.elevation=10..80..10`. If a sweep ends as it begins (after a whole turn, for example), its last frame is "
-     "one step before the end, so that the loop is seamless. Several sweeps run at the same time, also with "
-     "`--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and `elevation` all frames share "
-     "one distance; for `time` the camera is fitted to the box of all frames. Only `zoom` and `fov` change the camera "
-     "between frames.",
+     "has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in degrees), "
+     "`intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light comes, in "
+     "its own frame, like the camera's angles: 0 is the front, 90 the right. `time` is the time of a glTF file's "
+     "animation; without numbers, it covers the whole length.\nYou can give more stops: `light.elevation=10..80..10`. "
+     "If a sweep ends as it begins (after a whole turn, for example), its last frame is one step before the end, so "
+     "the loop is seamless. You can combine several sweeps, also with `--turntable`. Lambent fits the camera once, to "
+     "the first frame. For `azimuth` and `elevation`, the camera keeps one distance; for `time`, it fits the boxes of "
+     "all frames. Only `zoom` and `fov` change the camera between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
-    {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames of `--sweep`.",
-     "`--turntable N` sets this number itself. For `--sweep time` alone the default is the animation's length times "
-     "`--fps`.",
+    {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames in a sweep.",
+     "`--turntable N` overrides this number. For `--sweep time`, the default is the animation's length times `--fps`.",
      .store = store_integer, .others = "frame-count", FIELD(animation.frames), .min = 2, .max = 100000},
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
      .store = store_number, .others = "frame-rate framerate speed delay", FIELD(animation.fps), .min = 0.1, .max = 240},
@@ -683,10 +681,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
      "Stop if a model needs more memory than this, for example 500M or 2Gi (exit 4).",
      "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
-     "counts memory before it allocates it. The default is a quarter of the memory available to this process, divided "
-     "by the number of models drawn at the same time. The available memory is the smallest of the machine's memory, "
-     "the limits of the process's control groups (cgroup v1 and v2) and the limits of the process (`ulimit -v`, "
-     "`ulimit -d`). `none` disables the limit. k, M, G and T are powers of 1000; Ki, Mi, Gi and Ti of 1024. For "
+     "counts memory before it allocates it. The default is a quarter of the available memory, divided by the number of "
+     "models drawn at the same time. The available memory is the smallest of the machine's memory, the limits of "
+     "control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and T are "
+     "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. For "
      "`check`, it limits the process that draws a shader.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
@@ -721,7 +719,7 @@ struct option option_table[OPTIONS_MAX] = {
      .max = 2147483647, .single = TAKES_PICTURE_LIMITS},
     {"pixel-limit", 0, GROUP_LIMITS, "N", "400M",
      "Reject a texture or an environment with more pixels than this (exit 4).",
-     "Lambent reads a file's header before it allocates memory. A side is never longer than 65535 pixels.",
+     "Lambent checks the header before it allocates memory. The width and height are limited to 65535 pixels.",
      .store = store_count, .others = "max-pixels texture-limit image-limit", FIELD(limits.pixel_limit),
      .max = 4294836225, .single = TAKES_PICTURE_LIMITS},
     {"file-limit", 0, GROUP_LIMITS, "BYTES", "32G", "Reject files larger than this (exit 4).",
@@ -730,10 +728,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"json-depth-limit", 0, GROUP_LIMITS, "N", "256",
      "Reject JSON (glTF and scene files) with deeper nesting than this (exit 4).", NULL, .store = store_integer,
      .others = "max-depth nesting", FIELD(limits.json_depth_limit), .min = 1, .max = 2000},
-    {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Restrict the files that a scene file may name to its own folder.",
+    {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Allow a scene file to name only files in its own folder.",
      "Use this option for scene files from strangers. All models and pictures must then be in the scene file's folder "
      "or below it, after links and `..` are resolved. A scene file then cannot show other files. Files that a model "
-     "names (MTL) must be in the model's folder in any case. Files named on the command line may be anywhere.",
+     "names (MTL) must always be in the model's folder. Files named on the command line may be anywhere.",
      .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
      "Drop all privileges that reading files does not need: auto, require or off.",
@@ -750,8 +748,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL, "Allow models to read this file, or files in this folder; repeatable.",
      "By default a model may read files only in its own folder. For textures in `../textures` give `--allow-path "
      "../textures`. Scene files with `--files-inside`, and links in the folders of `batch`, may also point to the "
-     "allowed folder. The sandbox allows reading it. With `--jobs`, all files of jobs must be in the allowed folder; "
-     "their models still read only their own folders. Pages and `view` never contain files of other folders.",
+     "allowed folder. The sandbox allows reading it. With `--jobs`, all files that jobs name must be in an allowed "
+     "folder; models still read only their own folders. Pages (`-o FILE.html`) and `view` never include files from "
+     "other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
@@ -783,8 +782,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
      "Exit with 0 even if models fail, provided that the journal records each result.",
      "Open MPI stops all ranks if one rank exits with a code other than 0, and other systems repeat the task. The "
-     "journal and the messages still report the failures. If a run does not reach every model, it exits with its usual "
-     "code: for example after a wrong option, an interrupt, or a journal that it cannot write.",
+     "journal and the messages still report the failures. If a run ends early, for example after a wrong option or an "
+     "interrupt, it still exits with an error code.",
      .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
      .single = TAKES_MANY},
     {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Skip pictures whose files and options match the journal.",
@@ -807,8 +806,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or list.",
      "With `name` each shard reads all names, which takes a second or two for a million. With `list`, it reads only "
      "the K-th of N equal parts of one list (`@FILE`). The models must be sorted by the names of their pictures "
-     "(`LC_ALL=C sort`), so that no two pictures share a name. If the list changes, models move to other shards; "
-     "`--resume` then refuses to continue.",
+     "(`LC_ALL=C sort`), so that no two pictures share a name. If the list changes, models move to other shards, and "
+     "`--resume` refuses to continue.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
     {"jobs", 0, GROUP_BATCH, "-", NULL,
      "`batch`: Read jobs, one line of JSON each, and answer each with a line of JSON.",
@@ -881,7 +880,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "layout", FIELD(sheet.name)},
     {"title", 0, GROUP_SHEET, "TEXT", NULL, "The title of a sheet, a plot or a figure, in any language; '' for none.",
      "An SVG stores text as text: the viewer provides the fonts, supports right-to-left languages and can read the "
-     "text aloud. In a PNG, Lambent draws one letter of the font after the other. The default font covers Latin, Greek "
+     "text aloud. In a PNG, Lambent draws the letters one by one. The default font covers Latin, Greek "
      "and Cyrillic. Chinese, Japanese and Korean need a font that covers them (`--font`). Scripts that run from right "
      "to left or join letters need an SVG.",
      .store = store_text, .single = TAKES_TITLE, .others = "heading name header", FIELD(captions.title)},
@@ -916,12 +915,12 @@ struct option option_table[OPTIONS_MAX] = {
      highlight_words, .store = store_word, FIELD(check.highlight)},
     {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
      "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
-     "By default a term is expected if the shaders declare one of its names: without a specular colour no highlight is "
-     "expected. An expected colour that is not declared is white.",
+     "By default, Lambent expects a term if the shaders declare one of its names: without a specular colour, it "
+     "expects no highlight. If an expected colour is not declared, it is white.",
      term_words, .store = store_words, FIELD(check.terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
-    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit a shader's processor time, for all scenes.",
+    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit the processor time of a shader, for all scenes together.",
      "Lambent adds the processor time of all threads, so other programs on the machine do not affect it. The elapsed "
      "time may be up to 20 times as long.",
      .store = store_number, FIELD(check.stop_after_s), .min = 0.1, .max = 1e6},
@@ -959,14 +958,14 @@ struct option option_table[OPTIONS_MAX] = {
      "picture, with OpenGL's own calls only. `-o NAME` writes it to `NAME.c`.",
      host_words, .store = store_word, FIELD(shader.host)},
     {"products", 0, GROUP_SHADER, NULL, NULL,
-     "Pass the products ka La, kd Ld and ks Ls as uniforms, as in the lectures.", NULL, .store = store_switch,
+     "Pass the products ka La, kd Ld and ks Ls as uniforms, as in many lectures.", NULL, .store = store_switch,
      FIELD(shader.products)},
     {"lights-in", 0, GROUP_SHADER, "STORAGE", "auto", "How the shaders store the lights: array, block or texture.",
-     "No method has a fixed maximum number of lights. OpenGL allows the fewest lights in an array and the most in a "
-     "texture.",
+     "None of them has a fixed maximum number of lights. OpenGL supports the fewest lights in an array, and the most "
+     "in a texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
-     "The lecture style uses the names of the blackboard: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
+     "The lecture style uses the symbols of lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
      "`blinn-phong` and `kajiya-kay`, with any lights and any shading, its uniforms and its picture are the same as in "
      "the full style. Lambent rejects textures and other reflection models in this style. With `--stage application` "
      "Lambent also prints a C function that lights the vertices. See `docs/teaching.md`.",
@@ -1008,14 +1007,14 @@ struct option option_table[OPTIONS_MAX] = {
      "by v points. The front of an implicit surface is the side to which the gradient points.",
      .store = store_switch, .others = "flip-normals invert-normals", FIELD(shading.flip), .loads = true},
     {"object", 0, GROUP_SHADER, "N", "all", "Print the shaders for only this object of the scene, counted from 0.",
-     "One pair of shaders serves a whole scene, unless only some of its objects are two-sided or only some have "
-     "tangents for Kajiya-Kay.",
+     "One pair of shaders usually works for the whole scene. Exceptions are scenes in which only some objects are "
+     "two-sided, or only some have tangents for Kajiya-Kay.",
      .store = store_integer, FIELD(shader.object), .has_field = offsetof(struct options, shader.has_object), .min = 0,
      .max = 1e9},
 
     {"port", 0, GROUP_VIEWER, "N", "any free port", "The port of 127.0.0.1 that the viewer listens on.", NULL,
      .store = store_integer, FIELD(viewer.port), .min = 1, .max = 65535},
-    {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "Stop if no page has been open for this many minutes.", NULL,
+    {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "Stop when no page has been open for this many minutes.", NULL,
      .store = store_number, .others = "idle-timeout", FIELD(viewer.idle_minutes),
      .has_field = offsetof(struct options, viewer.has_idle), .min = 0.001, .max = 1e6},
     {"no-open", 0, GROUP_VIEWER, NULL, NULL, "Print the address, and do not open a browser.",
@@ -1026,7 +1025,7 @@ struct option option_table[OPTIONS_MAX] = {
      "By default the environment variable `LAMBENT_FONT` names the font. If it is not set, Lambent uses the first of "
      "these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, FreeSans, Roboto. "
      "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
-     "sheet are always identical. An SVG names DejaVu Sans, and its viewer selects the font.",
+     "sheet are always identical. An SVG requests DejaVu Sans; the viewer of the file may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without text; no font is needed.", NULL, .store = store_switch,
      .others = "no-text no-labels", FIELD(captions.no_captions)},

@@ -190,7 +190,7 @@ end_header
         self.assertAlmostEqual(light["intensity"] * light["color"][1], 8 * 3.14159265, 4)
         self.assertEqual(len(root["cameras"]), 1)
         self.assertAlmostEqual(root["cameras"][0]["perspective"]["yfov"], 0.6981317, 5)
-        self.assertIn("ambient and hemisphere lights are left out: glTF has none", report["losses"])
+        self.assertIn("ambient and hemisphere lights are omitted: glTF does not support them", report["losses"])
         self.assertTrue(any("classic materials" in loss for loss in report["losses"]))
         self.assertEqual(covered(self.picture("s.json", "--show", "coverage")), covered(self.picture("s.glb", "--camera", "0", "--show", "coverage")))
         losses = self.convert("s.json", "s.stl")["losses"]
@@ -298,6 +298,6 @@ end_header
 
     def test_text(self):
         done = self.good("convert", "cube.obj", "c.stl")
-        self.assertIn(b"warning: materials are left out (", done.stderr)
+        self.assertIn(b"warning: materials are omitted (", done.stderr)
         self.assertTrue(done.stderr.endswith(b"c.stl  12 triangles  684 bytes\n"))
         self.assertEqual(self.good("convert", "cube.obj", "c.stl", "-q").stderr, b"")

@@ -231,7 +231,7 @@ end_header
         """A file of somebody else's stays; converting again replaces one's own. Odd names do not lead out of the folder."""
         (self.folder / "mine.mtl").write_text("precious")
         self.given.add("mine.mtl")
-        self.bad(5, "convert", "cube.obj", "mine.obj", says=("mine.mtl would be overwritten", "mine.obj is not there"))
+        self.bad(5, "convert", "cube.obj", "mine.obj", says=("mine.mtl would be overwritten", "mine.obj does not exist"))
         self.assertEqual((self.folder / "mine.mtl").read_text(), "precious")
         self.good("convert", "cube.obj", "o.obj", "-q")
         self.good("convert", "cube.obj", "o.obj", "-q")
@@ -270,7 +270,7 @@ end_header
 
     def test_errors(self):
         for words, code, says in ((["cube.obj", "x.fbx"], 3, ".glb, .obj, .stl, .ply or .3mf"), (["cube.obj", "x"], 3, "write .glb"),
-                                  (["cube.obj", "-"], 1, "names its format"), (["cube.obj"], 1, "missing argument"),
+                                  (["cube.obj", "-"], 1, "selects the format"), (["cube.obj"], 1, "missing argument"),
                                   (["cube.obj", "a.glb", "b.glb"], 1, "it writes one model"), (["cube.obj", "cube.obj"], 1, "one file"),
                                   (["missing.obj", "x.glb"], 2, "missing.obj"), (["cube.obj", "no/where/x.glb"], 5, "no/where"),
                                   (["cube.obj", "x.glb", "--samples", "4"], 1, "does not apply")):

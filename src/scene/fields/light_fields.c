@@ -20,8 +20,7 @@
 static const struct light_field rows[] = {
     {.field = {MEMBER(position), .type = LAM_FIELD_POINT, .min = -UNBOUNDED, .max = UNBOUNDED, .light_types = PLACED,
                .unit = "model units",
-               .summary =
-                   "position; a scene file also accepts x, y, z, w (w = 0: a directional light from x, y, z)"}},
+               .summary = "position; a scene file also accepts x, y, z, w (w = 0: a directional light from x, y, z)"}},
     {.field = {MEMBER(direction), .type = LAM_FIELD_DIRECTION, .min = -UNBOUNDED, .max = UNBOUNDED,
                .standard = {0, 0, -1}, .light_types = AIMED, .summary = "direction in which the light travels"}},
     {.field = {MEMBER(ambient), .symbol = "La", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(0.2f),

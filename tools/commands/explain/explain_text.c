@@ -467,8 +467,8 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
     }
     lam_rgb c = {f->color.r, f->color.g, f->color.b};
     row_color(2, "colour", c,
-              f->ground == LAM_GROUND_SHADOW ? "black: the ground stores the blocked light as its alpha"
-              : f->point_count == 3          ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
+              f->ground == LAM_GROUND_SHADOW   ? "black: the ground stores the blocked light as its alpha"
+              : f->point_count == 3            ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
               : e->shading == LAM_SHADING_FLAT ? "the sum, constant over the triangle"
                                                : "the sum");
     if (f->color.a != 1)

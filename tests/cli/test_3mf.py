@@ -179,7 +179,7 @@ class Read(ThreeMF):
         name = save("b.3mf", ' blendmethods="multiply"')
         self.assertEqual(self.pixel(name, "front", (0.3, 0.3)), (0, 0, 0))
         name = save("c.3mf", last=1)  # colours that differ under a texture
-        self.assertIn("layers are not mixed", " ".join(self.info(name)["warnings"]))
+        self.assertIn("without mixing their layers", " ".join(self.info(name)["warnings"]))
 
     def test_display_properties(self):
         """Metals and dielectrics, named by the group or by the element; those that are defined later too."""
@@ -273,7 +273,7 @@ class Faults(ThreeMF):
                 (lambda m: m.replace("<model", '<model unit="parsec"'), 'found unit="parsec"'),
                 (lambda m: m.replace("</resources>", good + "</resources>"), "the id 1 is used twice"),
                 (lambda m: m.replace('<object id="1">', '<object id="1" pid="7" pindex="0">'), "found properties with the id 7"),
-                (lambda m: m.replace('<item objectid="1"/>', ""), "its build has no items"),
+                (lambda m: m.replace('<item objectid="1"/>', ""), "its build contains no items"),
                 (lambda m: m.replace(box(), ""), "have no triangles"),
                 (lambda m: m.replace("</build>", ""), "not well-formed XML: mismatched tag"),
                 (lambda m: m.replace(CORE, ""), "found the element model, expected model of 3MF"),

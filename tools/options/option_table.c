@@ -359,7 +359,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "anim clip action", FIELD(model.animation)},
     {"time", 0, GROUP_MODEL, "SECONDS", "0",
      "The time, in seconds, in the animation given by `--animation`, or in the file's first animation.",
-     "Before the first keyframe, the model has the pose of the first keyframe; after the last, of the last.", NULL,
+     "Times before the first keyframe show the first pose, and times after the last keyframe show the last pose.", NULL,
      .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time), .min = -1e9,
      .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
@@ -581,8 +581,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"surfaces", 0, GROUP_SHADING, "SWITCH", NULL, NULL, "Surfaces that are not drawn still hide lines.",
      .others = "faces lines-only no-surfaces hide-surfaces"},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
-     "Use it for comparison with old programs. Lambent then clamps vertex colours to 0...1 before interpolation and "
-     "the shininess to 128. It also attenuates the ambient light of each light and limits it to the light's cone.",
+     "Use it for comparison with old programs. Lambent then clamps vertex colours to 0...1 before interpolation, and "
+     "limits the shininess to 128. It also attenuates the ambient light of each light and limits it to the light's "
+     "cone.",
      .words = NULL},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, for every material.", NULL,
      .store = store_switch, FIELD(shading.two_sided)},
@@ -602,7 +603,7 @@ struct option option_table[OPTIONS_MAX] = {
      "Segments of a built-in shape, such as 64x32: slices around the axis, and stacks along it.",
      "With `--parametric`, N is the number along u and M the number along v; N alone sets both. N is 3 to 16384; "
      "`lambent shapes` describes the segments of each shape. The default of M depends on the shape. `gyroid`, "
-     "`metaballs` and `--implicit` allow at most 1024 cells and no M.",
+     "`metaballs` and `--implicit` accept only N, at most 1024 cells.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The surroundings that shiny surfaces reflect: an image, six faces, sky or studio.",

@@ -921,12 +921,12 @@ struct option option_table[OPTIONS_MAX] = {
      term_words, .store = store_words, FIELD(check.terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
-    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit the processor time of a shader, for all scenes together.",
-     "Lambent adds the processor time of all threads, so other programs on the machine do not affect it. The elapsed "
+    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit the processor time of a shader.",
+     "The limit applies to all scenes together. Lambent adds the processor time of all threads, so other programs on "
+     "the machine do not affect it. The elapsed "
      "time may be up to 20 times as long.",
      .store = store_number, FIELD(check.stop_after_s), .min = 0.1, .max = 1e6},
-    {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000",
-     "Stop the search for mistakes after drawing this many pictures.",
+    {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000", "Stop the search after drawing this many pictures.",
      "If the search finds no set of mistakes, the report states how many sets it tried and whether it stopped at this "
      "limit.",
      .store = store_integer, .others = "effort budget tries", FIELD(check.search_limit), .min = 1, .max = 1000000000},

@@ -308,7 +308,8 @@ static void test_errors(void **unused)
     expect_error(TRIANGLE "f 1 2 3\nf 1 2 7\nf 8 1 2\n", LAM_CANNOT_READ,
                  "t.obj:5: a face names vertex '7', but the file has 3");
     expect_error("", LAM_CANNOT_READ, "t.obj: contains no triangles, lines or points");
-    expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: contains vertices (3), but no faces, lines or points that use them");
+    expect_error(TRIANGLE, LAM_CANNOT_READ,
+                 "t.obj: contains vertices (3), but no faces, lines or points that use them");
     expect_error(TRIANGLE "l 1 4\n", LAM_CANNOT_READ, "t.obj:4: a line names vertex 4, but the file has 3");
     expect_error(TRIANGLE "p 0\n", LAM_CANNOT_READ, "t.obj:4: a point names vertex 0, expected an index from 1");
     expect_error(TRIANGLE "l 1 -4\n", LAM_CANNOT_READ,

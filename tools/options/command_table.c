@@ -42,7 +42,8 @@ static const struct own_default materials_defaults[] = {{"output", "no sheet", N
 
 const struct command command_table[] = {
     [COMMAND_render] = {"render", "MODEL...", "Draw a picture of each model. You can omit the word `render`.",
-                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 1, .max_operands = -1},
+                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 1,
+                        .max_operands = -1},
     [COMMAND_batch] = {"batch", "[MODEL|FOLDER|@LIST|-]...",
                        "Draw many models, from folders, lists or standard input, and keep a journal.",
                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,

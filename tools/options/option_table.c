@@ -489,7 +489,8 @@ struct option option_table[OPTIONS_MAX] = {
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "The value is a material name from the classic table (with sRGB colours), keys separated by commas, or a name "
      "followed by keys (`gold,shininess=80`). Under the default lights, `brass`, `bronze`, `chrome`, `copper`, `gold` "
-     "and `silver` without keys are physical metals that reflect the studio. `glass` is clear glass (`lambent help glass`). Properties without a key keep the model's "
+     "and `silver` without keys are physical metals that reflect the studio. `glass` is clear glass (`lambent help "
+     "glass`). Properties without a key keep the model's "
      "values. `lambent help materials` lists the keys (a colour is `#rrggbb`, a name, `r/g/b` or one number). `color` "
      "sets ambient and diffuse; `specular_color` sets specular. The factors `ka`, `kd`, `ks` and `kr` multiply "
      "ambient, diffuse, specular and mirrored light (`kr` multiplies the specular colour, white by default).\n`@NAME` "

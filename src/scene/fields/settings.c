@@ -46,8 +46,7 @@ WORDS(occlusion_words,
       {"auto", LAM_OCCLUSION_AUTO, "`screen` with the studio's lights or environment light, otherwise `off`"},
       {"off", LAM_OCCLUSION_OFF, "no occlusion"},
       {"screen", LAM_OCCLUSION_SCREEN, "computed from the depths of visible surfaces around each pixel"},
-      {"rays", LAM_OCCLUSION_RAYS,
-       "traces rays from each point: slower, includes hidden surfaces; only on the CPU"})
+      {"rays", LAM_OCCLUSION_RAYS, "traces rays from each point: slower, includes hidden surfaces; only on the CPU"})
 WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto` and selects `screen`"},
       {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})

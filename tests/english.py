@@ -30,6 +30,16 @@ PHRASES = [
     (r"\bworked out\b", "computed"),
     (r"(?:^|[.!?] )What (?!is |are |does |do )[^.?!]*(?:[.!]|$)", "begin with the thing itself"),
 ]
+# Phrases of pages alone, the advice, and a text that the phrase finds. Comments still have some.
+PAGE_PHRASES = [
+    (r"\b(?:is|are) left out\b", "omits; 'Lambent omits it'", "shadows are left out"),
+    (r"\bhas none\b", "'does not support them', 'contains none'", "the format has none"),
+    (r"\b[Tt]o see (?:the|them|it)\b[^.]*: `", "'Use `--show` to draw'", "To see the term alone: `--show ambient`"),
+    (r"\bCorrect: ", "an imperative: 'Normalize it'", "Correct: `normalize` first."),
+    (r"\bhowever many\b|\bwhatever (?:the|its|their)\b", "'for any number of', 'independent of'", "a pixel is lit once, however many triangles"),
+    (r"\bgoes? (?:only )?with\b", "can be combined with; needs", "the key goes with a spot"),
+    (r"\btakes? for granted\b|\bcontestants?\b|\bmend(?:s|ed)?\b|\bcures?\b", "assumes; program; fixes", "the fault is mended"),
+]
 HEADING = re.compile(r"^#+ (?:The|A|An|In) \w+$")
 
 
@@ -120,8 +130,9 @@ def texts_of(path, text):
 
 
 def check_phrases(path, text):
+    phrases = PHRASES + [(pattern, advice) for pattern, advice, _ in PAGE_PHRASES if path.endswith(".md")]
     for number, part in texts_of(path, text):
-        for pattern, advice in PHRASES:
+        for pattern, advice in phrases:
             m = re.search(pattern, part)
             if m and not any(path == p and t in part for p, t, _ in ALLOWED):
                 yield number, "'%s': %s" % (m.group().strip(), advice)

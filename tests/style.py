@@ -88,6 +88,7 @@ def check_english(groups, number):
         print("".join("# %s\n" % complaint for complaint in found[:40]), end="")
         failed += bool(found or not paths)
     blind = [pattern for (pattern, _), example in zip(english.PHRASES, english.EXAMPLES) if not re.search(pattern, example)]
+    blind += [pattern for pattern, _, example in english.PAGE_PHRASES if not re.search(pattern, example)]
     blind += ["EXAMPLES"] * (len(english.PHRASES) != len(english.EXAMPLES))
     print("%s %d - each phrase is found in its example" % ("not ok" if blind else "ok", number + 1))
     print("".join("# %s\n" % pattern for pattern in blind), end="")

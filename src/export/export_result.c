@@ -48,18 +48,19 @@ void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras)
     if (!s)
         return;
     if (!has_lights_and_cameras && s->lights.count)
-        export_lose(e, "lights are left out (%d): the format has none", s->lights.count);
+        export_lose(e, "lights are omitted (%d): the format does not support them", s->lights.count);
     if (!has_lights_and_cameras && (s->cameras.count || e->params->camera))
-        export_lose(e, "cameras are left out (%d): the format has none",
+        export_lose(e, "cameras are omitted (%d): the format does not support them",
                     s->cameras.count + (e->params->camera != NULL));
     if (s->environment)
-        export_lose(e, "the environment is left out: the format has none");
+        export_lose(e, "the environment is omitted: the format does not support it");
     if (s->ambient.r > 0 || s->ambient.g > 0 || s->ambient.b > 0)
-        export_lose(e, "the ambient light is left out: the format has none");
+        export_lose(e, "the ambient light is omitted: the format does not support it");
     if (s->file.animation_count)
-        export_lose(e, "animations are left out (%d): the file has the pose that was read", s->file.animation_count);
+        export_lose(e, "animations are omitted (%d): the file contains the pose that was read",
+                    s->file.animation_count);
     if (s->file.variant_count)
-        export_lose(e, "variants of materials are left out (%d): the file has those that were read",
+        export_lose(e, "variants of materials are omitted (%d): the file contains the variant that was read",
                     s->file.variant_count);
 }
 

@@ -142,7 +142,8 @@ bool export_texture(struct exporting *e, const lam_texture *texture, lam_bytes *
     const struct texture_level *level = &texture->levels[0];
     *png = (lam_bytes){0};
     if (!texture->bytes) {
-        export_lose(e, "the picture %s is left out: it has more than 8 bits a channel, which PNG in a model has not",
+        export_lose(e,
+                    "the picture %s is omitted: it has more than 8 bits per channel, which PNG in a model cannot store",
                     texture->name ? texture->name : "of a material");
         return false;
     }

@@ -35,9 +35,9 @@ static void count_mesh(struct flat *f, const lam_mesh *m)
     f->has_texcoords |= m->texcoords != NULL;
     f->has_colors |= m->colors != NULL;
     if (m->tangents && strcmp(f->e->scene->format, "gltf") == 0)
-        export_lose(f->e, "tangents are left out: readers make them again");
+        export_lose(f->e, "tangents are omitted: readers compute them");
     if (m->second_texcoords)
-        export_lose(f->e, "a second set of texture coordinates is left out: the format has one");
+        export_lose(f->e, "a second set of texture coordinates is omitted: the format supports one");
 }
 
 static bool make_arrays(struct flat *f)
@@ -180,9 +180,9 @@ static void put_missing(struct flat *f, size_t corners)
 static void lose_sides(struct exporting *e, const lam_object *object)
 {
     if (object->back_material >= 0)
-        export_lose(e, "materials of back faces are left out: the format has none");
+        export_lose(e, "materials of back faces are omitted: the format does not support them");
     if (object->one_sided)
-        export_lose(e, "back faces that are lit like the front are left out: the format has none");
+        export_lose(e, "lighting of back faces like front faces is omitted: the format does not support it");
 }
 
 static bool flatten(struct exporting *e, enum export_kind kind)

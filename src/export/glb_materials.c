@@ -15,7 +15,8 @@ static const lam_texture_map *usual(struct glb *glb, const lam_material *m, lam_
     const lam_texture_map *map = m->maps[slot];
     if (!map || (scale_of(map) == 1 && map->offset == 0 && (channel < 0 || map->channel == channel)))
         return map;
-    export_lose(glb->e, "%s maps with another channel, scale or offset than glTF's are left out", lam_map_name(slot));
+    export_lose(glb->e, "%s maps are omitted: they have another channel, scale or offset than in glTF",
+                lam_map_name(slot));
     return NULL;
 }
 
@@ -40,8 +41,7 @@ static const lam_texture_map *metallic_roughness(struct glb *glb, const lam_mate
     if ((metallic && roughness && same_place(metallic, roughness)) || (roughness && !metallic && m->metallic == 0))
         return roughness;
     if (metallic || roughness)
-        export_lose(glb->e,
-                    "metalness and roughness maps that are not one picture are left out: glTF has one for both");
+        export_lose(glb->e, "separate metalness and roughness maps are omitted: glTF uses one picture for both");
     return NULL;
 }
 
@@ -108,7 +108,7 @@ static void put_other_maps(struct glb *glb, json_t *object, const lam_material *
     if (info)
         glb_set(glb, object, "normalTexture", info);
     if (occlusion && occlusion->channel != 0) {
-        export_lose(glb->e, "occlusion maps of another channel than red are left out: glTF has red alone");
+        export_lose(glb->e, "occlusion maps are omitted unless they use the red channel: glTF supports only red");
     } else if ((info = glb_texture(glb, occlusion))) {
         if (scale_of(occlusion) != 1)
             glb_set(glb, info, "strength", json_real((double)occlusion->scale));
@@ -119,7 +119,7 @@ static void put_other_maps(struct glb *glb, json_t *object, const lam_material *
                                      LAM_MAP_BUMP};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (m->maps[others[i]])
-            export_lose(glb->e, "%s maps are left out: glTF has none", lam_map_name(others[i]));
+            export_lose(glb->e, "%s maps are omitted: glTF does not support them", lam_map_name(others[i]));
 }
 
 // Writes emission above 1 as a factor and a strength (KHR_materials_emissive_strength).
@@ -162,10 +162,12 @@ static json_t *material(struct glb *glb, const lam_material *source, bool double
     json_t *object = json_object();
     lam_material m = lam_material_as_physical(source);
     if (!source->physical && !source->unlit)
-        export_lose(glb->e, "classic materials become metallic-roughness ones: their highlights differ");
+        export_lose(glb->e, "classic materials become metallic-roughness materials: their highlights differ");
     if (m.reflectivity.r > 0 || m.reflectivity.g > 0 || m.reflectivity.b > 0 || m.fibre ||
         m.roughness_angle_rad != lam_material_default().roughness_angle_rad)
-        export_lose(glb->e, "reflectivity, Oren-Nayar's roughness and fibres of materials are left out: glTF has none");
+        export_lose(
+            glb->e,
+            "reflectivity, Oren-Nayar's roughness and fibres of materials are omitted: glTF does not support them");
     glb_set_name(glb, object, m.name);
     if (m.specular_glossiness > 0) {
         put_glossy(glb, object, &m);

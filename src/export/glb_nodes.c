@@ -48,11 +48,11 @@ static bool add_object(struct glb *glb, const lam_object *object)
         matrix = mat4_mul(&matrix, &origin);
     }
     if (object->cull == LAM_CULL_FRONT)
-        export_lose(glb->e, "front faces that are left out are there: glTF leaves out back faces alone");
+        export_lose(glb->e, "culled front faces are visible: glTF can cull only back faces");
     if (object->back_material >= 0)
-        export_lose(glb->e, "materials of back faces are left out: glTF has none");
+        export_lose(glb->e, "materials of back faces are omitted: glTF does not support them");
     if (object->one_sided)
-        export_lose(glb->e, "back faces that are lit like the front are lit from behind: glTF has no other");
+        export_lose(glb->e, "back faces are lit from behind: glTF cannot light them like front faces");
     int mesh = glb_mesh_of(glb, object);
     json_t *item = mesh < 0 ? NULL : node(glb, object->name, matrix);
     if (!item)
@@ -86,15 +86,15 @@ static void lose_fields(struct glb *glb, const lam_light *l)
     const lam_attenuation *a = &l->attenuation;
     bool distant = l->type == LAM_LIGHT_DIRECTIONAL;
     if (l->ambient.r > 0 || l->ambient.g > 0 || l->ambient.b > 0)
-        export_lose(glb->e, "ambient parts of lights are left out: glTF has none");
+        export_lose(glb->e, "ambient parts of lights are omitted: glTF does not support them");
     if (l->specular.r != l->diffuse.r || l->specular.g != l->diffuse.g || l->specular.b != l->diffuse.b)
-        export_lose(glb->e, "specular colours of lights are left out: the diffuse ones serve for both");
+        export_lose(glb->e, "specular colours of lights are omitted: glTF uses the diffuse colour for both");
     if (!distant && (a->constant != 0 || a->linear != 0 || a->quadratic != 1))
-        export_lose(glb->e, "attenuation of lights becomes the inverse square: glTF has no other");
+        export_lose(glb->e, "the attenuation of lights becomes inverse-square: glTF supports no other");
     if (l->radius > 0 || l->angular_radius_rad > 0 || l->occluded > 0 || l->no_shadows)
-        export_lose(glb->e, "sizes and shadows of lights are left out: glTF has none");
+        export_lose(glb->e, "sizes and shadows of lights are omitted: glTF does not support them");
     if (l->type == LAM_LIGHT_SPOT && !(l->outer_rad > 0))
-        export_lose(glb->e, "cones of spot lights with an exponent become soft ones of the same angle");
+        export_lose(glb->e, "spot lights with an exponent become soft cones with the same angle");
 }
 
 // Intensities are candela and lux: in glTF, a white Lambertian surface returns 1/π of the light; here it returns all of
@@ -129,11 +129,11 @@ static void add_light(struct glb *glb, const lam_light *l)
     const lam_mat4 *placement = &glb->e->scene->placement;
     bool positioned = l->type == LAM_LIGHT_POINT || l->type == LAM_LIGHT_SPOT || l->type == LAM_LIGHT_DIRECTIONAL;
     if (!positioned) {
-        export_lose(glb->e, "ambient and hemisphere lights are left out: glTF has none");
+        export_lose(glb->e, "ambient and hemisphere lights are omitted: glTF does not support them");
         return;
     }
     if (l->frame != LAM_FRAME_WORLD && l->frame != LAM_FRAME_MODEL) {
-        export_lose(glb->e, "lights that move with the camera or an object are left out: glTF has none");
+        export_lose(glb->e, "lights that move with the camera or an object are omitted: glTF does not support them");
         return;
     }
     lam_vec3 position = l->position, direction = l->direction;

@@ -92,7 +92,8 @@ static void put_transform(struct glb *glb, json_t *info, const lam_texture_map *
         scale[1] = math_sin(angle) * m[0][1] + math_cos(angle) * m[1][1];
         double skew = math_cos(angle) * m[0][1] - math_sin(angle) * m[1][1];
         if (skew > 1e-5 || skew < -1e-5)
-            export_lose(glb->e, "skewed texture coordinates of maps are left out: glTF has scales and turns alone");
+            export_lose(glb->e,
+                        "skewed texture coordinates of maps are omitted: glTF supports only scales and rotations");
     }
     json_t *object = glb_extension(glb, info, "KHR_texture_transform");
     glb_set(glb, object, "offset", json_pack("[ff]", m[0][2], m[1][2]));

@@ -40,7 +40,7 @@ static const char *picture_name(struct exporting *e, struct pictures *pictures, 
         if (pictures->textures[i] == texture)
             return pictures->names[i];
     if (pictures->count == (int)(sizeof pictures->names / sizeof *pictures->names)) {
-        export_lose(e, "pictures beyond the first %d are left out", pictures->count);
+        export_lose(e, "pictures beyond the first %d are omitted", pictures->count);
         return NULL;
     }
     if (!export_texture(e, texture, &png)) {
@@ -82,7 +82,7 @@ static void put_options(struct exporting *e, struct text *text, const lam_textur
     double sign = flips ? -1 : 1, scale[2] = {(double)m[0][0], -sign * (double)m[1][1]},
            offset[2] = {(double)m[0][2], 1 - ((double)m[1][2] + (flips ? (double)m[1][1] : 0))};
     if (m[0][1] != 0 || m[1][0] != 0)
-        export_lose(e, "turned texture coordinates of maps are left out: MTL has none");
+        export_lose(e, "turned texture coordinates of maps are omitted: MTL does not support them");
     if (map->texcoords)
         export_lose(e, "maps of the second texture coordinates use the first: OBJ has one set");
     if (scale[0] != 1 || scale[1] != 1)
@@ -92,15 +92,15 @@ static void put_options(struct exporting *e, struct text *text, const lam_textur
     if (map->wrap_s == LAM_WRAP_CLAMP && map->wrap_t == LAM_WRAP_CLAMP)
         text_add(text, " -clamp on");
     else if (map->wrap_s || map->wrap_t)
-        export_lose(e, "how pictures repeat beyond their edges is left out, except -clamp: MTL has no more");
+        export_lose(e, "wrapping modes of textures are omitted, except -clamp: MTL supports no others");
     if (map->magnify || map->minify || map->mip)
-        export_lose(e, "filters of pictures are left out: MTL has none");
+        export_lose(e, "filters of pictures are omitted: MTL does not support them");
     if (maps[row].one_channel)
         text_print(text, " -imfchan %c", letters[map->channel & 3]);
     if (maps[row].slot == LAM_MAP_BUMP)
         put_option(text, " -bm", (double[1]){map->scale == 0 ? 1 : (double)map->scale}, 1);
     else if (maps[row].slot == LAM_MAP_NORMAL && map->scale != 0 && map->scale != 1)
-        export_lose(e, "scales of normal maps are left out: MTL has none");
+        export_lose(e, "scales of normal maps are omitted: MTL does not support them");
     else if ((map->scale != 0 && map->scale != 1) || map->offset != 0)
         put_option(text, " -mm", (double[2]){(double)map->offset, map->scale == 0 ? 1 : (double)map->scale}, 2);
 }
@@ -123,7 +123,7 @@ static bool put_maps(struct exporting *e, struct text *text, const lam_material 
     }
     for (int i = 0; i < LAM_MAP_COUNT; i++)
         if (m->maps[i] && !written[i])
-            export_lose(e, "%s maps are left out: MTL has none", lam_map_name((lam_map)i));
+            export_lose(e, "%s maps are omitted: MTL does not support them", lam_map_name((lam_map)i));
     return ok;
 }
 
@@ -136,14 +136,16 @@ static void lose(struct exporting *e, const lam_material *m)
     if (m->physical && (m->ior != d.ior || m->specular_weight != 1 || m->clearcoat > 0 || m->anisotropy > 0 ||
                         m->iridescence > 0 || m->transmission > 0 || m->thickness > 0 || m->specular_glossiness > 0 ||
                         m->sheen_color.r > 0 || m->sheen_color.g > 0 || m->sheen_color.b > 0))
-        export_lose(e, "layers of physical materials are left out (coats, sheen, films, glass): MTL has none");
+        export_lose(e,
+                    "layers of physical materials are omitted (coats, sheen, films, glass): MTL does not support them");
     const lam_texture_map *color = m->maps[LAM_MAP_DIFFUSE];
     if (m->alpha_mode == LAM_ALPHA_OPAQUE && color && !color->texture->opaque)
         export_lose(e, "the alpha of pictures of opaque materials becomes opacity: MTL cannot ignore it");
     if (m->alpha_mode == LAM_ALPHA_MASK && (m->diffuse.a < 1 || m->maps[LAM_MAP_OPACITY] || color))
-        export_lose(e, "cut-outs by opacity become blended: MTL has no threshold");
+        export_lose(e, "masked materials become blended materials: MTL has no threshold");
     if (kr.r > 0 || kr.g > 0 || kr.b > 0 || m->roughness_angle_rad != d.roughness_angle_rad || m->fibre)
-        export_lose(e, "reflectivity, Oren-Nayar's roughness and fibres of materials are left out: MTL has none");
+        export_lose(
+            e, "reflectivity, Oren-Nayar's roughness and fibres of materials are omitted: MTL does not support them");
     if (m->unlit)
         export_lose(e, "unlit materials become emission (illum 0)");
 }

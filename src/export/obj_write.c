@@ -34,11 +34,12 @@ static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
         if (*own == UINT32_MAX)
             *own = element;
         else if (memcmp(other, colors + 4 * (size_t)element, 3 * sizeof *colors) != 0) {
-            export_lose(e, "colours are left out: triangles that share a vertex have different ones, and OBJ has one");
+            export_lose(e, "colours are omitted: OBJ supports one colour per vertex, and triangles that share a vertex "
+                           "have different colours");
             return true;
         }
         if (colors[4 * (size_t)element + 3] < 1)
-            export_lose(e, "the opacity of vertices is left out: OBJ has none");
+            export_lose(e, "the opacity of vertices is omitted: OBJ does not support it");
     }
     *out = elements;
     return true;

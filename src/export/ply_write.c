@@ -21,13 +21,13 @@ static void put_vertex(struct exporting *e, const lam_mesh *m, size_t c)
 static void lose(struct exporting *e, bool points)
 {
     if (e->scene->objects.count > 1)
-        export_lose(e, "objects become one mesh (%d): PLY has none", e->scene->objects.count);
+        export_lose(e, "objects become one mesh (%d): PLY does not support it", e->scene->objects.count);
     if (e->scene->materials.count)
-        export_lose(e, "materials are left out (%d): PLY has none", e->scene->materials.count);
+        export_lose(e, "materials are omitted (%d): PLY does not support them", e->scene->materials.count);
     if (e->flat[EXPORT_LINES].line_count)
-        export_lose(e, "lines are left out: most readers of PLY have none");
+        export_lose(e, "lines are omitted: most PLY readers do not support them");
     if (!points && e->flat[EXPORT_POINTS].point_count)
-        export_lose(e, "points are left out: a PLY file of triangles has none");
+        export_lose(e, "points are omitted: a PLY file with triangles cannot contain points");
     export_lose_surroundings(e, false);
 }
 
@@ -38,8 +38,8 @@ static bool write(struct exporting *e)
     struct text *text = &e->text;
     struct export_vertices vertices;
     if (!mesh_corners(m))
-        return fail(e->error, LAM_BAD_ARGUMENT, "%s: found neither triangles nor points, and PLY has nothing else",
-                    e->name);
+        return fail(e->error, LAM_BAD_ARGUMENT,
+                    "%s: found neither triangles nor points, and lambent writes only these to PLY", e->name);
     if (!export_share_vertices(e, m, &vertices))
         return false;
     text_print(

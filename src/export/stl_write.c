@@ -13,7 +13,7 @@ static bool write(struct exporting *e)
     struct text *text = &e->text;
     char head[81];
     if (!m->triangle_count)
-        return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, and STL has nothing else", e->name);
+        return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, and STL supports nothing else", e->name);
     const char *name = m->name ? m->name : "mesh";
     snprintf(head, sizeof head, "%-80.80s",
              strncmp(name, "solid", 5) == 0 ? "mesh" : name); // text files begin with "solid"
@@ -30,17 +30,17 @@ static bool write(struct exporting *e)
     }
     if (!e->scene)
         return true;
-    export_lose(e, "normals are left out: STL has one for each triangle, and readers make smooth ones again");
+    export_lose(e, "normals are omitted: STL has one per triangle, and most readers compute smooth normals");
     if (e->scene->objects.count > 1)
-        export_lose(e, "objects become one mesh (%d): STL has none", e->scene->objects.count);
+        export_lose(e, "objects become one mesh (%d): STL does not support it", e->scene->objects.count);
     if (m->colors)
-        export_lose(e, "colours are left out: STL has none that programs agree on");
+        export_lose(e, "colours are omitted: programs disagree on how STL stores them");
     if (m->texcoords)
-        export_lose(e, "texture coordinates are left out: STL has none");
+        export_lose(e, "texture coordinates are omitted: STL does not support them");
     if (e->scene->materials.count)
-        export_lose(e, "materials are left out (%d): STL has none", e->scene->materials.count);
+        export_lose(e, "materials are omitted (%d): STL does not support them", e->scene->materials.count);
     if (e->flat[EXPORT_LINES].line_count || e->flat[EXPORT_POINTS].point_count)
-        export_lose(e, "lines and points are left out: STL has none");
+        export_lose(e, "lines and points are omitted: STL does not support them");
     export_lose_surroundings(e, false);
     return true;
 }

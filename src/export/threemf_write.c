@@ -90,7 +90,7 @@ static bool add_materials(struct exporting *e, struct text *text, const lam_mesh
         text_print(text, "\" displaycolor=\"#%02X%02X%02X%02X\"/>\n", bytes[0], bytes[1], bytes[2], bytes[3]);
         for (int k = 0; k < LAM_MAP_COUNT; k++)
             if (material->maps[k])
-                export_lose(e, "pictures of materials are left out: this writer of 3MF has colours alone");
+                export_lose(e, "textures of materials are omitted: lambent writes only colours to 3MF");
         export_lose(e, "of materials the diffuse colour is kept: base materials of 3MF have no more");
     }
     text_add(text, "</basematerials>\n");
@@ -204,15 +204,15 @@ static bool pack(struct exporting *e, const struct library *zip, const struct te
 static void lose(struct exporting *e)
 {
     const lam_mesh *m = &e->flat[EXPORT_TRIANGLES];
-    export_lose(e, "normals are left out: 3MF has none, and readers make smooth ones again");
+    export_lose(e, "normals are omitted: 3MF does not support them, and most readers compute smooth normals");
     if (e->scene->objects.count > 1)
         export_lose(e, "objects become one object (%d)", e->scene->objects.count);
     if (m->texcoords)
-        export_lose(e, "texture coordinates are left out: this writer of 3MF has colours alone");
+        export_lose(e, "texture coordinates are omitted: lambent writes only colours to 3MF");
     if (m->colors)
-        export_lose(e, "colours of vertices are left out: this writer of 3MF stores only the colours of materials");
+        export_lose(e, "colours of vertices are omitted: lambent writes only the colours of materials to 3MF");
     if (e->flat[EXPORT_LINES].line_count || e->flat[EXPORT_POINTS].point_count)
-        export_lose(e, "lines and points are left out: 3MF has none");
+        export_lose(e, "lines and points are omitted: 3MF does not support them");
     export_lose_surroundings(e, false);
 }
 
@@ -221,7 +221,7 @@ static bool write(struct exporting *e)
     struct library zip;
     struct text model = {0};
     if (!e->flat[EXPORT_TRIANGLES].triangle_count)
-        return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, and 3MF has nothing else", e->name);
+        return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, and 3MF supports nothing else", e->name);
     if (!open_library(e, &zip))
         return false;
     bool ok = make_model(e, &model) && pack(e, &zip, &model);
@@ -236,7 +236,8 @@ static bool write(struct exporting *e)
 
 static bool write(struct exporting *e)
 {
-    return fail(e->error, LAM_UNSUPPORTED, "%s: this build has no libzip, which writes 3MF", e->name);
+    return fail(e->error, LAM_UNSUPPORTED, "%s: this build does not include libzip, which is needed to write 3MF",
+                e->name);
 }
 
 #endif

@@ -110,13 +110,13 @@ static bool open_contained(lam_font *font, lam_error *error)
 static bool open_file(lam_font *font, const char *path, lam_error *error)
 {
     if (access(path, R_OK) != 0)
-        return fail(error, LAM_CANNOT_READ, "%s: the font is not there or cannot be read", path);
+        return fail(error, LAM_CANNOT_READ, "%s: the font is missing or cannot be read", path);
     if (!file_check_regular(path, error))
         return false;
     if (font->ft.new_face(font->library, path, 0, &font->face) != 0)
         return fail(error, LAM_CANNOT_READ, "%s: not a font that FreeType can read", path);
     return FT_IS_SCALABLE(font->face) ||
-           fail(error, LAM_CANNOT_READ, "%s: a font of fixed sizes, expected one of outlines", path);
+           fail(error, LAM_CANNOT_READ, "%s: the font has fixed sizes, expected an outline font", path);
 }
 
 lam_font *lam_font_open(const char *path, lam_error *error)

@@ -99,7 +99,7 @@ static const struct codec *codec_for(const char *path, lam_error *error)
     if (!codec && *ending)
         fail_unknown(error, path, ".", ending);
     else if (!codec)
-        fail(error, LAM_UNSUPPORTED, "%s: the name has no extension of a picture format, expected %s", path,
+        fail(error, LAM_UNSUPPORTED, "%s: the name has no extension of a picture, expected %s", path,
              list_names(".", list));
     return codec;
 }

@@ -332,10 +332,10 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 #define LOBE_PARAMETERS(X) \
     X(shininess) \
     X(fibre, .key = "fibre", .type = LAM_FIELD_FLAG, .max = 1, \
-      .summary = "for hair and thread: Kajiya-Kay without the gate [n.l > 0]") \
+      .summary = "hair and thread: Kajiya-Kay without the condition n.l > 0") \
     X(roughness_angle_rad, .key = "roughness_angle", .symbol = "σ", .unit = "degrees", .type = LAM_FIELD_ANGLE, \
       .max = 90, .standard = {30}, \
-      .summary = "Oren-Nayar's sigma: standard deviation of the slope of the surface's facets") \
+      .summary = "sigma of Oren-Nayar: standard deviation of the facets' slopes") \
     X(roughness) \
     X(metallic)
 // clang-format on
@@ -359,22 +359,22 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
       "lambert", "ambient and diffuse light, no highlight", \
       "max(n·l, 0)", "") \
     X(PHONG, phong_lobe(s, l), LOBE_HIGHLIGHT | LOBE_MIRRORED, \
-      "phong", "the highlight around the mirrored light", \
+      "phong", "a highlight around the mirrored light direction", \
       "max(n·l, 0)", "max(r·v, 0)") \
     X(BLINN_PHONG, blinn_phong_lobe(s, l), LOBE_HIGHLIGHT | LOBE_HALFWAY, \
-      "blinn-phong", "the highlight by the half vector", \
+      "blinn-phong", "a highlight computed from the half vector", \
       "max(n·l, 0)", "max(n·h, 0)") \
     X(KAJIYA_KAY, kajiya_kay_lobe(s, l, m.fibre), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT_FIBRE, \
       "kajiya-kay", "highlights along threads, from the tangents", \
       "sin(t,l)", "max(sin(t,l) sin(t,v) − cos(t,l) cos(t,v), 0)") \
     X(KAJIYA_KAY_LECTURE, kajiya_kay_lecture_lobe(s, l), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT, \
-      "kajiya-kay-lecture", "the same with the sign that a lecture prints", \
+      "kajiya-kay-lecture", "the same, with the sign used in a lecture", \
       "sin(t,l)", "max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)") \
     X(OREN_NAYAR, oren_nayar_lobe(s, l, m.roughness_angle_rad), 0, \
       "oren-nayar", "rough matt surfaces, no highlight", \
       "max(n·l, 0) (A + B max(l·v − n·l n·v, 0) ÷ max(n·l, n·v))", "") \
     X(GGX, ggx_lobe(s, l, m.roughness), LOBE_HIGHLIGHT | LOBE_MICROFACET, \
-      "ggx", "metals and dielectrics of tiny mirrors, glTF's metallic-roughness", \
+      "ggx", "microfacets, for glTF's metallic-roughness materials", \
       "max(n·l, 0) (1 − F)", "π D V max(n·l, 0)")
 // clang-format on
 

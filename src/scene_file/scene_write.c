@@ -224,8 +224,8 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
         name = name ? name : number;
         if (!*name || !is_only_name(origin, name))
             return fail(w->error, LAM_UNSUPPORTED,
-                        "%s: the material '%s' of '%.200s' was changed, but its name is empty or another one's too",
-                        w->path, shown_name(name, shown), origin->path);
+                        "%s: the material '%s' of '%.200s' was changed, but its name is empty or not unique", w->path,
+                        shown_name(name, shown), origin->path);
         changes = changes ? changes : json_object();
         bool whole = origin->materials[i].diffuse.a != 1 || origin->materials[i].fibre;
         put(w, changes, name, material_json(w, now, whole));
@@ -427,8 +427,8 @@ static bool put_objects(struct scene_writer *w, json_t *root)
         char shown[SHOWN_NAME_SIZE];
         if (!origin || (!origin->path && !origin->shape && !origin->formula))
             return fail(w->error, LAM_UNSUPPORTED,
-                        "%s: the mesh of object %d ('%s') came neither from a file nor is a built-in "
-                        "shape or a formula's, so a scene file cannot name it",
+                        "%s: the mesh of object %d ('%s') is not from a file, a built-in shape or a formula, so a "
+                        "scene file cannot describe it",
                         w->path, i, shown_name(object->name ? object->name : "", shown));
         const lam_object plain = lam_object_default();
         bool several = origin->object_count > 1; // one entry describes all objects of a file
@@ -438,17 +438,16 @@ static bool put_objects(struct scene_writer *w, json_t *root)
             continue;
         }
         if (hidden || origin->edited)
-            return fail(
-                w->error, LAM_UNSUPPORTED,
-                "%s: object %d ('%s') is of a model of which a mesh was replaced or removed, or an object removed or "
-                "hidden, so a scene file cannot name it",
-                w->path, i, shown_name(object->name ? object->name : "", shown));
+            return fail(w->error, LAM_UNSUPPORTED,
+                        "%s: object %d ('%s') belongs to a model whose meshes or objects were replaced, removed or "
+                        "hidden, so a scene file cannot describe it",
+                        w->path, i, shown_name(object->name ? object->name : "", shown));
         struct change change =
             several ? (struct change){0} : change_of(w, object, origin->object_count ? origin->objects : &plain);
         if (several && !common_change(w, origin, i, &change))
             return fail(w->error, LAM_UNSUPPORTED,
-                        "%s: some objects of '%.200s' were changed and others not, or differently, so one entry of a "
-                        "scene file cannot describe them",
+                        "%s: the objects of '%.200s' were changed in different ways, so one entry of a scene file "
+                        "cannot describe them",
                         w->path, origin->path);
         i += several ? origin->object_count - 1 : 0;
         if (!put_object(w, list, object, origin, &change))

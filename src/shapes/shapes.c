@@ -368,7 +368,7 @@ static const struct shape {
     const char *name, *summary;
     bool (*build)(const struct shape_request *request, lam_mesh *mesh);
 } shapes[] = {
-    {"sphere", "a sphere; slices around, stacks from pole to pole", sphere_build},
+    {"sphere", "a sphere: slices around it, stacks from pole to pole", sphere_build},
     {"torus", "a ring: radius 0.7 to the middle of a tube of radius 0.3", torus_build},
     {"plane", "a level square of side 2, facing up", plane_build},
     {"cube", "a cube of side 2", cube_build},

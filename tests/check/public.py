@@ -66,27 +66,27 @@ def judge(row, verdict, certain):
 
 PAGE = """# Public shaders
 
-After reading this page you know how `lambent check` judges shaders that nobody wrote for it.
+This page shows how reliably `lambent check` judges shaders from public repositories, and how to repeat the test.
 
-`tests/check/public_labels.py` lists %d pairs of lighting shaders without textures and shadows from public repositories. A reader labelled each
-before the check was changed: right by its course, wrong and why, or impossible to judge (another stage between the two, toon steps, its
-own model). Their texts are not part of this project. With the repositories in a folder, as OWNER/REPOSITORY/PATH, this command checks them
-and writes this page:
+`tests/check/public_labels.py` lists %d pairs of lighting shaders from public repositories, without textures and shadows. Before the check
+was changed, a person labelled each pair as right, as wrong with the reason, or as impossible to judge, for example because of a
+non-standard model. The shaders are not part of this project. To repeat the test, put the repositories into a folder, as
+OWNER/REPOSITORY/PATH, and run this command, which writes this page:
 
     python3 tests/check/public.py FOLDER --program build/lambent --page docs/check/public.md
 
-The command fails if one of these is true:
+The command fails in these cases:
 
-- A right shader differs, or a wrong one passes.
-- A shader that cannot be judged passes or differs.
-- A name reported without a doubt is wrong.
-- Fewer than 70 %% get a verdict.
+- A correct shader differs, or a wrong shader passes.
+- The check gives a verdict on a shader that was labelled as impossible to judge.
+- The check reports a wrong mistake as certain.
+- Fewer than 70 %% of the pairs get a verdict.
 
 | label | right verdict | wrong verdict | no verdict |
 |---|--:|--:|--:|
 %s
 
-%d of %d get a verdict (%.0f %%).
+%d of %d pairs get a verdict (%.0f %%).
 
 | repository | fragment shader | label | verdict | names | comment |
 |---|---|---|---|---|---|

@@ -190,7 +190,7 @@ end_header
         self.assertAlmostEqual(light["intensity"] * light["color"][1], 8 * 3.14159265, 4)
         self.assertEqual(len(root["cameras"]), 1)
         self.assertAlmostEqual(root["cameras"][0]["perspective"]["yfov"], 0.6981317, 5)
-        self.assertIn("ambient and hemisphere lights are left out: glTF has none", report["losses"])
+        self.assertIn("ambient and hemisphere lights are omitted: glTF does not support them", report["losses"])
         self.assertTrue(any("classic materials" in loss for loss in report["losses"]))
         self.assertEqual(covered(self.picture("s.json", "--show", "coverage")), covered(self.picture("s.glb", "--camera", "0", "--show", "coverage")))
         losses = self.convert("s.json", "s.stl")["losses"]
@@ -231,7 +231,7 @@ end_header
         """A file of somebody else's stays; converting again replaces one's own. Odd names do not lead out of the folder."""
         (self.folder / "mine.mtl").write_text("precious")
         self.given.add("mine.mtl")
-        self.bad(5, "convert", "cube.obj", "mine.obj", says=("mine.mtl would be overwritten", "mine.obj is not there"))
+        self.bad(5, "convert", "cube.obj", "mine.obj", says=("mine.mtl would be overwritten", "mine.obj does not exist"))
         self.assertEqual((self.folder / "mine.mtl").read_text(), "precious")
         self.good("convert", "cube.obj", "o.obj", "-q")
         self.good("convert", "cube.obj", "o.obj", "-q")
@@ -270,8 +270,8 @@ end_header
 
     def test_errors(self):
         for words, code, says in ((["cube.obj", "x.fbx"], 3, ".glb, .obj, .stl, .ply or .3mf"), (["cube.obj", "x"], 3, "write .glb"),
-                                  (["cube.obj", "-"], 1, "names its format"), (["cube.obj"], 1, "missing argument"),
-                                  (["cube.obj", "a.glb", "b.glb"], 1, "it writes one model"), (["cube.obj", "cube.obj"], 1, "one file"),
+                                  (["cube.obj", "-"], 1, "selects the format"), (["cube.obj"], 1, "missing argument"),
+                                  (["cube.obj", "a.glb", "b.glb"], 1, "it writes one model"), (["cube.obj", "cube.obj"], 1, "the same file"),
                                   (["missing.obj", "x.glb"], 2, "missing.obj"), (["cube.obj", "no/where/x.glb"], 5, "no/where"),
                                   (["cube.obj", "x.glb", "--samples", "4"], 1, "does not apply")):
             self.bad(code, "convert", *words, says=says)
@@ -298,6 +298,6 @@ end_header
 
     def test_text(self):
         done = self.good("convert", "cube.obj", "c.stl")
-        self.assertIn(b"warning: materials are left out (", done.stderr)
+        self.assertIn(b"warning: materials are omitted (", done.stderr)
         self.assertTrue(done.stderr.endswith(b"c.stl  12 triangles  684 bytes\n"))
         self.assertEqual(self.good("convert", "cube.obj", "c.stl", "-q").stderr, b"")

@@ -105,7 +105,7 @@ class Diff(Case):
         c = self.write("c.ppm", ppm(1, 2, [0] * 6))
         f = self.write("f.pfm", pfm(2, 1, [0] * 6))
         self.bad(1, "diff", a, c, says=("a.ppm has 2x1 pixels", "c.ppm 1x2"))
-        self.bad(1, "diff", a, f, says=("a.ppm holds bytes", "f.pfm floats"))
+        self.bad(1, "diff", a, f, says=("a.ppm contains bytes", "f.pfm contains floats"))
         self.bad(2, "diff", a, "missing.png", says="missing.png")
         self.bad(2, "diff", a, "cube.obj", says="cube.obj")
         self.bad(1, "diff", a, says="missing")

@@ -62,7 +62,7 @@ class Docs(Case):
         self.assertGreater(len(commands), 10)
         for command in ("render", *commands):
             brief, whole = (self.good(command, way).stdout.decode() for way in ("-h", "--help"))
-            self.assertTrue(brief.startswith(("Usage: lambent " + command, "lambent lights")), brief)
+            self.assertTrue(brief.startswith(("Usage: lambent " + command, "lambent renders")), brief)
             self.assertLessEqual(options_of(brief) - {"help"}, options_of(whole), command)
             self.assertLessEqual(len(brief.splitlines()), 40, command)
         self.assertEqual(self.good("-qh").stdout, self.good("-h").stdout)

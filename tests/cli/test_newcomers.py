@@ -119,7 +119,7 @@ class Works(Case):
                 self.assertIn(found, self.good("help", *words).stdout.decode())
         self.assertIn("lambent help lights", " ".join(self.good("help", "light").stdout.decode().split()))
         self.assertRegex(self.good("help", "lights").stdout.decode(), r"(?m)^  attenuation ")
-        self.bad(1, "help", "entirely-else", says="nothing is named 'entirely-else'")
+        self.bad(1, "help", "entirely-else", says="unknown name 'entirely-else'")
 
     def test_lines_that_need_the_page_are_marked(self):
         text = " ".join(self.good("--help").stdout.decode().split("Picture:")[0].split())

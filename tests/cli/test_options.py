@@ -434,7 +434,7 @@ class CommandLine(Case):
         self.bad(1, "help", "shaeps", says="did you mean 'shapes'?")
         self.assertIn(b"did you mean 'color'?", self.good("help", "colour").stdout)
         self.assertIn(b"did you mean 'background'?", self.good("help", "bg").stdout)
-        self.bad(1, "help", "nope", says=("nothing is named 'nope'", "`lambent help` lists them"))
+        self.bad(1, "help", "nope", says=("unknown name 'nope'", "`lambent help` lists them"))
         self.assertIn(b"--light ", self.good("help", "light", "spot").stdout)
         render = self.good("help", "render").stdout
         self.assertTrue(render.startswith(b"Usage: lambent render MODEL"))

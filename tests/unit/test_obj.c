@@ -257,9 +257,10 @@ static void test_warnings(void **unused)
                    "t.obj:5: free-form curves and surfaces are not drawn: 'cstype' is the first of 2 such statements");
     expect_warning(TRIANGLE "f 1 2 3\nfoo bar\n\nbaz\n", NULL,
                    "t.obj:5: unknown statement 'foo', the first of 2 that are ignored");
-    expect_warning(TRIANGLE "f 1/1 2/2 3/3\n", NULL, "t.obj: faces name texture coordinates, but the file has none");
+    expect_warning(TRIANGLE "f 1/1 2/2 3/3\n", NULL,
+                   "t.obj: faces refer to texture coordinates, but the file contains none");
     expect_warning(TRIANGLE "f 1//1 2//1 3//1\n", NULL,
-                   "t.obj: faces name normals, but the file has none; smooth normals are used");
+                   "t.obj: faces refer to normals, but the file contains none; lambent computes smooth normals");
     expect_warning(TRIANGLE "vn 0 0 1\nvn nan 0 0\nf 1//1 2//1 3//1\n", NULL,
                    "t.obj:5: a normal or texture coordinate that is not finite is set to 0, the first of 1");
     expect_warning("mtllib a.mtl\n" TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\n", NULL,
@@ -270,7 +271,7 @@ static void test_warnings(void **unused)
     expect_warning("mtllib a.mtl\n" TRIANGLE "usemtl x\nf 1 2 3\nusemtl y\nf 1 2 3\n", libraries,
                    "t.obj:7: no material file defines the material 'y'; it is drawn in neutral grey");
     expect_warning("v 0 0 0 255 0 0\nv 1 0 0 0 255 0\nv 0 1 0 0 0 255\nf 1 2 3\n", NULL,
-                   "t.obj: vertex colours reach 255; they are read as 0 to 255, not 0 to 1");
+                   "t.obj: vertex colours reach 255, so their range is taken as 0 to 255, not 0 to 1");
 }
 
 static void test_errors(void **unused)
@@ -307,7 +308,8 @@ static void test_errors(void **unused)
     expect_error(TRIANGLE "f 1 2 3\nf 1 2 7\nf 8 1 2\n", LAM_CANNOT_READ,
                  "t.obj:5: a face names vertex '7', but the file has 3");
     expect_error("", LAM_CANNOT_READ, "t.obj: contains no triangles, lines or points");
-    expect_error(TRIANGLE, LAM_CANNOT_READ, "t.obj: contains vertices (3), but no faces, lines or points of them");
+    expect_error(TRIANGLE, LAM_CANNOT_READ,
+                 "t.obj: contains vertices (3), but no faces, lines or points that use them");
     expect_error(TRIANGLE "l 1 4\n", LAM_CANNOT_READ, "t.obj:4: a line names vertex 4, but the file has 3");
     expect_error(TRIANGLE "p 0\n", LAM_CANNOT_READ, "t.obj:4: a point names vertex 0, expected an index from 1");
     expect_error(TRIANGLE "l 1 -4\n", LAM_CANNOT_READ,

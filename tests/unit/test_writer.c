@@ -115,7 +115,7 @@ static void test_rights(void **state)
     // No other.
     put("other", "of the user");
     assert_false(save("other", "6", &error));
-    assert_non_null(strstr(error.text, "other: cannot write: is not a file of this run"));
+    assert_non_null(strstr(error.text, "other: cannot write: this run may not write the file"));
     assert_false(save("log", "7", &error));
     assert_contains("other", "of the user");
     assert_int_equal(mkdir(in_folder("any folder"), 0777), 0);

@@ -46,7 +46,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT,
                         "batch: pictures are files; name a folder, -o pictures/, or a pattern");
     if (o->picture.term != TERM_AUTO && o->picture.term != TERM_OFF)
-        return complain(error, LAM_BAD_ARGUMENT, "batch: option '--term' shows one picture, and batch draws many");
+        return complain(error, LAM_BAD_ARGUMENT, "batch: option '--term' shows a single picture, but batch draws many");
     if (o->picture.save_scene)
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model");
     return job_check_options(o, error);

@@ -73,7 +73,8 @@ static bool check(struct convert *c, lam_error *error)
 {
     struct stat in, out;
     if (strcmp(c->output, "-") == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "convert writes a file whose ending names its format, found '-'");
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "convert needs a file name whose extension selects the format, found '-'");
     if (c->options->convert.thumbnail && strcasecmp(ending(c->output), "glb") != 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--thumbnail' goes with an output that ends in .glb, found %.200s", c->output);
@@ -83,7 +84,7 @@ static bool check(struct convert *c, lam_error *error)
         return false;
     c->replaces = stat(c->output, &out) == 0;
     bool same = c->replaces && stat(c->model, &in) == 0 && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
-    return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and its output are one file", c->output);
+    return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and the output are the same file", c->output);
 }
 
 // Returns whether a path is one of the model's companion files, such as "part.mtl" and "part-0.png". Unless the model
@@ -109,9 +110,10 @@ static bool check_beside(const struct convert *c, const char *path, lam_error *e
 {
     struct stat found;
     return c->replaces || lstat(path, &found) != 0 ||
-           complain(error, LAM_CANNOT_WRITE,
-                    "%.300s would be overwritten, and %.200s is not there yet; remove the file, or name another output",
-                    path, c->output);
+           complain(
+               error, LAM_CANNOT_WRITE,
+               "%.300s would be overwritten, but %.200s does not exist yet; remove the file, or name another output",
+               path, c->output);
 }
 
 // *is_new: the file was written, and was not there before.

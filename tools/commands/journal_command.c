@@ -97,7 +97,7 @@ static void print_parts(const struct journal_sum *sum)
             printf("%s: the run has not ended: %zu of %zu pictures\n", part->path, part->written + part->failed,
                    part->pictures);
         if (part->build && sum->parts[0].build && strcmp(part->build, sum->parts[0].build) != 0 && !missing++)
-            printf("%s and %s are of different builds of lambent\n", sum->parts[0].path, part->path);
+            printf("%s and %s were written by different builds of lambent\n", sum->parts[0].path, part->path);
     }
     if (count > LINES)
         printf("and %d more runs have not ended\n", count - LINES);

@@ -15,7 +15,7 @@ void print_help(const struct command *command)
         help_options(command);
         return;
     }
-    printf("lambent lights 3D models: a model file becomes a picture.\n\n"
+    printf("lambent renders 3D models: it turns a model file into a picture.\n\n"
            "Usage: lambent [OPTIONS] MODEL...\n"
            "       lambent COMMAND [ARGUMENTS]\n\n"
            "Examples:\n");
@@ -74,7 +74,7 @@ void print_brief_help(const struct command *command)
     bool whole = command == command_table;
     char begin[64];
     if (whole) {
-        printf("lambent lights 3D models: a model file becomes a picture.\n\n");
+        printf("lambent renders 3D models: it turns a model file into a picture.\n\n");
         snprintf(begin, sizeof begin, "lambent ");
     } else {
         printf("Usage: lambent %s%s%s\n", command->name, command->operands ? " " : "",

@@ -141,7 +141,7 @@ static int search(int count, char **words)
     if (!letter && help_search(count, words, heading))
         return 0;
     complain(&error, LAM_BAD_ARGUMENT,
-             "help: nothing is named '%.60s', expected a subject, a command or an option (`lambent help` lists them)%s",
+             "help: unknown name '%.60s', expected a subject, a command or an option (`lambent help` lists them)%s",
              words[0], meant);
     say_error(error.text);
     return exit_code_of(error.code)->code;

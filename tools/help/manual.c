@@ -97,7 +97,7 @@ static void roff_paragraphs(const char *text)
 void generate_man(void)
 {
     printf(".TH LAMBENT 1 \"\" \"Lambent %s\" \"User Commands\"\n", lam_version());
-    printf(".SH NAME\nlambent \\- light 3D models: a model file becomes a picture\n");
+    printf(".SH NAME\nlambent \\- render 3D models\n");
     printf(".SH SYNOPSIS\n.B lambent\n[\\fIOPTIONS\\fR] \\fIMODEL\\fR...\n.br\n.B lambent\n\\fICOMMAND\\fR "
            "[\\fIARGUMENTS\\fR]\n");
     printf(".SH EXAMPLES\n");

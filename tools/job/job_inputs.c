@@ -18,7 +18,6 @@ bool job_check_inputs(const lam_scene *scene, const char *path, bool own, lam_er
     for (int i = may ? 1 : 0; lam_scene_file(scene, i); i++)
         if (job_is_same_file(path, lam_scene_file(scene, i)))
             return complain(error, LAM_BAD_ARGUMENT,
-                            "%.300s: the model was read from this file, which would be replaced; name another output",
-                            path);
+                            "%.300s: the output would replace a file that the model uses; name another output", path);
     return true;
 }

@@ -136,10 +136,10 @@ static const struct word view_words[] = {
     {"three-quarter", LAM_SIDE_THREE_QUARTER, "30 degrees to the right of the front, 20 above"},
     {"front", LAM_SIDE_FRONT, "from the front (+Z with Y up), level"},
     {"back", LAM_SIDE_BACK, "from behind, level"},
-    {"left", LAM_SIDE_LEFT, "from the left side of the model in the picture (-X), level"},
+    {"left", LAM_SIDE_LEFT, "from the left (-X), level"},
     {"right", LAM_SIDE_RIGHT, "from the right (+X), level"},
-    {"top", LAM_SIDE_TOP, "straight down"},
-    {"bottom", LAM_SIDE_BOTTOM, "straight up"},
+    {"top", LAM_SIDE_TOP, "from above"},
+    {"bottom", LAM_SIDE_BOTTOM, "from below"},
     {"iso", LAM_SIDE_ISO, "isometric: 45 degrees to the right, 35.26 above"},
     {NULL, 0, NULL}};
 
@@ -238,18 +238,18 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest instr
 
 struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
-     "The extension selects the format; `lambent formats` lists the numbers that each format stores. `-` writes a PNG "
-     "to standard output. Lambent also writes a PNG to a file, pipe or device without a known extension. Without this "
-     "option Lambent writes `MODEL.png` to the current folder (`model.png` if the model comes from standard input). "
-     "Without this option, it never overwrites a file that it did not write. `-o pictures/`, with a trailing slash, "
+     "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. "
+     "Lambent also writes a PNG to a file, pipe or device without a known extension. By default, Lambent writes "
+     "`MODEL.png` to the current folder (`model.png` if the model comes from standard input), and never replaces a "
+     "file that another program wrote. `-o pictures/`, with a trailing slash, "
      "writes to that folder and creates it if it is missing; every command that writes files accepts it. `--out` is an "
-     "alias.\nA name that contains words in braces is a pattern that Lambent fills in for each model: `-o "
+     "alias.\nA name with words in braces is a pattern. Lambent fills it in for each model: `-o "
      "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
      "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
      "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
      "If two models would be written to the same file, it reports an error before it starts. Write `{{` and `}}` for "
-     "braces.\n`.html` writes one file that contains the picture and the model. In a browser, its reader can turn the "
-     "model and change every option, without a network (`docs/web.md`). This format needs the page that `make web` "
+     "braces.\n`.html` writes one file that contains the picture and the model. In a browser, you can turn the model "
+     "and change every option, without a network (`docs/web.md`). This format needs the page that `make web` "
      "builds.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
@@ -264,16 +264,16 @@ struct option option_table[OPTIONS_MAX] = {
     {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
      "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, most visibly in small pictures. On a sheet, the default depends on the size of "
-     "each picture. Lambent lights each triangle once in each pixel that it covers or partly covers.",
+     "each picture. Lambent computes the lighting once per triangle and pixel, at any number of samples.",
      sample_words, .store = store_word,
      .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples)},
     {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
-     "On a slanted surface, the footprint of a pixel in the texture is long and narrow. One probe is as wide as the "
-     "longer axis and blurs along the shorter axis. N probes along the longer axis are N times as sharp.",
+     "A pixel on a slanted surface covers a long, narrow area of the texture. A single texture sample blurs the whole "
+     "area. N samples along it are up to N times as sharp.",
      .others = "anisotropic anisotropic-filtering"},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
-     "Lines of OBJ (`l`), PLY (`edge`) and glTF files have the same width at every distance. Lambent draws them nearer "
-     "to the eye by their width, so that lines on a surface are visible. Lines end without caps.",
+     "Lines of OBJ (`l`), PLY (`edge`) and glTF files have the same width at every distance. Lambent moves them "
+     "towards the eye by their width, so that lines on a surface are visible. Lines end without caps.",
      .others = "linewidth stroke-width thickness"},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
      "Points of OBJ (`p`) and glTF files, and vertices of PLY files without faces and edges, have the same size at "
@@ -296,12 +296,13 @@ struct option option_table[OPTIONS_MAX] = {
      "of the file depend on the version of libdeflate. With `fast` the bytes depend only on the picture.",
      compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress)},
     {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG; lossless WebP", "The quality of JPEG and WebP files, 1 to 100.",
-     "A lower number gives a smaller, less exact file. JPEG stores the colour of every pixel from 90 up, and of every "
-     "block of four pixels below 90. WebP is lossless at 100 and by default. Other formats ignore it. The bytes depend "
+     "A lower number gives a smaller, less exact file. From 90 up, JPEG stores a colour for every pixel; below 90, one "
+     "for every four pixels. WebP is lossless at 100 and by default. Other formats ignore the option. The bytes depend "
      "on the version of libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
      .max = 100},
-    {"term", 0, GROUP_PICTURE, "METHOD", "auto", "Also show the picture in the terminal: a method, or off.",
+    {"term", 0, GROUP_PICTURE, "METHOD", "auto",
+     "Also show the picture in the terminal, by this method; off disables it.",
      "If the terminal can show pictures and `-o` is missing, a single picture appears above the line that names its "
      "file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by "
      "environment variables, and queries other terminals (for at most half a second). It reduces the picture to the "
@@ -312,8 +313,8 @@ struct option option_table[OPTIONS_MAX] = {
      term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,
      .others = "terminal sixel kitty preview inline", FIELD(picture.term)},
     {"durable", 0, GROUP_PICTURE, NULL, NULL, "Flush each picture and its folder to disk before continuing (fsync).",
-     "After a power failure, the disk contains either the complete old picture or the complete new one. Without the "
-     "option the system writes pictures to disk within seconds, and most file systems give the same guarantee.",
+     "After a power failure, the disk contains either the complete old picture or the complete new one. Without this "
+     "option, the system writes pictures to disk within seconds. Most file systems give the same guarantee.",
      .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
      "Brighten or darken the picture: 1 doubles the light, -1 halves it; or auto.",
@@ -358,37 +359,40 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "anim clip action", FIELD(model.animation)},
     {"time", 0, GROUP_MODEL, "SECONDS", "0",
      "The time, in seconds, in the animation given by `--animation`, or in the file's first animation.",
-     "Before the first keyframe and after the last, the pose is the pose of that keyframe.", NULL,
+     "Times before the first keyframe show the first pose, and times after the last keyframe show the last pose.", NULL,
      .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time), .min = -1e9,
      .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
-     "Without this option Lambent refuses such a file (exit 3), because its picture may lack the extension's effect. "
+     "Without this option Lambent refuses such a file (exit 3), because the picture could be wrong without the "
+     "extension. "
      "With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML prefixes in "
      "3MF files.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side to view the model from, or a list: front, back, left, right, top, bottom, iso or three-quarter.",
-     "By default the camera is 30 degrees to the right of the front and 20 degrees above. The model always fills 92 % "
-     "of the picture's tighter dimension. `--azimuth` and `--elevation` change the angles of a named side.\n`render` "
+     "By default the camera is 30 degrees to the right of the front and 20 degrees above. The model fills 92 % of the "
+     "picture's width or height, whichever limits it. `--azimuth` and `--elevation` override the angles of a "
+     "side.\n`render` "
      "and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. Without a pattern in "
      "`-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
      view_words, .several = "views", .brief = "front, left, top, iso ...; or a list: front,left", .store = store_word,
      .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
      FIELD(view.side)},
-    {"azimuth", 0, GROUP_VIEW, "DEGREES", "30", "The camera's angle around the model: 0 is the front, 90 the right.",
-     NULL, .store = store_number, .others = "yaw heading orbit", FIELD(view.azimuth_deg),
-     .has_field = offsetof(struct options, view.has_azimuth), .min = -3600, .max = 3600},
+    {"azimuth", 0, GROUP_VIEW, "DEGREES", "30",
+     "The camera's angle around the model: 0 is the front, 90 is the right side.", NULL, .store = store_number,
+     .others = "yaw heading orbit", FIELD(view.azimuth_deg), .has_field = offsetof(struct options, view.has_azimuth),
+     .min = -3600, .max = 3600},
     {"elevation", 0, GROUP_VIEW, "DEGREES", "20",
-     "The camera's angle above the horizon: 0 is level, 90 straight above.", NULL, .store = store_number,
+     "The camera's angle above the horizon: 0 is level, 90 is straight above.", NULL, .store = store_number,
      .others = "pitch altitude tilt", FIELD(view.elevation_deg),
      .has_field = offsetof(struct options, view.has_elevation), .min = -90, .max = 90},
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "Magnification: 2 shows the model twice as large.", NULL,
      .store = store_number, .others = "scale magnify magnification distance", FIELD(view.zoom), .min = 0.001,
      .max = 1000},
-    {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The fitted camera's vertical field of view, above 0 and below 180.",
-     "With a wide angle, the camera moves closer, which makes near surfaces look larger. The model still fills the "
-     "picture. `--camera fovy=60` has the same effect.",
+    {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The camera's vertical field of view, above 0 and below 180.",
+     "A wide angle moves the camera closer, which exaggerates the perspective. The model still fills the picture. "
+     "`--camera fovy=60` is equivalent.",
      .store = store_number, .others = "field-of-view view-angle perspective-angle focal-length", .alias = "fovy",
      FIELD(view.fov_deg), .min = FOV_MIN, .max = FOV_MAX},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
@@ -457,23 +461,23 @@ struct option option_table[OPTIONS_MAX] = {
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw a marker at each light: a ball, and a cone along the light's direction.",
      "The marker of a directional light is one and a half radii from the model's centre. Each marker has the colour of "
-     "its light. The camera is fitted without the markers, and Lambent reports markers outside the picture.",
+     "its light. The markers do not change the camera. Lambent reports markers outside the picture.",
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
-     "With more than 16 lights, each part of the picture skips its weakest lights, as long as their greatest possible "
-     "sum in a channel stays below this share of the channel's full range. The default is half a step of an 8-bit "
-     "channel (0.5/255): no byte changes by more than 1. Lights that contribute exactly nothing (behind the surface, "
-     "out of range, outside their cone) are always skipped.",
+     "With more than 16 lights, Lambent skips the weakest lights in each part of the picture. Together, the skipped "
+     "lights can change a channel by at most this share of its range. The default is half a step of an 8-bit "
+     "channel (0.5/255): no byte changes by more than 1. Lambent always skips lights that contribute nothing: behind "
+     "the surface, out of range or outside their cone.",
      .words = NULL},
     {"ao", 0, GROUP_LIGHTS, "METHOD", NULL, NULL,
      "A recess receives less light from its surroundings than an open face. Occlusion dims ambient, hemisphere and "
-     "environment light. It also dims the share `occluded` of other lights: the studio's lights set this key, and "
-     "lights of `--light` do not. Ambient occlusion needs Phong shading. `docs/lighting/occlusion.md` has the "
+     "environment light. It also dims lights whose key `occluded` is above 0, such as the studio's lights. Ambient "
+     "occlusion needs Phong shading. `docs/lighting/occlusion.md` has the "
      "formulas.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "Cavity shading makes letters, holes, seams and wrinkles visible. It computes ambient occlusion at a small "
-     "radius, and the same measure for ridges. It affects the same light as `--ao`. `--show ao --ao off --cavity on` "
+     "Cavity shading makes letters, holes, seams and wrinkles visible. It measures valleys and ridges at a small "
+     "radius. It affects the same light as `--ao`. `--show ao --ao off --cavity on` "
      "shows its effect.",
      .others = "curvature ridges valleys no-cavity"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
@@ -484,11 +488,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@NAME]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
      "The value is a material name from the classic table (with sRGB colours), keys separated by commas, or a name "
-     "followed by keys (`gold,shininess=80`). Under the default lights `brass`, `bronze`, `chrome`, `copper`, `gold` "
-     "and `silver` alone are physical metals that reflect the studio. `glass` is clear glass (`lambent help glass`). "
-     "Properties without a key keep "
-     "the model's values. `lambent help materials` lists the keys (a colour is `#rrggbb`, a name, `r/g/b` or one "
-     "number). `color` "
+     "followed by keys (`gold,shininess=80`). Under the default lights, `brass`, `bronze`, `chrome`, `copper`, `gold` "
+     "and `silver` without keys are physical metals that reflect the studio. `glass` is clear glass (`lambent help "
+     "glass`). Properties without a key keep the model's "
+     "values. `lambent help materials` lists the keys (a colour is `#rrggbb`, a name, `r/g/b` or one number). `color` "
      "sets ambient and diffuse; `specular_color` sets specular. The factors `ka`, `kd`, `ks` and `kr` multiply "
      "ambient, diffuse, specular and mirrored light (`kr` multiplies the specular colour, white by default).\n`@NAME` "
      "limits the option to the objects of that name, or else to the parts (OBJ groups, STL solids), or else to the "
@@ -510,11 +513,11 @@ struct option option_table[OPTIONS_MAX] = {
      "material of that name. They are neither drawn nor cast shadows. `lambent view` and the web page list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
-     "It replaces the shininess of every material, including materials of `--material`.", .store = store_number,
+     "It replaces the shininess of every material, including materials set by `--material`.", .store = store_number,
      .others = "gloss glossiness specular-exponent exponent", FIELD(material.shininess),
      .has_field = offsetof(struct options, material.has_shininess), .min = 0, .max = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
-     "It replaces the opacity of every material, including materials of `--material`. The alpha of vertex colours "
+     "It replaces the opacity of every material, including materials set by `--material`. The alpha of vertex colours "
      "still multiplies it.",
      .store = store_number, .others = "alpha transparency translucency", FIELD(material.opacity),
      .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
@@ -544,16 +547,16 @@ struct option option_table[OPTIONS_MAX] = {
      "`docs/lighting/shadows.md` describes the method and well-known shadow errors.",
      .others = "shadow cast-shadows raytrace shadow-map"},
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
-     "With a ground, lights cast shadows, on the ground and on the model. A `shadow` ground shows only the shadows, "
-     "over any background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to "
-     "the up axis (`--up`) and fades out with distance. It is invisible from below, and the camera is fitted without "
-     "it. A ground needs Phong shading. `docs/lighting/ground.md` has pictures.",
+     "Lights then cast shadows on the ground and on the model. A `shadow` ground shows only the shadows, over any "
+     "background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to "
+     "the up axis (`--up`) and fades out with distance. It is invisible from below. A ground needs Phong shading. "
+     "`docs/lighting/ground.md` has pictures.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
     {"shadow-samples", 0, GROUP_SHADING, "N", NULL, NULL,
-     "The fraction of rays that are not blocked is the fraction of the light that arrives. Above 48, points in full "
-     "light or full shadow use 48 rays. Fewer rays are faster but cause visible banding.",
+     "The fraction of unblocked rays is the brightness of the light at that point. Above 48, points in full light or "
+     "full shadow use only 48 rays. Fewer rays are faster but cause visible banding.",
      .others = "soft-shadow-samples light-samples"},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, NULL,
      "Lambent omits edges behind surfaces (see `--hidden-lines`) and edges that split polygons of OBJ and PLY files "
@@ -579,8 +582,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"surfaces", 0, GROUP_SHADING, "SWITCH", NULL, NULL, "Surfaces that are not drawn still hide lines.",
      .others = "faces lines-only no-surfaces hide-surfaces"},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
-     "Use it for comparison with old programs. Lambent then clamps vertex colours to 0...1 before interpolation and "
-     "the shininess to 128. It also attenuates the ambient light of each light and limits it to the light's cone.",
+     "Use it for comparison with old programs. Lambent then clamps vertex colours to 0...1 before interpolation, and "
+     "limits the shininess to 128. It also attenuates the ambient light of each light and limits it to the light's "
+     "cone.",
      .words = NULL},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, for every material.", NULL,
      .store = store_switch, FIELD(shading.two_sided)},
@@ -597,16 +601,16 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth", FIELD(shading.crease_angle_deg),
      .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
-     "Segments of a built-in shape: slices around and stacks along, such as 64x32.",
+     "Segments of a built-in shape, such as 64x32: slices around the axis, and stacks along it.",
      "With `--parametric`, N is the number along u and M the number along v; N alone sets both. N is 3 to 16384; "
      "`lambent shapes` describes the segments of each shape. The default of M depends on the shape. `gyroid`, "
-     "`metaballs` and `--implicit` allow at most 1024 cells and no M.",
+     "`metaballs` and `--implicit` accept only N, at most 1024 cells.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The surroundings that shiny surfaces reflect: an image, six faces, sky or studio.",
      "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, TGA, PPM, "
      "PFM, EXR or Radiance (.hdr). Six faces are files separated by commas in OpenGL's order, `px,nx,py,ny,pz,nz`, all "
-     "square and of the same size. `sky` and `studio` are built in; write `./sky` for a file of that name. Classic "
+     "square and of the same size. `sky` and `studio` are built in. For a file named `sky`, write `./sky`. Classic "
      "materials reflect the environment only if they have a reflectivity (see `--reflectivity`). "
      "`docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
@@ -620,37 +624,36 @@ struct option option_table[OPTIONS_MAX] = {
      .has_field = offsetof(struct options, material.has_reflectivity), .max = 1000},
 
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
-     "The model rotates about its up axis in equal steps, counter-clockwise from above; frame k is the picture of "
-     "`--rotate y:` k 360/N. All frames share one camera distance and one exposure. By default, and with a name that "
+     "The model rotates about its up axis in equal steps, counter-clockwise from above; frame k is identical to a "
+     "picture with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and exposure. By "
+     "default, and with a name that "
      "ends in `.png` or `.webp`, Lambent writes all frames to one animated PNG or WebP that loops forever. With "
      "`{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a separate file, in any format. "
      "`docs/animation.md` has examples.",
      .store = store_integer, .others = "spin turnaround orbit rotate360 animate gif apng", FIELD(animation.turntable),
      .min = 2, .max = 100000},
     {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
-     "Whether the lights of a turntable stay with the camera or turn with the model: camera or model.",
-     "Lights in the frame of an object or of the model always turn with that object or model.", turntable_light_words,
-     .store = store_word, .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
+     "Keep the lights of a turntable with the camera, or turn them with the model: camera or model.",
+     "Lights in an object's frame always turn with the object.", turntable_light_words, .store = store_word,
+     .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
     {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
      "Animate a number: light.azimuth=0..360, roughness=0..1; repeatable.",
-     "KEY is one of these: an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, "
-     "`ambient`, `crease-angle`); `rotate.x`, `rotate.y` or `rotate.z`; a key of `--material` (`roughness`, `kd`, also "
-     "`roughness@NAME`); or a number of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's name or "
+     "KEY is an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, `ambient`, "
+     "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. It may also be a key of `--material` (`roughness`, `kd`, "
+     "`roughness@NAME`) or a number of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's name or "
      "its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first light that "
-     "has this key. A light's numbers are its fields (`diffuse`, `range`, `position.x`; angles in degrees), "
-     "`intensity`, which multiplies its light, and `azimuth` and `elevation`. These two angles state the direction "
-     "that the light comes from, in its own frame, like the camera's angles: 0 is the front, 90 the right. `time` is "
-     "the time of a glTF file's animation; without numbers it covers the whole length.\nMore stops may follow: "
-     "`light.elevation=10..80..10`. If a sweep ends as it begins (after a whole turn, for example), its last frame is "
-     "one step before the end, so that the loop is seamless. Several sweeps run at the same time, also with "
-     "`--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and `elevation` all frames share "
-     "one distance; for `time` the camera is fitted to the box of all frames. Only `zoom` and `fov` change the camera "
-     "between frames.",
+     "has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in degrees), "
+     "`intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light comes, in "
+     "its own frame, like the camera's angles: 0 is the front, 90 the right. `time` is the time of a glTF file's "
+     "animation; without numbers, it covers the whole length.\nYou can give more stops: `light.elevation=10..80..10`. "
+     "If a sweep ends as it begins (after a whole turn, for example), its last frame is one step before the end, so "
+     "the loop is seamless. You can combine several sweeps, also with `--turntable`. Lambent fits the camera once, to "
+     "the first frame. For `azimuth` and `elevation`, the camera keeps one distance; for `time`, it fits the boxes of "
+     "all frames. Only `zoom` and `fov` change the camera between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
-    {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames of `--sweep`.",
-     "`--turntable N` sets this number itself. For `--sweep time` alone the default is the animation's length times "
-     "`--fps`.",
+    {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames in a sweep.",
+     "`--turntable N` overrides this number. For `--sweep time`, the default is the animation's length times `--fps`.",
      .store = store_integer, .others = "frame-count", FIELD(animation.frames), .min = 2, .max = 100000},
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
      .store = store_number, .others = "frame-rate framerate speed delay", FIELD(animation.fps), .min = 0.1, .max = 240},
@@ -659,8 +662,8 @@ struct option option_table[OPTIONS_MAX] = {
      NULL, .store = store_integer, .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024,
      .single = TAKES_THREADS},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
-     "All instruction sets draw identical pictures. Lambent rejects a set that this machine or this build does not "
-     "support (exit 3).",
+     "All instruction sets draw identical pictures. Lambent rejects an instruction set that this machine or this build "
+     "does not support (exit 3).",
      isa_words, .store = store_word, .others = "simd instruction-set", FIELD(work.isa)},
     {"device", 0, GROUP_WORK, "NAME", "auto", "The device that draws: cpu, gl, gles or auto.",
      "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If it is unavailable, the error states the "
@@ -680,10 +683,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
      "Stop if a model needs more memory than this, for example 500M or 2Gi (exit 4).",
      "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
-     "counts memory before it allocates it. The default is a quarter of the memory available to this process, divided "
-     "by the number of models drawn at the same time. The available memory is the smallest of the machine's memory, "
-     "the limits of the process's control groups (cgroup v1 and v2) and the limits of the process (`ulimit -v`, "
-     "`ulimit -d`). `none` disables the limit. k, M, G and T are powers of 1000; Ki, Mi, Gi and Ti of 1024. For "
+     "counts memory before it allocates it. The default is a quarter of the available memory, divided by the number of "
+     "models drawn at the same time. The available memory is the smallest of the machine's memory, the limits of "
+     "control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and T are "
+     "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. For "
      "`check`, it limits the process that draws a shader.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
@@ -705,19 +708,20 @@ struct option option_table[OPTIONS_MAX] = {
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a picture has more layers per pixel than this, on average (exit 4).",
      "A layer is a translucent or masked surface over a pixel. Each of these also counts as one layer: 32 lights on a "
-     "point, 32 opaque surfaces behind each other, and environment light on a surface. The default is 40 plus one per "
+     "point, 32 opaque surfaces one behind the other, and environment light on a surface. The default is 40 plus one "
+     "per "
      "16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as 65536 pixels. The OpenGL "
      "devices ignore this limit.",
      .store = store_count, .others = "max-layers overdraw-limit", FIELD(limits.layer_limit), .max = 2147483647},
     {"expansion-limit", 0, GROUP_LIMITS, "N", "2000",
      "Stop if a model needs more memory than N times the size of its files plus 500 MB (exit 4).",
-     "The option limits how much a small file can expand, for example by compressed textures and meshes or by implied "
-     "values. `--memory-limit` limits memory independently of the file size.",
+     "A small file can expand to much memory, for example by compressed textures or meshes. This option limits the "
+     "expansion. `--memory-limit` limits memory independently of the file size.",
      .store = store_count, .others = "ratio-limit compression-limit bomb", FIELD(limits.expansion_limit),
      .max = 2147483647, .single = TAKES_PICTURE_LIMITS},
     {"pixel-limit", 0, GROUP_LIMITS, "N", "400M",
      "Reject a texture or an environment with more pixels than this (exit 4).",
-     "Lambent reads a file's header before it allocates memory. A side is never longer than 65535 pixels.",
+     "Lambent checks the header before it allocates memory. The width and height are limited to 65535 pixels.",
      .store = store_count, .others = "max-pixels texture-limit image-limit", FIELD(limits.pixel_limit),
      .max = 4294836225, .single = TAKES_PICTURE_LIMITS},
     {"file-limit", 0, GROUP_LIMITS, "BYTES", "32G", "Reject files larger than this (exit 4).",
@@ -726,10 +730,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"json-depth-limit", 0, GROUP_LIMITS, "N", "256",
      "Reject JSON (glTF and scene files) with deeper nesting than this (exit 4).", NULL, .store = store_integer,
      .others = "max-depth nesting", FIELD(limits.json_depth_limit), .min = 1, .max = 2000},
-    {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Restrict the files that a scene file may name to its own folder.",
+    {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Allow a scene file to name only files in its own folder.",
      "Use this option for scene files from strangers. All models and pictures must then be in the scene file's folder "
      "or below it, after links and `..` are resolved. A scene file then cannot show other files. Files that a model "
-     "names (MTL) must be in the model's folder in any case. Files named on the command line may be anywhere.",
+     "names (MTL) must always be in the model's folder. Files named on the command line may be anywhere.",
      .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
      "Drop all privileges that reading files does not need: auto, require or off.",
@@ -746,8 +750,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL, "Allow models to read this file, or files in this folder; repeatable.",
      "By default a model may read files only in its own folder. For textures in `../textures` give `--allow-path "
      "../textures`. Scene files with `--files-inside`, and links in the folders of `batch`, may also point to the "
-     "allowed folder. The sandbox allows reading it. With `--jobs`, all files of jobs must be in the allowed folder; "
-     "their models still read only their own folders. Pages and `view` never contain files of other folders.",
+     "allowed folder. The sandbox allows reading it. With `--jobs`, all files that jobs name must be in an allowed "
+     "folder; models still read only their own folders. Pages (`-o FILE.html`) and `view` never include files from "
+     "other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
@@ -768,7 +773,7 @@ struct option option_table[OPTIONS_MAX] = {
      "journal. `docs/batch.md` describes every field.",
      .kind = VALUE_FILE, .store = store_text, .others = "log record", FIELD(batch.journal)},
     {"resume", 0, GROUP_BATCH, NULL, NULL, "Resume: skip pictures that the journal lists as done.",
-     "Without a journal everything is drawn, so that the same command starts and resumes a run. Lambent refuses to "
+     "Without a journal, Lambent draws everything, so the same command starts and resumes a run. Lambent refuses to "
      "resume if the options of the picture differ from the journal's. If a run was killed, it first repeats the models "
      "that were in progress, each in a process of its own.",
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
@@ -779,8 +784,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
      "Exit with 0 even if models fail, provided that the journal records each result.",
      "Open MPI stops all ranks if one rank exits with a code other than 0, and other systems repeat the task. The "
-     "journal and the messages still report the failures. If a run does not reach every model, it exits with its usual "
-     "code: for example after a wrong option, an interrupt, or a journal that it cannot write.",
+     "journal and the messages still report the failures. If a run ends early, for example after a wrong option or an "
+     "interrupt, it still exits with an error code.",
      .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
      .single = TAKES_MANY},
     {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Skip pictures whose files and options match the journal.",
@@ -801,22 +806,22 @@ struct option option_table[OPTIONS_MAX] = {
      "(`docs/batch.md`). `lambent journal` summarises them.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or list.",
-     "With `name` each shard reads all names, which takes a second or two for a million. With `list` it reads the K-th "
-     "of N parts of one list (`@FILE`), by its bytes. The models must be sorted by the names of their pictures "
-     "(`LC_ALL=C sort`), so that no two pictures share a name. If the list changes, models move to other shards; "
-     "`--resume` then refuses to continue.",
+     "With `name` each shard reads all names, which takes a second or two for a million. With `list`, it reads only "
+     "the K-th of N equal parts of one list (`@FILE`). The models must be sorted by the names of their pictures "
+     "(`LC_ALL=C sort`), so that no two pictures share a name. If the list changes, models move to other shards, and "
+     "`--resume` refuses to continue.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
     {"jobs", 0, GROUP_BATCH, "-", NULL,
      "`batch`: Read jobs, one line of JSON each, and answer each with a line of JSON.",
      "For servers, one process draws all jobs until its standard input ends (`docs/worker.md`). A job has an `id`, a "
      "`model` or its bytes, `options`, and an `output`. Without `output` the answer contains the picture. Files are "
      "read and written only below the folders of `--allow-path`. The options of the command line apply to every job; a "
-     "job's own options follow them. A file or a pipe can replace `-`.",
+     "job's own options are added after them. A file or a pipe can replace `-`.",
      .kind = VALUE_FILE, .store = store_jobs, .others = "worker server daemon serve", FIELD(batch.jobs)},
     {"ahead", 0, GROUP_BATCH, "N", "twice the number of models drawn at once",
-     "The number of jobs that may wait; then Lambent stops reading lines.", NULL, .store = store_integer,
+     "The largest number of waiting jobs; at this number Lambent stops reading lines.", NULL, .store = store_integer,
      .others = "queue backlog queue-length", FIELD(batch.ahead), .min = 1, .max = 100000},
-    {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The longest line of `--jobs`; longer ones are errors.",
+    {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The longest line of `--jobs`; longer lines are errors.",
      "A line can include the bytes of a model. Base64 needs four bytes for every three bytes of the model. The models "
      "of waiting jobs use at most twice this limit.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
@@ -877,14 +882,14 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "layout", FIELD(sheet.name)},
     {"title", 0, GROUP_SHEET, "TEXT", NULL, "The title of a sheet, a plot or a figure, in any language; '' for none.",
      "An SVG stores text as text: the viewer provides the fonts, supports right-to-left languages and can read the "
-     "text aloud. In a PNG, Lambent draws one letter of the font after the other. The default font covers Latin, Greek "
+     "text aloud. In a PNG, Lambent draws the letters one by one. The default font covers Latin, Greek "
      "and Cyrillic. Chinese, Japanese and Korean need a font that covers them (`--font`). Scripts that run from right "
      "to left or join letters need an SVG.",
      .store = store_text, .single = TAKES_TITLE, .others = "heading name header", FIELD(captions.title)},
     {"caption", 0, GROUP_SHEET, "TEXT", NULL, "The caption of a sheet's next picture, in any language; repeatable.",
      NULL, .store = store_texts, .others = "captions label labels", FIELD(captions.texts)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
-     "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across adds columns.",
+     "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across makes a grid.",
      "OPTION is one of the options above without its dashes. Values are separated by commas; if they contain commas, "
      "as for `light` and `material`, by semicolons (`light=point;directional:color=red,frame=camera`). By default the "
      "values are all names that the option accepts; for `shininess` 10, 50 and 1000, for `light` one light of each "
@@ -912,17 +917,17 @@ struct option option_table[OPTIONS_MAX] = {
      highlight_words, .store = store_word, FIELD(check.highlight)},
     {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
      "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
-     "By default a term is expected if the shaders declare one of its names: without a specular colour no highlight is "
-     "expected. An expected colour that is not declared is white.",
+     "By default, Lambent expects a term if the shaders declare one of its names: without a specular colour, it "
+     "expects no highlight. If an expected colour is not declared, it is white.",
      term_words, .store = store_words, FIELD(check.terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
-    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit a shader's processor time, for all scenes.",
-     "Lambent adds the processor time of all threads, so other programs on the machine do not affect it. The elapsed "
+    {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit the processor time of a shader.",
+     "The limit applies to all scenes together. Lambent adds the processor time of all threads, so other programs on "
+     "the machine do not affect it. The elapsed "
      "time may be up to 20 times as long.",
      .store = store_number, FIELD(check.stop_after_s), .min = 0.1, .max = 1e6},
-    {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000",
-     "Stop the search for mistakes after this many pictures of single mistakes and of sets.",
+    {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000", "Stop the search after drawing this many pictures.",
      "If the search finds no set of mistakes, the report states how many sets it tried and whether it stopped at this "
      "limit.",
      .store = store_integer, .others = "effort budget tries", FIELD(check.search_limit), .min = 1, .max = 1000000000},
@@ -955,14 +960,14 @@ struct option option_table[OPTIONS_MAX] = {
      "picture, with OpenGL's own calls only. `-o NAME` writes it to `NAME.c`.",
      host_words, .store = store_word, FIELD(shader.host)},
     {"products", 0, GROUP_SHADER, NULL, NULL,
-     "Pass the products ka La, kd Ld and ks Ls as uniforms, as in the lectures.", NULL, .store = store_switch,
+     "Pass the products ka La, kd Ld and ks Ls as uniforms, as in many lectures.", NULL, .store = store_switch,
      FIELD(shader.products)},
     {"lights-in", 0, GROUP_SHADER, "STORAGE", "auto", "How the shaders store the lights: array, block or texture.",
-     "No method has a fixed maximum number of lights. OpenGL allows the fewest lights in an array and the most in a "
-     "texture.",
+     "None of them has a fixed maximum number of lights. OpenGL supports the fewest lights in an array, and the most "
+     "in a texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
-     "The lecture style uses the names of the blackboard: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
+     "The lecture style uses the symbols of lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
      "`blinn-phong` and `kajiya-kay`, with any lights and any shading, its uniforms and its picture are the same as in "
      "the full style. Lambent rejects textures and other reflection models in this style. With `--stage application` "
      "Lambent also prints a C function that lights the vertices. See `docs/teaching.md`.",
@@ -1004,14 +1009,14 @@ struct option option_table[OPTIONS_MAX] = {
      "by v points. The front of an implicit surface is the side to which the gradient points.",
      .store = store_switch, .others = "flip-normals invert-normals", FIELD(shading.flip), .loads = true},
     {"object", 0, GROUP_SHADER, "N", "all", "Print the shaders for only this object of the scene, counted from 0.",
-     "One pair of shaders serves a whole scene, unless only some of its objects are two-sided or only some have "
-     "tangents for Kajiya-Kay.",
+     "One pair of shaders usually works for the whole scene. Exceptions are scenes in which only some objects are "
+     "two-sided, or only some have tangents for Kajiya-Kay.",
      .store = store_integer, FIELD(shader.object), .has_field = offsetof(struct options, shader.has_object), .min = 0,
      .max = 1e9},
 
     {"port", 0, GROUP_VIEWER, "N", "any free port", "The port of 127.0.0.1 that the viewer listens on.", NULL,
      .store = store_integer, FIELD(viewer.port), .min = 1, .max = 65535},
-    {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "Stop if no page has been open for this many minutes.", NULL,
+    {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "Stop when no page has been open for this many minutes.", NULL,
      .store = store_number, .others = "idle-timeout", FIELD(viewer.idle_minutes),
      .has_field = offsetof(struct options, viewer.has_idle), .min = 0.001, .max = 1e6},
     {"no-open", 0, GROUP_VIEWER, NULL, NULL, "Print the address, and do not open a browser.",
@@ -1022,7 +1027,7 @@ struct option option_table[OPTIONS_MAX] = {
      "By default the environment variable `LAMBENT_FONT` names the font. If it is not set, Lambent uses the first of "
      "these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, FreeSans, Roboto. "
      "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
-     "sheet are always identical. An SVG names DejaVu Sans, and its viewer selects the font.",
+     "sheet are always identical. An SVG requests DejaVu Sans; the viewer of the file may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without text; no font is needed.", NULL, .store = store_switch,
      .others = "no-text no-labels", FIELD(captions.no_captions)},

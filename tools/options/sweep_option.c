@@ -125,7 +125,7 @@ static bool unknown_key(const char *key, lam_error *error)
 {
     const struct option *option = option_find(key);
     if (option)
-        return complain(error, LAM_BAD_ARGUMENT, "'%s' has no numbers that frames could vary", key);
+        return complain(error, LAM_BAD_ARGUMENT, "'%s' has no numbers that a sweep can change", key);
     struct suggestion nearest = suggest_start(key);
     for (const struct option *o = option_table; o->name; o++)
         if (sweep_takes_option(o)) {

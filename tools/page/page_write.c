@@ -19,9 +19,8 @@ bool page_wanted(const struct job *job) { return !job->picture_bytes && page_is_
 
 bool page_refuse_several(lam_error *error)
 {
-    return complain(
-        error, LAM_BAD_ARGUMENT,
-        "a page shows one picture, and its reader turns it: several sides or sizes do not go with -o FILE.html");
+    return complain(error, LAM_BAD_ARGUMENT,
+                    "a page shows one picture; several sides or sizes cannot be combined with -o FILE.html");
 }
 
 static bool check(const struct job *job, char **page, lam_error *error)

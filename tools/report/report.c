@@ -100,7 +100,7 @@ void report_table(const struct job *job)
     if (frame->rays)
         say_plain("rays     %" PRIu64 "\n", frame->rays);
     if (job->exposure_fitted)
-        say_plain("exposure %.10g stops, found for this picture\n", job->draw.exposure);
+        say_plain("exposure %.10g stops, selected for this picture\n", job->draw.exposure);
     if (job->draw.output == LAM_OUTPUT_DEPTH)
         say_plain("depth    %.7g to %.7g\n", frame->depth_near, frame->depth_far);
     if (frame->ground)

@@ -140,7 +140,7 @@ static bool act(const struct request *request, const char *path, const lam_bytes
     if (request->action == REMOVE && (right == WRITER_REMOVES || (right == WRITER_ANY && is_of_run(path))))
         return unlink(path) == 0;
     if (request->action == REMOVE || (right != WRITER_NEW_OR_OURS && right != WRITER_ANY))
-        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is not a file of this run", path);
+        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: this run may not write the file", path);
     bool exists = stat(path, &there) == 0;
     if (exists && !S_ISREG(there.st_mode))
         return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is not a regular file", path);

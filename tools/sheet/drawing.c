@@ -288,8 +288,8 @@ bool drawing_check_text(const char *option, const char *text, bool has_font, lam
                 "option '--%s': the letter '%.*s' (U+%04X) %s; write an SVG, -o FILE.svg, whose viewer draws every "
                 "language",
                 option, bytes, text, (unsigned)letter,
-                known ? "is not in the default font, --font names one that has it"
-                      : "is of a script that PNGs have not");
+                known ? "is missing from the default font; select another font with --font"
+                      : "belongs to a script that is not supported in PNG files");
     }
     return true;
 }

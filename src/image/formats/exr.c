@@ -344,7 +344,7 @@ static bool read_part(const struct core *core, exr_context_t file, const struct 
         core->exr_get_channels(file, 0, &list) != EXR_ERR_SUCCESS)
         return fail(error, LAM_CANNOT_READ, "%s: the EXR header has no data window or no channels", name);
     if (storage != EXR_STORAGE_SCANLINE)
-        return fail(error, LAM_UNSUPPORTED, "%s: EXR pictures of scanlines can be read, this one has tiles or is deep",
+        return fail(error, LAM_UNSUPPORTED, "%s: this EXR picture has tiles or is deep; lambent reads only scanlines",
                     name);
     unsigned found = 0;
     bool grey = false;

@@ -65,7 +65,7 @@ static bool fail_status(const struct picture_file *file, int status, lam_error *
     case VP8_STATUS_NOT_ENOUGH_DATA:
         return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, within the WebP picture", file->name, file->size);
     case VP8_STATUS_UNSUPPORTED_FEATURE:
-        return fail(error, LAM_UNSUPPORTED, "%s: WebP with a feature that libwebp does not know", file->name);
+        return fail(error, LAM_UNSUPPORTED, "%s: WebP uses a feature that libwebp does not support", file->name);
     default:
         return fail(error, LAM_CANNOT_READ, "%s: WebP: the picture is damaged", file->name);
     }

@@ -290,8 +290,8 @@ static bool fail_without_faces(struct state *state, lam_error *error)
             "%s:%zu: contains no faces, only free-form curves and surfaces (%s), which this version cannot draw", name,
             obj_line_number(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found));
     if (obj->total.positions)
-        return fail(error, LAM_CANNOT_READ, "%s: contains vertices (%llu), but no faces, lines or points of them", name,
-                    (unsigned long long)obj->total.positions);
+        return fail(error, LAM_CANNOT_READ, "%s: contains vertices (%llu), but no faces, lines or points that use them",
+                    name, (unsigned long long)obj->total.positions);
     if (state->counts[UNKNOWN])
         return fail(error, LAM_CANNOT_READ,
                     "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file contains nothing to draw", name,

@@ -24,9 +24,10 @@ static void warn_faces(struct obj *obj)
                    "%s:%zu: a normal or texture coordinate that is not finite is set to 0, the first of %llu", name,
                    obj_line_number(obj, number), (unsigned long long)numbers);
     if (texcoords)
-        scene_warn(obj->scene, "%s: faces name texture coordinates, but the file has none", name);
+        scene_warn(obj->scene, "%s: faces refer to texture coordinates, but the file contains none", name);
     if (normals)
-        scene_warn(obj->scene, "%s: faces name normals, but the file has none; smooth normals are used", name);
+        scene_warn(obj->scene,
+                   "%s: faces refer to normals, but the file contains none; lambent computes smooth normals", name);
 }
 
 static bool add_mesh(struct obj *obj, lam_error *error)

@@ -185,7 +185,7 @@ bool obj_convert_colors(struct obj *obj, lam_error *error)
         brightest = obj->chunks[c].brightest > brightest ? obj->chunks[c].brightest : brightest;
     obj->color_scale = brightest > 1 ? 1.0f / 255.0f : 1.0f;
     if (brightest > 1)
-        scene_warn(obj->scene, "%s: vertex colours reach %g; they are read as 0 to 255, not 0 to 1", obj->source->name,
-                   (double)brightest);
+        scene_warn(obj->scene, "%s: vertex colours reach %g, so their range is taken as 0 to 255, not 0 to 1",
+                   obj->source->name, (double)brightest);
     return parallel_rows_run(obj->source, parallel_rows_count(obj->total.positions), convert_piece, obj, error);
 }

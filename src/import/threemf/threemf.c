@@ -65,10 +65,10 @@ static bool report_skipped(struct threemf *file, const struct threemf_part *root
 {
     const char *name = file->source->name;
     if (!root->items.count)
-        return fail(file->error, LAM_CANNOT_READ, "%s: its build has no items, so there is nothing to draw", name);
+        return fail(file->error, LAM_CANNOT_READ, "%s: its build contains no items, so there is nothing to draw", name);
     if (!file->scene->objects.count && file->beams)
         return fail(file->error, LAM_UNSUPPORTED,
-                    "%s: its objects are lattices of beams (%zu) without triangles; beams are not drawn", name,
+                    "%s: its objects contain only beams (%zu) and no triangles; lambent does not draw beams", name,
                     file->beams);
     if (!file->scene->objects.count)
         return fail(file->error, LAM_CANNOT_READ, "%s: the objects of its build have no triangles", name);
@@ -79,12 +79,13 @@ static bool report_skipped(struct threemf *file, const struct threemf_part *root
     if (file->sliced)
         scene_warn(
             file->scene,
-            "%s: not drawn: slices; the objects that have them (%zu) are drawn by their triangles, which may be a box",
+            "%s: not drawn: slices; objects with slices (%zu) are drawn by their triangles, which may be only a box",
             name, file->sliced);
     if (file->multiplied_layers)
-        scene_warn(file->scene,
-                   "%s: multiproperties whose layers are not mixed, but drawn as colours times the first texture (%zu)",
-                   name, file->multiplied_layers);
+        scene_warn(
+            file->scene,
+            "%s: multiproperties are drawn as colours times the first texture, without mixing their layers (%zu)", name,
+            file->multiplied_layers);
     return true;
 }
 
@@ -132,7 +133,8 @@ static bool threemf_load(const struct import_source *source, struct lam_scene *s
 {
     (void)scene;
     return fail(error, LAM_UNSUPPORTED,
-                REMEDY("%s: 3MF is not in this build; the Debian packages libzip-dev and libexpat1-dev were missing",
+                REMEDY("%s: this build does not support 3MF, because the Debian packages libzip-dev and libexpat1-dev "
+                       "were missing",
                        "%s: is a 3MF file, which this page does not read; the program lambent does"),
                 source->name);
 }

@@ -38,8 +38,9 @@ static bool load_pair(struct pair *pair, const struct options *o, lam_error *err
         return complain(error, LAM_BAD_ARGUMENT, "%.180s has %dx%d pixels and %.180s %dx%d, expected the same size",
                         pair->name[0], a->width, a->height, pair->name[1], b->width, b->height);
     if (a->format != b->format)
-        return complain(error, LAM_BAD_ARGUMENT, "%.180s holds %s and %.180s %s, expected two pictures of one kind",
-                        pair->name[0], a->format == LAM_RGBA8 ? "bytes" : "floats", pair->name[1],
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "%.180s contains %s and %.180s contains %s, expected two pictures of one kind", pair->name[0],
+                        a->format == LAM_RGBA8 ? "bytes" : "floats", pair->name[1],
                         b->format == LAM_RGBA8 ? "bytes" : "floats");
     return lam_image_compare(a, b, &pair->difference, error);
 }
@@ -65,7 +66,7 @@ static bool write_picture(struct pair *pair, const struct options *o, lam_error 
     if (!output_format(pair->output, &format, error))
         return false;
     if (format == LAM_RGBA32F && pair->image[0].format == LAM_RGBA8)
-        return complain(error, LAM_BAD_ARGUMENT, "%s holds floats, and the pictures hold bytes; write .png or .ppm",
+        return complain(error, LAM_BAD_ARGUMENT, "%s stores floats, but the pictures contain bytes; write .png or .ppm",
                         pair->output);
     if (!lam_image_difference(&pair->image[0], &pair->image[1], (float)o->diff.gain, &pair->where, error) ||
         (pair->where.format != format && !to_bytes(&pair->where, error)))
@@ -134,7 +135,8 @@ int diff_pictures(char **operands, const struct options *options)
         ok = output_check(pair.output, pair.name[0], output_is_named(options->picture.output), &error) &&
              ((!job_is_same_file(pair.output, operands[0]) && !job_is_same_file(pair.output, operands[1])) ||
               complain(&error, LAM_BAD_ARGUMENT,
-                       "%.300s: this picture is compared, and would be replaced; name another output", pair.output));
+                       "%.300s: the output would replace one of the compared pictures; name another output",
+                       pair.output));
     if (ok) {
         struct sandbox_paths paths = {0};
         for (int i = 0; i < 2; i++)

@@ -280,9 +280,9 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
         row_color(4, "diffuse", p->diffuse, text);
     } else {
         if (p->unoccluded < 1)
-            row_number(
-                4, "unoccluded", (double)p->unoccluded,
-                "ambient occlusion: the share of light from all around; a factor of ambient and environment light");
+            row_number(4, "unoccluded", (double)p->unoccluded,
+                       "ambient occlusion: the fraction of surrounding light that arrives; a factor of ambient and "
+                       "environment light");
         row_color(4, "emission", p->emission, "");
         snprintf(text, sizeof text, "ka ⊙ (La_global + Σ La)%s%s = ka ⊙ (%.7g %.7g %.7g)%s",
                  p->hemisphere_count ? " + Σ hemispheres" : "", tint, (double)p->ambient_light.r,
@@ -411,7 +411,7 @@ static void print_values(const lam_explained_fragment *f)
         row_number(4, "shininess α", (double)v->shininess, "");
     }
     if (v->occlusion != 1)
-        row_number(4, "occlusion", (double)v->occlusion, "factor of light from everywhere");
+        row_number(4, "occlusion", (double)v->occlusion, "factor of ambient light");
     if (!is_zero(v->tangent)) {
         row_vector(4, "n of the mesh", v->mesh_normal, "interpolated");
         row_vector(4, "tangent", v->tangent, "interpolated, of any length");

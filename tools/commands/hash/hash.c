@@ -365,8 +365,8 @@ static bool prepare(struct hash_run *run, int count, char **operands, lam_error 
     bool replaces = !run->checks && access(run->path, F_OK) == 0 && !hash_file_read(&other, run->path, &ignored);
     hash_file_free(&other);
     if (replaces)
-        return complain(error, LAM_CANNOT_WRITE, "%.300s: this file would be replaced, and is no file of lambent hash",
-                        run->path);
+        return complain(error, LAM_CANNOT_WRITE,
+                        "%.300s: the output would replace this file, which lambent hash did not write", run->path);
     if ((!run->checks || o->hash.update) && strcmp(run->path, "-") != 0 &&
         !output_check(run->path, "", OUTPUT_NAMED, error))
         return false;

@@ -80,8 +80,7 @@ bool job_roots_have(const struct job_roots *roots, const char *path, bool writes
 {
     lam_code code = writes ? LAM_CANNOT_WRITE : LAM_CANNOT_READ;
     if (!roots->count)
-        return complain(error, code, "%.400s: jobs may reach no files; --allow-path DIR lets them, for files below DIR",
-                        path);
+        return complain(error, code, "%.400s: jobs may not use files; --allow-path DIR allows files below DIR", path);
     bool exists;
     char *real = resolve(path, &exists);
     bool below = real && is_below(roots, real);

@@ -143,16 +143,16 @@ static bool check_together(const struct journal_part *a, const struct journal_pa
     if (a == b)
         return true;
     if (a->shard.count != b->shard.count)
-        return complain(error, LAM_BAD_ARGUMENT, "%.200s and %.200s are not of one batch: %d shards, and %d", a->path,
-                        b->path, a->shard.count, b->shard.count);
+        return complain(error, LAM_BAD_ARGUMENT, "%.200s and %.200s belong to different batches: %d shards, and %d",
+                        a->path, b->path, a->shard.count, b->shard.count);
     if (!a->shard.count || a->shard.number == b->shard.number)
         return complain(error, LAM_BAD_ARGUMENT, "%.200s and %.200s are of %s; a sum is of the shards of one batch",
                         a->path, b->path, a->shard.count ? "the same shard" : "two batches");
     if (strcmp(a->options, b->options) == 0)
         return true;
     batch_options_difference(a->options, b->options, difference);
-    return complain(error, LAM_BAD_ARGUMENT, "%.100s and %.100s are of other options: %.300s", a->path, b->path,
-                    difference);
+    return complain(error, LAM_BAD_ARGUMENT, "%.100s and %.100s were written with different options: %.300s", a->path,
+                    b->path, difference);
 }
 
 bool journal_sum_add(struct journal_sum *s, const char *path, lam_error *error)

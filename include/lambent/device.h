@@ -102,10 +102,13 @@ typedef enum lam_output {
     LAM_OUTPUT_DIFFUSE,
     LAM_OUTPUT_SPECULAR,
     LAM_OUTPUT_EMISSION,
-    LAM_OUTPUT_REFLECTION, // of the environment, and its light on physical materials
-    // The ambient, diffuse and specular terms of one light. The contributions of all lights, the scene's ambient light,
-    // emission and reflection add up to the picture. Black where a surface is not lit.
+    LAM_OUTPUT_REFLECTION, // of the environment by classic materials
+    // The ambient, diffuse and specular terms of one light. The contributions of all lights and of the environment, the
+    // scene's ambient light and emission add up to the picture. Black where a surface is not lit.
     LAM_OUTPUT_LIGHT,
+    // The light of the environment: the reflection term of classic materials, and what physical ones have of it in their
+    // diffuse and specular terms. Black where a surface is not lit.
+    LAM_OUTPUT_ENVIRONMENT,
     // Normals as used by the lighting, in eye space: x right, y up, z to the viewer; reversed on back faces. 8 bits: (x
     // + 1)/2.
     LAM_OUTPUT_NORMALS,
@@ -207,6 +210,16 @@ typedef enum lam_cavity {
     LAM_CAVITY_ON,       // both
     LAM_CAVITY_COUNT
 } lam_cavity;
+
+// Specular antialiasing: the roughness of physical materials grows where the normal varies within a pixel, by the mesh's
+// normals or by the texels of a normal map, so that bumpy surfaces do not glitter (docs/lighting/physical.md).
+typedef enum lam_specular_aa {
+    // ON under Phong shading where LAM_OCCLUSION_AUTO is SCREEN, without `reference`; else OFF: the exact equations.
+    LAM_SPECULAR_AA_AUTO = 0,
+    LAM_SPECULAR_AA_OFF,
+    LAM_SPECULAR_AA_ON,
+    LAM_SPECULAR_AA_COUNT
+} lam_specular_aa;
 
 // The ground: a plane at the scene's lowest point, across its up axis (lam_scene_set_up), on which the scene's lights cast
 // shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is opaque up to 3 radii of the scene's
@@ -320,6 +333,7 @@ typedef struct lam_draw_params {
     lam_rgba wireframe_color, edge_color;
     // LAM_BAD_ARGUMENT: ON with LAM_OCCLUSION_RAYS, or without Phong shading.
     lam_cavity cavity;
+    lam_specular_aa specular_aa; // LAM_BAD_ARGUMENT: ON without Phong shading
     LAM_RESERVED(14);
 } lam_draw_params;
 

@@ -276,8 +276,12 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     return true;
 }
 
-// Returns whether an output contains the light of the environment.
-static bool shows_reflection(lam_output output) { return output_is_picture(output) || output == LAM_OUTPUT_REFLECTION; }
+// Returns whether an output contains the light of the environment on physical materials.
+static bool shows_environment(lam_output output)
+{
+    return output_is_picture(output) || output == LAM_OUTPUT_DIFFUSE || output == LAM_OUTPUT_SPECULAR ||
+           output == LAM_OUTPUT_ENVIRONMENT;
+}
 
 // Returns whether physical materials are lit as such.
 static bool uses_physical(const struct frame *frame)
@@ -293,7 +297,8 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     frame->environment = scene->environment;
     if (!frame->environment && frame->settings.rig == LAM_RIG_AUTO && scene_lit_by_environment(scene) &&
         uses_physical(frame) &&
-        (shows_reflection(frame->settings.output) || (lamp && lam_output_is_light(frame->settings.output))) &&
+        (shows_environment(frame->settings.output) || frame->settings.output == LAM_OUTPUT_REFLECTION ||
+         (lamp && lam_output_is_light(frame->settings.output))) &&
         !(frame->environment = lazy_environment_studio(scene->studio, error)))
         return false;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
@@ -355,6 +360,9 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     if (automatic)
         settings->occlusion =
             one_number || (wanted && settings->shading == LAM_SHADING_PHONG) ? LAM_OCCLUSION_SCREEN : LAM_OCCLUSION_OFF;
+    frame->widens_highlights =
+        shown && (settings->specular_aa == LAM_SPECULAR_AA_ON ||
+                  (!settings->specular_aa && wanted && !settings->reference && settings->shading == LAM_SHADING_PHONG));
     bool cavity = settings->cavity == LAM_CAVITY_ON ||
                   (!settings->cavity && automatic && wanted && settings->occlusion == LAM_OCCLUSION_SCREEN);
     if (!shown && !one_number) {
@@ -523,7 +531,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     if (frame->ground.kind && !add_ground(frame, frame->triangle_count, physical, &view, &pixel, call, error))
         return false;
     set_tone(frame, physical);
-    frame->environment_lights = physical && frame->environment && shows_reflection(frame->settings.output);
+    frame->environment_lights = physical && frame->environment && shows_environment(frame->settings.output);
     leave_normals(frame);
     // If a classic model lights the materials that the environment would light, they are lit by the studio rig.
     bool by_rig = settings->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);

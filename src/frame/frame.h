@@ -124,6 +124,7 @@ struct frame {
     float occlusion_radius; // eye units; 0: none at this radius
     float cavity_radius;    // eye units; 0: no cavity
     bool ridges;            // the cavity's ridges are lighter
+    bool widens_highlights; // of physical materials (lam_specular_aa)
     bool translucent;       // any range is
     bool passes_rays;       // any range does
     bool masked;            // and one has a material of LAM_ALPHA_MASK

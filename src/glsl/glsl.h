@@ -78,23 +78,24 @@ struct glsl_choices {
     bool distant_viewer;
     bool gl1;
     bool single_scattering;
-    bool passed;          // of each light a share is taken, a uniform that the program sets (texels: position.w)
-    bool shadows;         // walks the hierarchy in a texture (shadows.glsl); not in 120
-    bool passes_rays;     // with shadows: some triangles let light through
-    bool tints_rays;      // with those: and colour it
-    bool catches;         // black, with the share of the light as opacity that shadows and occlusion take away
-    lam_tone tone;        // of GLSL_ENCODED; AUTO, NONE: the light is clamped
-    bool exposes;         // the fragment multiplies its light by the uniform `exposure`
-    bool lecture;         // the lecture style (lecture.h)
-    int mistake;          // of the lecture style: mistake_find; 0: none
-    bool products;        // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
-    bool two_sided;       // the back is lit with −n
-    bool back_material;   // the back has a material of its own
-    bool colors;          // attribute color
-    bool tangents;        // attribute tangent; otherwise the direction field, if the model needs a tangent
-    bool converted[2];    // front, back: a metallic-roughness material with maps under a classic model
-    uint8_t alpha[2];     // front, back: lam_alpha_mode
-    uint8_t anisotropy;   // most probes of a texture
+    bool widens;        // the roughness of physical materials, by the variance of normals (lam_specular_aa); not in 120
+    bool passed;        // of each light a share is taken, a uniform that the program sets (texels: position.w)
+    bool shadows;       // walks the hierarchy in a texture (shadows.glsl); not in 120
+    bool passes_rays;   // with shadows: some triangles let light through
+    bool tints_rays;    // with those: and colour it
+    bool catches;       // black, with the share of the light as opacity that shadows and occlusion take away
+    lam_tone tone;      // of GLSL_ENCODED; AUTO, NONE: the light is clamped
+    bool exposes;       // the fragment multiplies its light by the uniform `exposure`
+    bool lecture;       // the lecture style (lecture.h)
+    int mistake;        // of the lecture style: mistake_find; 0: none
+    bool products;      // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
+    bool two_sided;     // the back is lit with −n
+    bool back_material; // the back has a material of its own
+    bool colors;        // attribute color
+    bool tangents;      // attribute tangent; otherwise the direction field, if the model needs a tangent
+    bool converted[2];  // front, back: a metallic-roughness material with maps under a classic model
+    uint8_t alpha[2];   // front, back: lam_alpha_mode
+    uint8_t anisotropy; // most probes of a texture
     bool hardware_filter; // glsl_use_hardware_filter
     // LAYER_… of the range's materials (layer_kinds.h), and of all materials of the frame: a block has the fields of the
     // latter.

@@ -171,6 +171,11 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     if (c->encoding == GLSL_ENCODED)
         c->tone = m->frame.settings.tone;
     c->products = params->products;
+    c->widens = draw->specular_aa == LAM_SPECULAR_AA_ON && frame_is_physical(c->reflection);
+    if (c->widens && c->version == GLSL_120)
+        return fail(error, LAM_UNSUPPORTED,
+                    "GLSL 120 cannot ask for the size of a texture, which specular antialiasing needs; expected 330 or "
+                    "300es, or specular antialiasing off");
     c->passed = m->frame.settings.shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
     if (c->environment)
         c->environment = GLSL_CUBE;

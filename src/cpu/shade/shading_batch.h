@@ -59,6 +59,8 @@ struct shading_batch {
     float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // what multiplies ka; `color` multiplies kd
     float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // what multiplies the highlights; the emission
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
+    // The variance of the normals of base and coat within the pixel (lam_specular_aa).
+    float variance[BATCH_ROW], coat_variance[BATCH_ROW];
     // Of materials with maps and layers (layered.inc): what the maps make of their numbers.
     struct {
 #define NUMBER_ROW(member, field, map) float member[BATCH_ROW];

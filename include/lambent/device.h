@@ -221,6 +221,16 @@ typedef enum lam_specular_aa {
     LAM_SPECULAR_AA_COUNT
 } lam_specular_aa;
 
+// More light for dark models, which would otherwise be silhouettes: up to 2.5 stops, by the base colours of the surfaces, so that
+// every view of a model has the same (docs/lighting/tone.md).
+typedef enum lam_brighten {
+    // Scenes of model files, with their own colours and without lights and emission, in the studio's light. Not with
+    // LAM_COLOR_RAW, or on a ground of LAM_GROUND_CHECKER or LAM_GROUND_COLOR.
+    LAM_BRIGHTEN_AUTO = 0,
+    LAM_BRIGHTEN_OFF,
+    LAM_BRIGHTEN_COUNT
+} lam_brighten;
+
 // The ground: a plane at the scene's lowest point, across its up axis (lam_scene_set_up), on which the scene's lights cast
 // shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is opaque up to 3 radii of the scene's
 // sphere from the middle, and fades out up to 6 radii. It is invisible from below. It casts no shadows, and fitting the
@@ -334,6 +344,7 @@ typedef struct lam_draw_params {
     // LAM_BAD_ARGUMENT: ON with LAM_OCCLUSION_RAYS, or without Phong shading.
     lam_cavity cavity;
     lam_specular_aa specular_aa; // LAM_BAD_ARGUMENT: ON without Phong shading
+    lam_brighten brighten;
     LAM_RESERVED(14);
 } lam_draw_params;
 
@@ -375,7 +386,8 @@ typedef struct lam_frame_report {
     double edges_ms;
     uint64_t edges_drawn; // of meshes that are inside of the picture, hidden ones too
     uint64_t edge_rays;   // from points of edges to the eye
-    LAM_RESERVED(5);
+    double brightened;    // stops that a dark model was brightened by (lam_brighten)
+    LAM_RESERVED(4);
 } lam_frame_report;
 
 // Draws the scene from the camera into `image`, which the caller created with the desired size and pixel format.

@@ -388,7 +388,6 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
     settings->occlusion_radius = params->occlusion_radius; // see setting_number
     frame->width = width;
     frame->height = height;
-    frame->exposure = rounded(math_exp2(params->exposure));
     if (!settings->samples)
         settings->samples = lam_default_samples(width, height);
     bool of_material = output_is_material(params->output);
@@ -516,7 +515,6 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     if (!build_environment(frame, scene, &view, error))
         return false;
     lam_mat4 pixel = to_pixels(&projection, width, height);
-    set_glass(frame, &pixel);
 
     stroke_view.projection = &projection;
     stroke_view.pixel = &pixel;
@@ -525,6 +523,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         return false;
     if (!build_draws(frame, scene, &stroke_view, call, error))
         return false;
+    frame->brightened = frame_brighten_stops(frame, scene);
+    frame->exposure = rounded(math_exp2(params->exposure + frame->brightened));
+    set_glass(frame, &pixel);
     bool physical = false;
     for (int i = 0; i < frame->range_count; i++)
         physical |= frame_is_physical(frame->ranges[i].reflection);

@@ -73,6 +73,10 @@ struct frame_light {
     double radius;            // point, spot: of the ball; directional: of the disc at distance 1; 0: a point
 };
 
+// Returns by how many stops a dark model is brightened (lam_brighten), once the frame's draws are built.
+struct frame;
+double frame_brighten_stops(const struct frame *frame, const lam_scene *scene);
+
 // Sets the kind, falloff, attenuation, range and cone of a light, and zeroes position, axis and colours.
 void frame_light_init(struct frame_light *out, const lam_light *light);
 
@@ -113,7 +117,8 @@ struct frame {
     // occlusion; `shadows`: a light casts shadows, and the output shows it; `reflection` may be AUTO, the material's own
     // (frame_draw_range.reflection); a light_cutoff of 0 skips no light. edge_angle_rad and occlusion_radius stay as given.
     lam_draw_params settings;
-    float exposure;            // 2^stops
+    float exposure;            // 2^stops, with those of `brightened`
+    double brightened;         // stops (lam_brighten)
     int point_triangles;       // of each point (frame_strokes.h)
     double eye_to_world[3][4]; // with rays only
     bool draws_edges;          // then `edges` is set

@@ -520,6 +520,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     lam_draw_params without = draw ? *draw : (lam_draw_params){0};
     without.shadows |= without.ground != LAM_GROUND_NONE; // as a ground has them, which is no draw of the scene
     without.ground = LAM_GROUND_NONE;
+    without.brighten = LAM_BRIGHTEN_OFF;
     if (!frame_build(&m->frame, m->scene, camera, &without, m->width, m->height, &call, error) ||
         !choose(m, draw, object, params, error))
         return false;

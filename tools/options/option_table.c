@@ -482,6 +482,12 @@ struct option option_table[OPTIONS_MAX] = {
      "jagged "
      "streaks that flicker. With this option the roughness grows there (docs/lighting/physical.md).",
      .others = "specular-antialiasing toksvig glitter fireflies no-specular-aa"},
+    {"brighten", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
+     "A black model needs more light than a white one, or only its outline is visible. The studio is brighter, by up "
+     "to 2.5 stops, if the "
+     "base colours of a model file are dark. `--exposure 0`, `--color` and `--material` switch this off. "
+     "`docs/lighting/tone.md` has the rule.",
+     .others = "auto-exposure dark-models"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
     {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,

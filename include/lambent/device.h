@@ -106,9 +106,6 @@ typedef enum lam_output {
     // The ambient, diffuse and specular terms of one light. The contributions of all lights and of the environment, the
     // scene's ambient light and emission add up to the picture. Black where a surface is not lit.
     LAM_OUTPUT_LIGHT,
-    // The light of the environment: the reflection term of classic materials, and what physical ones have of it in their
-    // diffuse and specular terms. Black where a surface is not lit.
-    LAM_OUTPUT_ENVIRONMENT,
     // Normals as used by the lighting, in eye space: x right, y up, z to the viewer; reversed on back faces. 8 bits: (x
     // + 1)/2.
     LAM_OUTPUT_NORMALS,
@@ -146,6 +143,9 @@ typedef enum lam_output {
     LAM_OUTPUT_LOD,
     // The fraction of surrounding light that reaches the point (lam_occlusion, lam_cavity), 0 … 1, above 1 on ridges.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
+    // The light of the environment: the reflection term of classic materials, and what physical ones have of it in their
+    // diffuse and specular terms. Black where a surface is not lit.
+    LAM_OUTPUT_ENVIRONMENT,
     LAM_OUTPUT_COUNT,
 } lam_output;
 
@@ -345,7 +345,7 @@ typedef struct lam_draw_params {
     lam_cavity cavity;
     lam_specular_aa specular_aa; // LAM_BAD_ARGUMENT: ON without Phong shading
     lam_brighten brighten;
-    LAM_RESERVED(14);
+    LAM_RESERVED(13);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counts.

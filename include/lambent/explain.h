@@ -150,14 +150,14 @@ typedef struct lam_explained_point {
     float environment_level;                   // prefiltered: 0 (a mirror) to 11 (roughness 1)
     float environment_scale, environment_bias; // of the split sum
     lam_rgb irradiance, prefiltered;           // light that falls in, linear
-    // The light of the environment in the diffuse and the specular term of a physical material, with `reference` too.
-    lam_rgb environment_diffuse, environment_specular;
+    lam_rgb environment_diffuse;               // of it in the diffuse term, with `reference` too
     // The share of surrounding light that ambient occlusion lets pass; it multiplies the ambient term and the environment's
     // light on physical materials; 1 without occlusion.
     float unoccluded;
     // The layers of a physical material; NULL: it has none.
     const lam_explained_layers *layers;
-    LAM_RESERVED(6);
+    lam_rgb environment_specular; // the environment's light in the specular term, with `reference` too
+    LAM_RESERVED(5);
 } lam_explained_point;
 
 // A map that was read for a fragment.

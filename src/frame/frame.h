@@ -117,7 +117,7 @@ struct frame {
     // occlusion; `shadows`: a light casts shadows, and the output shows it; `reflection` may be AUTO, the material's own
     // (frame_draw_range.reflection); a light_cutoff of 0 skips no light. edge_angle_rad and occlusion_radius stay as given.
     lam_draw_params settings;
-    float exposure;            // 2^stops, with those of `brightened`
+    float exposure;            // 2^stops, of the parameters and of `brightened`
     double brightened;         // stops (lam_brighten)
     int point_triangles;       // of each point (frame_strokes.h)
     double eye_to_world[3][4]; // with rays only

@@ -95,8 +95,9 @@ static void put_output(struct known_table *t, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     const lam_output shown = c->output;
-    bool all = shown < LAM_OUTPUT_AMBIENT || shown > LAM_OUTPUT_ENVIRONMENT, lit = c->reflection != LAM_REFLECTION_NONE,
-         light = shown == LAM_OUTPUT_LIGHT && lit, around = shown == LAM_OUTPUT_ENVIRONMENT && lit;
+    bool all = (shown < LAM_OUTPUT_AMBIENT || shown > LAM_OUTPUT_LIGHT) && shown != LAM_OUTPUT_ENVIRONMENT,
+         lit = c->reflection != LAM_REFLECTION_NONE, light = shown == LAM_OUTPUT_LIGHT && lit,
+         around = shown == LAM_OUTPUT_ENVIRONMENT && lit;
     known_flag(t, "shows_all", all);
     known_flag(t, "shows_around", around);
     known_flag(t, "shows_ambient", all || light || shown == LAM_OUTPUT_AMBIENT);

@@ -102,8 +102,8 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
         return false;
     char text[160];
     snprintf(text, sizeof text,
-             "the file's own lights leave %d %% of the picture black; a dim studio lights it too (--rig file: only "
-             "its own lights)",
+             "the file's own lights leave %d %% of the picture black; a dim studio lights it too (rig file: only its "
+             "own lights)",
              (int)(100 * share));
     lam_scene_add_warning(scene, text);
     params->exposure = LAM_STUDIO_FILL_EXPOSURE;

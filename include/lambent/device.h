@@ -102,9 +102,9 @@ typedef enum lam_output {
     LAM_OUTPUT_DIFFUSE,
     LAM_OUTPUT_SPECULAR,
     LAM_OUTPUT_EMISSION,
-    LAM_OUTPUT_REFLECTION, // mirrored environment, and its light on physical materials
-    // The ambient, diffuse and specular terms of one light. The contributions of all lights, the scene's ambient light,
-    // emission and reflection add up to the picture. Unlit surfaces are black.
+    LAM_OUTPUT_REFLECTION, // the environment mirrored by classic materials
+    // The ambient, diffuse and specular terms of one light. The contributions of all lights and of the environment, the
+    // scene's ambient light and emission add up to the picture. Unlit surfaces are black.
     LAM_OUTPUT_LIGHT,
     // Normals as used by the lighting, in eye space: x right, y up, z to the viewer; reversed on back faces. 8-bit
     // code: (x + 1)/2.
@@ -143,6 +143,9 @@ typedef enum lam_output {
     LAM_OUTPUT_LOD,
     // The fraction of surrounding light that reaches the point (lam_occlusion, lam_cavity), 0 … 1, above 1 on ridges.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
+    // The light of the environment: the reflection term of classic materials, and what physical ones have of it in their
+    // diffuse and specular terms. Black where a surface is not lit.
+    LAM_OUTPUT_ENVIRONMENT,
     LAM_OUTPUT_COUNT,
 } lam_output;
 
@@ -207,6 +210,26 @@ typedef enum lam_cavity {
     LAM_CAVITY_ON,       // dark valleys and light ridges
     LAM_CAVITY_COUNT
 } lam_cavity;
+
+// Specular antialiasing: increases the roughness of physical materials where the normal varies within a pixel, in the
+// mesh or in a normal map, so that bumpy surfaces do not glitter (docs/lighting/physical.md).
+typedef enum lam_specular_aa {
+    // ON under Phong shading if LAM_OCCLUSION_AUTO means SCREEN and `reference` is false. Otherwise OFF.
+    LAM_SPECULAR_AA_AUTO = 0,
+    LAM_SPECULAR_AA_OFF, // the exact equations
+    LAM_SPECULAR_AA_ON,
+    LAM_SPECULAR_AA_COUNT
+} lam_specular_aa;
+
+// Lights dark models with up to 2.5 stops more light, so that more than their outline is visible. The base colours of
+// the surfaces determine the amount, so it is the same for every view of a model (docs/lighting/tone.md).
+typedef enum lam_brighten {
+    // On for scenes from model files in the studio's light, with their own colours and without lights or emission. Off
+    // with LAM_COLOR_RAW, and on a ground of LAM_GROUND_CHECKER or LAM_GROUND_COLOR.
+    LAM_BRIGHTEN_AUTO = 0,
+    LAM_BRIGHTEN_OFF,
+    LAM_BRIGHTEN_COUNT
+} lam_brighten;
 
 // The ground: a plane at the scene's lowest point, perpendicular to its up axis (lam_scene_set_up), on which the
 // scene's lights cast shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is opaque up to 3
@@ -321,7 +344,9 @@ typedef struct lam_draw_params {
     lam_rgba wireframe_color, edge_color;
     // ON fails with LAM_BAD_ARGUMENT together with LAM_OCCLUSION_RAYS or without Phong shading.
     lam_cavity cavity;
-    LAM_RESERVED(14);
+    lam_specular_aa specular_aa; // LAM_BAD_ARGUMENT: ON without Phong shading
+    lam_brighten brighten;
+    LAM_RESERVED(13);
 } lam_draw_params;
 
 // The times of a frame in milliseconds, and counters.
@@ -364,7 +389,8 @@ typedef struct lam_frame_report {
     double edges_ms;
     uint64_t edges_drawn; // edges inside the picture, hidden ones included
     uint64_t edge_rays;   // from points of edges to the eye
-    LAM_RESERVED(5);
+    double brightened;    // stops that a dark model was brightened by (lam_brighten)
+    LAM_RESERVED(4);
 } lam_frame_report;
 
 // Draws the scene from the camera into `image`, which the caller created with the desired size and pixel format.

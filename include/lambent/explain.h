@@ -103,8 +103,8 @@ typedef struct lam_explained_layers {
     lam_vec3 coat_normal;            // n_c, unit, eye space; zero: no coat
     float coat;                      // its weight, clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)
     lam_rgb transmittance;           // factor of the light behind; black: opaque
-    // The environment light returned by the split sum of each layer: the reflection term is
-    //    environment_diffuse + mirrored_part + sheen_part + coat_part
+    // The environment light returned by the split sum of each layer: environment_specular is
+    //    mirrored_part + sheen_part + coat_part
     // each dimmed by the layers over it and by occlusion. Black without an environment, and with `reference`.
     lam_rgb mirrored_part, sheen_part, coat_part;
     float coat_level;         // of the prefiltered environment, for the coat's roughness
@@ -143,21 +143,22 @@ typedef struct lam_explained_point {
     lam_rgb emission, ambient, diffuse, specular, reflection;
     lam_rgb sum;    // emission + ambient + diffuse + specular + reflection
     lam_rgb result; // the sum; clamped to 0…1 with gl1, flat and Gouraud
-    // The split sum of a physical material under an environment; otherwise, and with `reference`, all zero. The
-    // reflection term is
-    //    kd ⊙ irradiance (1 − (0.04 scale + bias)) + prefiltered ⊙ (f0 scale + bias)
+    // The split sum of a physical material under an environment; otherwise, and with `reference`, all zero. It adds to the
+    // diffuse and to the specular term
+    //    kd ⊙ irradiance (1 − (0.04 scale + bias))        prefiltered ⊙ (f0 scale + bias)
     // with the mix of dielectric and metal and the multiple scattering of the lights' Fresnel factor.
     float environment_roughness;
     float environment_level;                   // prefiltered: 0 (a mirror) to 11 (roughness 1)
     float environment_scale, environment_bias; // of the split sum
     lam_rgb irradiance, prefiltered;           // incoming light, linear
-    lam_rgb environment_diffuse;               // the reflection term's part from `irradiance`
-    // The share of surrounding light that ambient occlusion lets through. It multiplies the ambient and reflection
-    // terms (except a classic material's reflection); 1 without occlusion.
+    lam_rgb environment_diffuse;               // its part of the diffuse term, with `reference` too
+    // The share of surrounding light that ambient occlusion lets through. It multiplies the ambient term and the
+    // environment's light on physical materials; 1 without occlusion.
     float unoccluded;
     // The layers of a physical material; NULL: the material has none.
     const lam_explained_layers *layers;
-    LAM_RESERVED(7);
+    lam_rgb environment_specular; // the environment's light in the specular term, with `reference` too
+    LAM_RESERVED(5);
 } lam_explained_point;
 
 // A lookup in a map for a fragment.
@@ -185,6 +186,9 @@ typedef struct lam_explained_values {
     // Factor of ambient, hemisphere and environment light; 1: no map.
     float occlusion;
     float shininess; // classic materials; else 0
+    // The roughness with which a physical material is lit: `roughness`, or more by specular antialiasing
+    // (lam_specular_aa); 0 for other materials.
+    float lit_roughness;
     // The interpolated normal before a normal map, unit; and the mesh's tangent, of any length, zero if no map and no
     // model uses it.
     lam_vec3 mesh_normal, tangent;

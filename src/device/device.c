@@ -90,6 +90,7 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     bool ok = frame_build(&device->frame, scene, camera, &whole, image->width, image->height, &call, error);
     device->report.frame_ms = (double)(now_ns() - call.start_ns) * 1e-6;
     device->report.triangles = device->frame.triangle_count;
+    device->report.brightened = device->frame.brightened;
     device->report.depth_near = (double)device->frame.depth_near;
     device->report.depth_far = (double)device->frame.depth_far;
     if (ok && device->frame.makes_normals && !device->type->makes_normals)

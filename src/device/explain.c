@@ -316,7 +316,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
         return NULL;
     }
     take_frame(out, &device->frame);
-    out->stops = params ? params->exposure : 0;
+    out->stops = (params ? params->exposure : 0) + device->frame.brightened;
     copy_lights(&recorder, &device->frame);
     complete(&recorder, scene, camera, &device->frame);
     explanation->arena = recorder.arena; // copied back because it has grown

@@ -276,8 +276,12 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     return true;
 }
 
-// Returns whether an output contains the light of the environment.
-static bool shows_reflection(lam_output output) { return output_is_picture(output) || output == LAM_OUTPUT_REFLECTION; }
+// Returns whether an output contains the light of the environment on physical materials.
+static bool shows_environment(lam_output output)
+{
+    return output_is_picture(output) || output == LAM_OUTPUT_DIFFUSE || output == LAM_OUTPUT_SPECULAR ||
+           output == LAM_OUTPUT_ENVIRONMENT;
+}
 
 // Returns whether physical materials are lit with a physical model.
 static bool uses_physical(const struct frame *frame)
@@ -293,7 +297,8 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     frame->environment = scene->environment;
     if (!frame->environment && frame->settings.rig == LAM_RIG_AUTO && scene_lit_by_environment(scene) &&
         uses_physical(frame) &&
-        (shows_reflection(frame->settings.output) || (lamp && lam_output_is_light(frame->settings.output))) &&
+        (shows_environment(frame->settings.output) || frame->settings.output == LAM_OUTPUT_REFLECTION ||
+         (lamp && lam_output_is_light(frame->settings.output))) &&
         !(frame->environment = lazy_environment_studio(scene->studio, error)))
         return false;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
@@ -355,6 +360,9 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     if (automatic)
         settings->occlusion =
             one_number || (wanted && settings->shading == LAM_SHADING_PHONG) ? LAM_OCCLUSION_SCREEN : LAM_OCCLUSION_OFF;
+    frame->widens_highlights =
+        shown && (settings->specular_aa == LAM_SPECULAR_AA_ON ||
+                  (!settings->specular_aa && wanted && !settings->reference && settings->shading == LAM_SHADING_PHONG));
     bool cavity = settings->cavity == LAM_CAVITY_ON ||
                   (!settings->cavity && automatic && wanted && settings->occlusion == LAM_OCCLUSION_SCREEN);
     if (!shown && !one_number) {
@@ -380,7 +388,6 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
     settings->occlusion_radius = params->occlusion_radius; // see setting_number
     frame->width = width;
     frame->height = height;
-    frame->exposure = rounded(math_exp2(params->exposure));
     if (!settings->samples)
         settings->samples = lam_default_samples(width, height);
     bool of_material = output_is_material(params->output);
@@ -509,7 +516,6 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     if (!build_environment(frame, scene, &view, error))
         return false;
     lam_mat4 pixel = to_pixels(&projection, width, height);
-    set_glass(frame, &pixel);
 
     stroke_view.projection = &projection;
     stroke_view.pixel = &pixel;
@@ -518,13 +524,16 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         return false;
     if (!build_draws(frame, scene, &stroke_view, call, error))
         return false;
+    frame->brightened = frame_brighten_stops(frame, scene);
+    frame->exposure = rounded(math_exp2(params->exposure + frame->brightened));
+    set_glass(frame, &pixel);
     bool physical = false;
     for (int i = 0; i < frame->range_count; i++)
         physical |= frame_is_physical(frame->ranges[i].reflection);
     if (frame->ground.kind && !add_ground(frame, frame->triangle_count, physical, &view, &pixel, call, error))
         return false;
     set_tone(frame, physical);
-    frame->environment_lights = physical && frame->environment && shows_reflection(frame->settings.output);
+    frame->environment_lights = physical && frame->environment && shows_environment(frame->settings.output);
     leave_normals(frame);
     // If the materials that the environment would light are lit by a classic model, the studio rig lights them.
     bool by_rig = settings->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);

@@ -74,6 +74,10 @@ struct frame_light {
     double radius;
 };
 
+// Returns by how many stops a dark model is brightened (lam_brighten), once the frame's draws are built.
+struct frame;
+double frame_brighten_stops(const struct frame *frame, const lam_scene *scene);
+
 // Sets the kind, falloff, attenuation, range and cone of a light, and zeroes position, axis and colours.
 void frame_light_init(struct frame_light *out, const lam_light *light);
 
@@ -115,7 +119,8 @@ struct frame {
     // (frame_draw_range.reflection). A light_cutoff of 0 skips no light. edge_angle_rad and occlusion_radius are
     // unchanged.
     lam_draw_params settings;
-    float exposure;            // 2^stops
+    float exposure;            // 2^stops, from the parameters and `brightened`
+    double brightened;         // stops (lam_brighten)
     int point_triangles;       // triangles per point (frame_strokes.h)
     double eye_to_world[3][4]; // only set with rays
     bool draws_edges;          // `edges` is set
@@ -126,6 +131,7 @@ struct frame {
     float occlusion_radius; // eye units; 0 if there is none at this radius
     float cavity_radius;    // eye units; 0 if there is no cavity
     bool ridges;            // cavity shading lightens ridges
+    bool widens_highlights; // of physical materials (lam_specular_aa)
     bool translucent;       // whether any range is translucent
     bool passes_rays;       // whether any range has passes_rays
     bool masked;            // whether any range has a material of LAM_ALPHA_MASK

@@ -64,6 +64,9 @@ static bool rules_check(const lam_draw_params *params, lam_error *error)
     if (pixels && params->shading != LAM_SHADING_PHONG)
         return fail(error, LAM_BAD_ARGUMENT, "%s is computed for each pixel: it needs Phong shading, not %s",
                     params->occlusion > LAM_OCCLUSION_OFF ? "ambient occlusion" : "the cavity", shading);
+    if (params->specular_aa == LAM_SPECULAR_AA_ON && params->shading != LAM_SHADING_PHONG)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "specular antialiasing widens highlights at each pixel: it needs Phong shading, not %s", shading);
     if (params->ground && params->shading != LAM_SHADING_PHONG)
         return fail(error, LAM_BAD_ARGUMENT,
                     "the shadow on a ground is computed for each pixel: a ground needs Phong shading, not %s", shading);

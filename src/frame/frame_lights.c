@@ -141,12 +141,13 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
 bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view,
                         lam_error *error)
 {
+    const bool none = frame->settings.output == LAM_OUTPUT_ENVIRONMENT;
     store_rgb(frame->ambient, only < 0 ? scene->ambient : (lam_rgb){0});
-    for (int i = 0; i < scene->lights.count; i++)
+    for (int i = 0; i < scene->lights.count && !none; i++)
         if ((only < 0 || only == i) && !add_light(frame, scene, lam_scene_light(scene, i), i, view, error))
             return false;
     int count = frame->rig_count = lam_scene_rig_lights(scene, rig, frame->rig);
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count && !none; i++)
         if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &frame->rig[i], -1, view, error))
             return false;
     if (only >= scene->lights.count + count)

@@ -62,6 +62,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->distant_viewer = wanted.distant_viewer;
     c->gl1 = wanted.gl1;
     c->single_scattering = wanted.single_scattering;
+    c->widens = f->frame->widens_highlights && frame_is_physical(c->reflection);
     c->back_material = wanted.back_material;
     c->colors = wanted.colors;
     c->tangents = wanted.tangents;

@@ -74,6 +74,18 @@ void main()
             if (has_bump_map) {
                 n = bumped_normal(unit3(n), maps.across, maps.down, maps.slopes.x, maps.slopes.y);
             }
+            if (widens_roughness) {
+                float over = gl_FragCoord.w; // as in footprint_of
+                pixel_variance = normal_variance(eye_normal, (dFdx(eye_normal * over) - eye_normal * dFdx(over)) / over,
+                    (dFdy(eye_normal * over) - eye_normal * dFdy(over)) / over);
+                coat_variance = pixel_variance;
+                if (has_normal_map) {
+                    pixel_variance += maps.normal_variance;
+                }
+                if (has_coat_normal_map) {
+                    coat_variance += maps.coat_variance;
+                }
+            }
             float turn = tangents ? bitangent_sign : 1.0;
             if (two_sided && !gl_FrontFacing) {
                 n = negate3(n);

@@ -78,6 +78,7 @@ struct glsl_choices {
     bool distant_viewer;
     bool gl1;
     bool single_scattering;
+    bool widens;          // the variance of normals widens physical materials' roughness (lam_specular_aa); not in 120
     bool passed;          // each light is multiplied by a share, a uniform that the program sets (texels: position.w)
     bool shadows;         // traverses the hierarchy in a texture (shadows.glsl); not in 120
     bool passes_rays;     // with shadows, some triangles transmit light

@@ -42,6 +42,7 @@ static void find_material(struct glsl_facts *f, const struct glsl_choices *c)
     f->highlights = f->adds_lights && c->light_count > 0 && lobe->base;
     f->microfacet = lobe && lobe->microfacet && (f->highlights || f->environment_light);
     f->layers = f->microfacet ? c->layers : 0;
+    f->widens_roughness = c->widens && f->microfacet && f->per_fragment && f->shading == LAM_SHADING_PHONG;
     f->layered = f->layers != 0;
     f->has_clearcoat = f->layers & LAYER_CLEARCOAT;
     f->has_anisotropy = f->layers & LAYER_ANISOTROPY;

@@ -62,10 +62,15 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
             text_print(text, "    float own_%s = front ? %s : back_%s;\n", parameters[i], parameters[i], parameters[i]);
 }
 
-static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length)
+// `own`: the material's and its maps', as they are before lighting.
+static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length, bool own)
 {
     char member[32];
     snprintf(member, sizeof member, "%.*s", (int)length, name);
+    if (f->widens_roughness && !own && strcmp(member, "roughness") == 0) {
+        text_add(text, "widened");
+        return;
+    }
     if (glsl_maps_have(f, member)) {
         text_print(text, "maps.%s", member);
         return;
@@ -75,7 +80,12 @@ static void add_parameter(struct text *text, const struct glsl_facts *f, const c
 
 void glsl_add_parameter(struct text *text, const struct glsl_facts *f, const char *name)
 {
-    add_parameter(text, f, name, strlen(name));
+    add_parameter(text, f, name, strlen(name), false);
+}
+
+void glsl_add_own_parameter(struct text *text, const struct glsl_facts *f, const char *name)
+{
+    add_parameter(text, f, name, strlen(name), true);
 }
 
 void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
@@ -84,7 +94,7 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
     for (const char *at = calls[f->choices->reflection]; *at;) {
         size_t length = name_length(at), member = length && at[length] == '.' ? name_length(at + length + 1) : 0;
         if (is_name(at, length, "m") && member) {
-            add_parameter(text, f, at + length + 1, member);
+            add_parameter(text, f, at + length + 1, member, false);
             length += 1 + member;
         } else if (is_name(at, length, "l")) {
             text_add(text, "t.l");
@@ -100,7 +110,7 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
     }
     text_add(text, ", ");
     if (f->highlights)
-        add_parameter(text, f, "shininess", strlen("shininess"));
+        add_parameter(text, f, "shininess", strlen("shininess"), false);
     else
         text_add(text, "1.0"); // the base is 0: no highlight
     text_add(text, ")");

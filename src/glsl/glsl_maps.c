@@ -263,6 +263,8 @@ enum {
     DOWN,
     LEVEL,
     COAT_NORMAL,
+    NORMAL_VARIANCE,
+    COAT_VARIANCE,
     STRETCH,
     MEMBERS
 };
@@ -287,6 +289,8 @@ static const struct {
     [DOWN] = {"down", "vec3", "the direction of its columns", LAM_MAP_BUMP},
     [LEVEL] = {"level", "float", "level of detail", LAM_MAP_COUNT},
     [COAT_NORMAL] = {"coat_normal", "vec3", "components of the coat's normal", LAM_MAP_CLEARCOAT_NORMAL},
+    [NORMAL_VARIANCE] = {"normal_variance", "float", "the variance of the normals within the pixel", LAM_MAP_NORMAL},
+    [COAT_VARIANCE] = {"coat_variance", "float", "the variance of the coat's normals", LAM_MAP_CLEARCOAT_NORMAL},
     [STRETCH] = {"stretch", "vec3", "direction of the stretch by tangent and bitangent, and its strength",
                  LAM_MAP_ANISOTROPY},
 };
@@ -296,6 +300,8 @@ static bool has_member(const struct glsl_facts *f, int member)
     bool masks = member == OPACITY && f->value_masks;
     if (member == LEVEL || (f->shows_level && !masks))
         return member == LEVEL && f->shows_level && f->has_maps && !f->maps_interpolated_light;
+    if ((member == NORMAL_VARIANCE || member == COAT_VARIANCE) && !f->widens_roughness)
+        return false;
     bool from_physical = member == SPECULAR || member == SHININESS
                              ? f->highlights
                              : member == ROUGHNESS || member == METALLIC || member == DIELECTRIC;
@@ -477,6 +483,24 @@ static void add_normal(struct text *text, const struct glsl_facts *f, int side, 
     text_print(text, "    if (%s%s_map_s.w == 0.0) {\n        maps.%s = vec3(0.0, 0.0, 1.0);\n    }\n", p, name, to);
 }
 
+// Appends the variance of a normal map.
+static void add_variance(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
+{
+    const char *to = members[member].name, *p = prefix(side), *name = lam_map_name(map);
+    if (!has_member(f, member))
+        return;
+    if (!f->maps[side][map]) {
+        text_print(text, "    maps.%s = 0.0;\n", to);
+        return;
+    }
+    const char *owner = lam_map_name(glsl_map_owner(f, side, map));
+    text_print(text,
+               "    maps.%s = map_variance(%s_texel.xyz * 2.0 - 1.0, %s%s_map_s.w, map_level(%s%s_map, %s%s_map_s, "
+               "%s%s_map_t, %s));\n",
+               to, owner, p, name, p, owner, p, name, p, name,
+               f->choices->maps[side][map].texcoords ? "second" : "first");
+}
+
 // Appends a number or a colour of a layer: the material's own times the map's. The thickness of a film is interpolated
 // between two numbers.
 static void add_layer_input(struct text *text, const struct glsl_facts *f, int side,
@@ -533,6 +557,8 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     add_color(text, f, side, EMISSION, LAM_MAP_EMISSION);
     add_normal(text, f, side, NORMAL, LAM_MAP_NORMAL);
     add_normal(text, f, side, COAT_NORMAL, LAM_MAP_CLEARCOAT_NORMAL);
+    add_variance(text, f, side, NORMAL_VARIANCE, LAM_MAP_NORMAL);
+    add_variance(text, f, side, COAT_VARIANCE, LAM_MAP_CLEARCOAT_NORMAL);
     if (has_member(f, LEVEL)) {
         lam_map map = lod_map(f, side);
         const char *p = prefix(side), *name = map < LAM_MAP_COUNT ? lam_map_name(map) : NULL;

@@ -90,6 +90,7 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
     X(microfacet) /* Fresnel's factor colours it */ \
     X(layered) /* layers lie over the surface */ \
     X(has_clearcoat) X(has_anisotropy) \
+    X(widens_roughness) /* by the variance of normals */ \
     X(has_transmission) /* the fragment shader finds what goes through */ \
     X(converts) /* a side's material is converted (glsl_choices.converted) */ \
     X(has_mask) /* a side is masked */ \
@@ -157,7 +158,8 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
 // Appends the struct of values from maps, and the functions that fill it.
 void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
 
-// Appends the expression of a parameter of the material.
+// Appends the expression of a parameter of the material: as it is lit, or as the material and its maps have it.
+void glsl_add_own_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
 void glsl_add_lobe(struct text *text, const struct glsl_facts *facts);

@@ -53,7 +53,6 @@ static void put_material(struct known_table *t, const struct glsl_facts *f)
     known_flag(t, "front_solid", !blends[0]);
     known_flag(t, "back_solid", !blends[1]);
     known_flag(t, "colors", c->colors);
-    known_flag(t, "separate_reflection", f->separate_texture_terms && f->environment_light);
     known_flag(t, "has_coat_normal",
                f->has_clearcoat && (f->has_normal_map || f->has_bump_map || f->has_coat_normal_map));
     known_flag(t, "tangent_field", f->needs_tangent && !c->tangents);
@@ -64,6 +63,7 @@ static void put_material(struct known_table *t, const struct glsl_facts *f)
     glsl_add_parameters(known_made(t, "OWN_PARAMETERS"), f);
     glsl_add_parameter(known_made(t, "METALLIC"), f, "metallic");
     glsl_add_parameter(known_made(t, "ROUGHNESS"), f, "roughness");
+    glsl_add_own_parameter(known_made(t, "OWN_ROUGHNESS"), f, "roughness");
     if (f->adds_lights && f->has_lights)
         glsl_add_lobe(known_made(t, "LOBE"), f);
 }
@@ -96,14 +96,16 @@ static void put_output(struct known_table *t, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     const lam_output shown = c->output;
-    bool all = shown != LAM_OUTPUT_LIGHT && (shown < LAM_OUTPUT_AMBIENT || shown > LAM_OUTPUT_REFLECTION),
-         light = shown == LAM_OUTPUT_LIGHT && c->reflection != LAM_REFLECTION_NONE;
+    bool all = (shown < LAM_OUTPUT_AMBIENT || shown > LAM_OUTPUT_LIGHT) && shown != LAM_OUTPUT_ENVIRONMENT,
+         lit = c->reflection != LAM_REFLECTION_NONE, light = shown == LAM_OUTPUT_LIGHT && lit,
+         around = shown == LAM_OUTPUT_ENVIRONMENT && lit;
     known_flag(t, "shows_all", all);
+    known_flag(t, "shows_around", around);
     known_flag(t, "shows_ambient", all || light || shown == LAM_OUTPUT_AMBIENT);
-    known_flag(t, "shows_diffuse", all || light || shown == LAM_OUTPUT_DIFFUSE);
-    known_flag(t, "shows_specular", all || light || shown == LAM_OUTPUT_SPECULAR);
+    known_flag(t, "shows_diffuse", all || light || around || shown == LAM_OUTPUT_DIFFUSE);
+    known_flag(t, "shows_specular", all || light || around || shown == LAM_OUTPUT_SPECULAR);
     known_flag(t, "shows_emission", all || shown == LAM_OUTPUT_EMISSION);
-    known_flag(t, "shows_reflection", all || shown == LAM_OUTPUT_REFLECTION);
+    known_flag(t, "shows_reflection", all || around || shown == LAM_OUTPUT_REFLECTION);
     known_flag(t, "shows_base_color", shown == LAM_OUTPUT_BASE_COLOR);
     known_flag(t, "shows_occlusion", shown == LAM_OUTPUT_OCCLUSION);
     known_flag(t, "shows_roughness", shown == LAM_OUTPUT_ROUGHNESS);

@@ -23,6 +23,7 @@ bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam
         {c->storage == GLSL_TEXTURE, "'lam_shader_params.lights texture'", "'lam_shader_params.lights array' or "},
         {c->shadows || c->passed || c->catches, "'lam_draw_params.shadows'", ""},
         {c->occlusion, "'lam_draw_params.occlusion'", "'lam_draw_params.occlusion off' or "},
+        {c->widens, "'lam_draw_params.specular_aa'", "'lam_draw_params.specular_aa off' or "},
         {c->gl1, "'lam_draw_params.gl1'", ""},
         {f->back_material, "'lam_object.back_material'", ""},
         {c->exposes, "'lam_draw_params.exposure'", ""},

@@ -5,6 +5,9 @@
 
 // What the last point that was lit lets through of the light behind it.
 vec3 passing = vec3(0.0);
+// How much the normals of the surface and of its coat vary within the pixel.
+float pixel_variance = 0.0;
+float coat_variance = 0.0;
 
 if (unlit) {
     // The colour and opacity of an unlit surface.
@@ -48,6 +51,9 @@ vec4 light_point(vec3 p, vec3 normal, vec3 tangent, float turn, vec3 coat, vec4 
                 terms sum = start_terms(mul3(m.ambient.rgb, ambient_light.rgb), m.emission.rgb);
             }
             OWN_PARAMETERS;
+            if (widens_roughness) {
+                float widened = widened_roughness(OWN_ROUGHNESS, pixel_variance);
+            }
             if (has_hemispheres) {
                 for (int i = 0; i < HEMISPHERES; i++) {
                     sum = add_hemisphere(sum, s, hemisphere_of(i, m, front));
@@ -70,6 +76,9 @@ vec4 light_point(vec3 p, vec3 normal, vec3 tangent, float turn, vec3 coat, vec4 
                         given.clearcoat_normal = has_coat_normal ? unit3(coat) : s.n;
                     }
                     LAYERS;
+                    if (widens_roughness && has_clearcoat) {
+                        given.clearcoat_roughness = widened_roughness(given.clearcoat_roughness, coat_variance);
+                    }
                     layered layering = layered_of(s, given, 0, 0);
                 } else {
                     fresnel mirror = fresnel_of(base, METALLIC, single_scattering ? 0.0 : scattering_gain(s, ROUGHNESS));
@@ -100,33 +109,6 @@ vec4 light_point(vec3 p, vec3 normal, vec3 tangent, float turn, vec3 coat, vec4 
                     passing = layered_transmittance(s, layering, given, 0);
                 }
             }
-            if (has_environment) {
-                vec3 matte = black3(); // the matte part of the reflection
-                if (present(s.n) && present(s.v)) {
-                    if (environment_light) {
-                        vec3 matt = scale3(base, 1.0 - METALLIC);
-                        if (layered) {
-                            layered_around around = layered_around_of(s, given, layering, 0);
-                            vec3 arriving = layered_surroundings(s, layering, matt, around.base, around.top, 0);
-                            matte = sub3(arriving, layered_surroundings(s, layering, black3(), around.base, around.top, 0));
-                        } else {
-                            surroundings around = surroundings_of(s, ROUGHNESS);
-                            vec3 arriving = surroundings_light(mirror, matt, around);
-                            matte = sub3(arriving, surroundings_light(mirror, black3(), around));
-                        }
-                        if (map_occlusion) {
-                            arriving = scale3(arriving, maps.occlusion);
-                        }
-                        if (occluded) {
-                            arriving = scale3(arriving, unoccluded_share());
-                        }
-                        sum.reflection = add3(sum.reflection, arriving);
-                    } else {
-                        sum = add_environment(sum, (products ? front ? reflectivity : back_reflectivity : m.reflectivity).rgb,
-                            environment_color(mirror3(s.v, s.n)));
-                    }
-                }
-            }
         }
         if (map_ambient) {
             sum.ambient = mul3(sum.ambient, maps.ambient);
@@ -139,6 +121,29 @@ vec4 light_point(vec3 p, vec3 normal, vec3 tangent, float turn, vec3 coat, vec4 
         if (vertex_colors) {
             sum = tint_terms(sum, tint.rgb);
         }
+        if (has_environment) {
+            if (present(s.n) && present(s.v)) {
+                if (environment_light) {
+                    vec3 matt = scale3(base, 1.0 - METALLIC);
+                    if (layered) {
+                        layered_around around = layered_around_of(s, given, layering, 0);
+                        returned_light arriving = layered_surroundings(s, layering, matt, around.base, around.top, 0);
+                    } else {
+                        returned_light arriving = surroundings_light(mirror, matt, surroundings_of(s, ROUGHNESS));
+                    }
+                    if (map_occlusion) {
+                        arriving = scale_returned(arriving, maps.occlusion);
+                    }
+                    if (occluded) {
+                        arriving = scale_returned(arriving, unoccluded_share());
+                    }
+                    sum = add_returned(sum, arriving);
+                } else {
+                    sum = add_environment(sum, (products ? front ? reflectivity : back_reflectivity : m.reflectivity).rgb,
+                        environment_color(mirror3(s.v, s.n)));
+                }
+            }
+        }
         if (output_material) {
             OWN_PARAMETERS;
             return vec4(shows_base_color ? sum.diffuse
@@ -147,18 +152,14 @@ vec4 light_point(vec3 p, vec3 normal, vec3 tangent, float turn, vec3 coat, vec4 
                 : is_physical ? vec3(shows_roughness ? ROUGHNESS : METALLIC)
                 : vec3(0.0), 1.0);
         } else {
-            if (separate_reflection && shows_reflection) {
-                sum.reflection = sub3(sum.reflection, matte);
-            }
             if (separate_texture_terms) {
-                vec3 color = shows_all && separate_reflection ? add3(add3(sum.ambient, sum.diffuse), matte)
-                    : shows_ambient && shows_diffuse ? add3(sum.ambient, sum.diffuse)
+                vec3 color = shows_ambient && shows_diffuse ? add3(sum.ambient, sum.diffuse)
                     : shows_ambient ? sum.ambient
                     : shows_diffuse ? sum.diffuse
-                    : shows_reflection && separate_reflection ? matte
                     : black3();
                 rest = shows_all && emission_map_last ? add3(sum.specular, sum.reflection)
                     : shows_all ? add3(add3(sum.emission, sum.specular), sum.reflection)
+                    : shows_around ? add3(sum.specular, sum.reflection)
                     : shows_specular ? sum.specular
                     : shows_emission && !emission_map_last ? sum.emission
                     : shows_reflection ? sum.reflection
@@ -168,6 +169,7 @@ vec4 light_point(vec3 p, vec3 normal, vec3 tangent, float turn, vec3 coat, vec4 
                 }
             } else {
                 vec3 color = shows_all ? sum_terms(sum)
+                    : shows_around ? add3(add3(sum.diffuse, sum.specular), sum.reflection)
                     : shows_diffuse && shows_specular ? add3(add3(sum.ambient, sum.diffuse), sum.specular)
                     : shows_ambient ? sum.ambient
                     : shows_diffuse ? sum.diffuse

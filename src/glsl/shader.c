@@ -171,6 +171,11 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     if (c->encoding == GLSL_ENCODED)
         c->tone = m->frame.settings.tone;
     c->products = params->products;
+    c->widens = draw->specular_aa == LAM_SPECULAR_AA_ON && frame_is_physical(c->reflection);
+    if (c->widens && c->version == GLSL_120)
+        return fail(error, LAM_UNSUPPORTED,
+                    "GLSL 120 cannot ask for the size of a texture, which specular antialiasing needs; expected 330 or "
+                    "300es, or specular antialiasing off");
     c->passed = m->frame.settings.shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
     if (c->environment)
         c->environment = GLSL_CUBE;
@@ -515,6 +520,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     lam_draw_params without = draw ? *draw : (lam_draw_params){0};
     without.shadows |= without.ground != LAM_GROUND_NONE; // a ground implies shadows, and is not a draw of the scene
     without.ground = LAM_GROUND_NONE;
+    without.brighten = LAM_BRIGHTEN_OFF;
     if (!frame_build(&m->frame, m->scene, camera, &without, m->width, m->height, &call, error) ||
         !choose(m, draw, object, params, error))
         return false;

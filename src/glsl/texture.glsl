@@ -93,13 +93,20 @@ void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3
     down = (py * dx.x - px * dy.x) * side;
 }
 
-// The level of detail of a map at one probe.
+// The level of detail of a map, of each probe if there are several.
 float map_level(sampler2D map, vec4 s, vec4 t, footprint f)
 {
     vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
     vec2 dy = vec2(s.x * f.dy.x + s.y * f.dy.y, t.x * f.dy.x + t.y * f.dy.y);
     vec2 size = vec2(textureSize(map, 0));
     float longer = max(dot(dx * size, dx * size), dot(dy * size, dy * size));
+    if (anisotropic) {
+        float shorter = min(dot(dx * size, dx * size), dot(dy * size, dy * size));
+        float ratio = shorter > 0.0 ? sqrt(longer) / sqrt(shorter) : float(PROBES_MAX);
+        if (longer > 1.0) {
+            return log2(sqrt(longer) / (ratio >= float(PROBES_MAX) ? float(PROBES_MAX) : max(ceil(ratio), 1.0)));
+        }
+    }
     return longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
 }
 

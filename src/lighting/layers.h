@@ -413,8 +413,9 @@ FN surface coat_surface(surface s, layered m)
 }
 
 // Environment light: the split sum of each layer. The sheen uses the mean of the light above the surface.
-FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surroundings top, int set)
+FN returned_light layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surroundings top, int set)
 {
+    returned_light r;
     num c = eye_cosine(s);
     num scale = e.albedo - e.bias;
     vec3 d = add3(scale3(m.dielectric, scale), grey3(m.grazing * e.bias));
@@ -426,17 +427,19 @@ FN vec3 layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surr
         f = mix3(f, film_m, m.iridescence);
     }
     num matt = positive(1.0f - largest3(d)) * m.matt;
-    vec3 light = mul3(scale3(kd, matt), e.irradiance);
-    light = add3(light, mul3(layered_mix(m, d, f), e.prefiltered));
+    r.diffuse = mul3(scale3(kd, matt), e.irradiance);
+    r.specular = mul3(layered_mix(m, d, f), e.prefiltered);
     if ((set & LAYER_SHEEN) != 0) {
         vec3 fibres = scale3(m.sheen_color, sheen_albedo(eye_cosine(s), m.sheen_roughness));
-        light = add3(scale3(light, m.sheen_left), mul3(fibres, e.irradiance));
+        r = scale_returned(r, m.sheen_left);
+        r.specular = add3(r.specular, mul3(fibres, e.irradiance));
     }
     if ((set & LAYER_CLEARCOAT) != 0) {
         num mirrored = m.coat * (1.0f + m.coat_gain) * top.albedo;
-        light = add3(scale3(light, 1.0f - m.coat), scale3(top.prefiltered, mirrored));
+        r = scale_returned(r, 1.0f - m.coat);
+        r.specular = add3(r.specular, scale3(top.prefiltered, mirrored));
     }
-    return light;
+    return r;
 }
 
 // The transmittance straight ahead: (1 - max F_d) transmission base, times the volume's attenuation, under sheen and

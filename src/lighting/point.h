@@ -17,6 +17,41 @@ FN vec3 mapped_normal(vec3 map, vec3 tangent, vec3 bitangent, vec3 normal)
     return add3(add3(scale3(tangent, map.x), scale3(bitangent, map.y)), scale3(normal, map.z));
 }
 
+// Specular antialiasing (lam_specular_aa): if the normal varies within a pixel, a narrow highlight falls between the samples. The
+// variance of the normal therefore widens the lobe (Kaplanyan and Tokuyoshi, "Stable geometric specular antialiasing with
+// projected-space NDF filtering", 2021):
+//     alpha'^2 = alpha^2 + min(2 variance, 0.18)
+#define WIDENED_MOST 0.18f
+
+FN num widened_roughness(num roughness, num variance)
+{
+    num least = max_of(roughness, num_of(ROUGHNESS_MIN));
+    num alpha = least * least;
+    num square = min_of(alpha * alpha + min_of(2.0f * variance, num_of(WIDENED_MOST)), num_of(1.0f));
+    return pick(variance > 0.0f, square_root(square_root(square)), roughness);
+}
+
+// The variance of the unit normal over a pixel, from an interpolated normal of any length and its derivatives by the window's x
+// and y. A pixel is a box of the variance 1/12. (The paper uses 1 / (2 pi), which blurs the reflections of small mirrors.) Only
+// the part of a derivative that is perpendicular to the normal turns it.
+FN num normal_variance(vec3 normal, vec3 by_x, vec3 by_y)
+{
+    num inverse = rsqrt(dot3(normal, normal));
+    vec3 n = scale3(normal, inverse);
+    vec3 turn_x = scale3(sub3(by_x, scale3(n, dot3(n, by_x))), inverse);
+    vec3 turn_y = scale3(sub3(by_y, scale3(n, dot3(n, by_y))), inverse);
+    return 0.083333336f * (dot3(turn_x, turn_x) + dot3(turn_y, turn_y));
+}
+
+// Toksvig, "Mipmapping normal maps" (2005): the texels of a normal map are unit vectors. If their mean has the length r, their
+// variance is (1 - r) / r. `mean` is a filtered texel, before `scale` multiplies its slopes. A magnified map (detail <= 0) has no
+// variance. Texels of 8 bits are up to 0.003 too short.
+FN num map_variance(vec3 mean, num scale, num detail)
+{
+    num length = min_of(square_root(dot3(mean, mean)) + 0.003f, num_of(1.0f));
+    return saturate(detail) * (scale * scale) * ((1.0f - length) / max_of(length, num_of(0.1f)));
+}
+
 // Blinn, "Simulation of wrinkled surfaces" (1978): the unit normal n, tilted by the slopes of a bump map along the
 // directions of increasing columns and rows of the picture, of any length.
 FN vec3 bumped_normal(vec3 n, vec3 across, vec3 down, num slope_across, num slope_down)

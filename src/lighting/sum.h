@@ -5,10 +5,10 @@
 //
 //    I = emission + ka * (La global + sum of La_i + sum of hemisphere_i)
 //        + sum over lights of  spot_i attenuation_i (kd * Ld_i D_i + ks * Ls_i S_i)
-//        + kr * environment, or the split sum of metallic-roughness materials
+//        + kr * environment
 //
-//
-// where * multiplies colours channel by channel. The products ka * La, kd * Ld, ks * Ls are computed once for each draw
+// For metallic-roughness materials the environment is a light: its split sum is added to the diffuse and the specular term.
+// Here, * multiplies colours channel by channel. The products ka * La, kd * Ld, ks * Ls are computed once for each draw
 // and are parameters here. Ambient light is neither attenuated nor limited by a cone, so all of it is one colour.
 
 // The terms before their sum, for pictures of one term and the explanation of a pixel.
@@ -132,16 +132,41 @@ STRUCT(surroundings)
     num bias;         // schlick_scattering
 };
 
+// The environment's light that a physical material reflects.
+STRUCT(returned_light)
+{
+    vec3 diffuse;  // from its matt part
+    vec3 specular; // from its mirrors
+};
+
+FN returned_light scale_returned(returned_light r, num share)
+{
+    r.diffuse = scale3(r.diffuse, share);
+    r.specular = scale3(r.specular, share);
+    return r;
+}
+
+// Adds it to the terms of the lights. Vertex colours and maps are already included.
+FN terms add_returned(terms sum, returned_light r)
+{
+    sum.diffuse = add3(sum.diffuse, r.diffuse);
+    sum.specular = add3(sum.specular, r.specular);
+    return sum;
+}
+
 // The split sum (Karis 2013): the integral of light times lobe is approximated by the light's mean times the lobe's
 // integral,
 //    kd irradiance (1 - (0.04 scale + bias)) + prefiltered (f0 scale + bias)
 // with the mix of dielectric and metal, and multiple scattering, as in fresnel_of: f0 scale + bias = f0 (scale + bias)
 // + (1 - f0) bias.
-FN vec3 surroundings_light(fresnel f, vec3 kd, surroundings e)
+FN returned_light surroundings_light(fresnel f, vec3 kd, surroundings e)
 {
+    returned_light r;
     num dielectric = DIELECTRIC_F0 * e.albedo + (1.0f - DIELECTRIC_F0) * e.bias;
     vec3 mirrored = add3(scale3(f.f0, e.albedo), scale3(f.rest, e.bias));
-    return add3(mul3(scale3(kd, 1.0f - dielectric), e.irradiance), mul3(mirrored, e.prefiltered));
+    r.diffuse = mul3(scale3(kd, 1.0f - dielectric), e.irradiance);
+    r.specular = mul3(mirrored, e.prefiltered);
+    return r;
 }
 
 // Multiplies the ambient and diffuse terms by a colour that varies over the surface (vertex colours, a texture).

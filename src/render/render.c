@@ -84,6 +84,8 @@ static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *i
         if (!lam_image_make(image, width, height, image->format, error))
             return false;
     }
+    if (!params->draw && settings.present & LAM_SETTING_EXPOSURE)
+        drawn.brighten = LAM_BRIGHTEN_OFF;
     lam_camera camera = settings.camera;
     if (params->view || !(settings.present & LAM_SETTING_CAMERA))
         camera =

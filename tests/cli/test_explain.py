@@ -241,6 +241,13 @@ class Explain(Case):
         self.assertAlmostEqual(light["S"], math.pi * light["distribution"] * light["visibility"] * light["n_dot_l"], places=3)
         self.assertEqual(triangle["values"]["metallic"], 0.5)
         self.assertEqual((triangle["maps"], triangle["values"]["tangent"]), ([], None))
+        # A light by hand and a classic look keep the roughness; in the studio the variance of the normals widens it.
+        lit_roughness = lambda *more: json.loads(self.good("explain", *words, *more, "--json").stdout)["triangles"][0]["values"]["lit_roughness"]
+        given = triangle["values"]["roughness"]
+        self.assertEqual(triangle["values"]["lit_roughness"], given)
+        self.assertEqual((lit_roughness("--look", "classic"), lit_roughness("--specular-aa", "off"), lit_roughness("--reference", "64")), (given, given, given))
+        self.assertTrue(given < lit_roughness() < 0.42)
+        self.assertIn("widened to ", self.good("explain", *words).stdout.decode())
         text = self.good("explain", *words, "--environment", "studio").stdout.decode()
         for part in ("diffuse part", "mirrored part", "of the prefiltered environment for the roughness: "):
             self.assertIn(part, text)
@@ -249,7 +256,10 @@ class Explain(Case):
         for c, base in enumerate(json.loads(self.good("explain", *words, "--environment", "studio", "--json").stdout)["triangles"][0]["values"]["base_color"]):
             glass = 0.04 * around["scale"] + around["bias"]
             self.assertAlmostEqual(around["diffuse_part"][c], base * 0.5 * around["irradiance"][c] * (1 - glass), places=5)
-            self.assertGreater(point["terms"]["reflection"][c], around["diffuse_part"][c])
+            self.assertAlmostEqual(point["terms"]["diffuse"][c], around["diffuse_part"][c], places=6)
+            self.assertAlmostEqual(point["terms"]["specular"][c], around["specular_part"][c], places=6)
+            self.assertEqual(point["terms"]["reflection"][c], 0)
+            self.assertGreater(around["specular_part"][c], 0.01)
 
     def test_layers(self):
         """Each layer of a physical material apart: its share of a light and of the environment; the shares add up to the terms."""
@@ -257,7 +267,7 @@ class Explain(Case):
                  "--material", "#ffc356,roughness=0.4,clearcoat=0.5,clearcoat_roughness=0.1,sheen_color=0.2/0.4/0.6,sheen_roughness=0.5,transmission=0.25")
         text = self.good("explain", *words).stdout.decode()
         for part in ("  layers\n", "    share ", "    n_c ", "    left ", "    matt ", "    sheen ", "    coat ", "    sheen part ", "    coat part ",
-                     "the sum of its parts, above"):
+                     "the environment's other parts"):
             self.assertIn(part, text)
         self.assertNotIn("    coat ", self.good("explain", "sphere", "14,20", "-s", "41", "--material", "#ffc356,roughness=0.4,ior=1.8").stdout.decode())
         point = json.loads(self.good("explain", *words, "--json").stdout)["triangles"][0]["points"][0]
@@ -270,8 +280,10 @@ class Explain(Case):
         for c in range(3):
             returned = (1 - layers["coat"]) * (parts["sheen_left"] * parts["base"][c] + parts["sheen"][c]) + parts["coat"]
             self.assertAlmostEqual(light["specular_term"][c], returned, places=4)
-            reflected = point["environment"]["diffuse_part"][c] + sum(layers[name + "_part"][c] for name in ("mirrored", "sheen", "coat"))
-            self.assertAlmostEqual(reflected, point["terms"]["reflection"][c], places=5)
+            mirrored = sum(layers[name + "_part"][c] for name in ("mirrored", "sheen", "coat"))
+            self.assertAlmostEqual(mirrored, point["environment"]["specular_part"][c], places=5)
+            self.assertAlmostEqual(light["specular_term"][c] + mirrored, point["terms"]["specular"][c], places=4)
+            self.assertAlmostEqual(light["diffuse_term"][c] + point["environment"]["diffuse_part"][c], point["terms"]["diffuse"][c], places=5)
 
     def test_wrong(self):
         for place in ("5", "5,", ",5", "a,b", "1,2,3", "1.5,2", "0x1,2", "", "9999999999,1"):

@@ -2,6 +2,7 @@
 import json
 import os
 import math
+import re
 import unittest
 
 from harness import Case, pixel, read_png
@@ -57,6 +58,29 @@ class Default(Case):
                     self.assertEqual(len(tones), 3)
                     self.assertGreaterEqual(min(tones[1] - tones[0], tones[2] - tones[1]), 20)
                     self.assertLessEqual(tones[2], 245) # darker than white paper
+
+    def test_dark_models_get_more_light(self):
+        """Their exposure follows from their colours: the same from every side, and none for who chooses an exposure, a colour or lights."""
+        self.good("shape", "torus-knot", "-q", "-o", "white.obj")
+        shape = (self.folder / "white.obj").read_text()
+        for name, kd in (("white", 0.8), ("grey", 0.3), ("black", 0.01), ("lamp", 0.01)):
+            (self.folder / f"{name}.mtl").write_text(f"newmtl a\nKd {kd} {kd} {kd}\n" + "Ke 0.5 0.5 0.5\n" * (name == "lamp"))
+            (self.folder / f"{name}.obj").write_text(f"mtllib {name}.mtl\nusemtl a\n" + shape)
+            self.given |= {f"{name}.mtl", f"{name}.obj"}
+        stops = lambda *words: [float(s) for s in re.findall(r"exposure ([0-9.]+) stops more, for a dark model", self.good(*words, "-s", "32", "-v", "-o", "v-{view}.png").stderr.decode())]
+        [grey], [black] = stops("grey.obj"), stops("black.obj")
+        self.assertTrue(0.5 <= grey < black <= 2.5, (grey, black))
+        self.assertEqual(stops("black.obj", "--view", "back,top"), [black] * 2)
+        self.given |= {path.name for path in self.folder.glob("v*.png")}
+        for words in (["white.obj"], ["lamp.obj"], ["torus-knot"], ["torus-knot", "--color", "#020202"], ["black.obj", "--exposure", "0"], ["black.obj", "--color", "#020202"],
+                      ["black.obj", "--light", "point"], ["black.obj", "--environment", "sky"], ["black.obj", "--rig", "headlight"], ["black.obj", "--look", "classic"],
+                      ["black.obj", "--color-mode", "raw"], ["black.obj", "--ground", "checker"], ["black.obj", "--brighten", "off"]):
+            self.assertEqual(stops(*words), [], words)
+        draw = lambda *words: self.png("black.obj", "-s", "48", *words)
+        self.assertEqual(draw(), draw("--exposure", black))
+        self.assertGreater(max(draw()[2][1::4]), 2 * max(draw("--brighten", "off")[2][1::4]))
+        explained = json.loads(self.good("explain", "black.obj", "24,24", "-s", "48", "--json").stdout)
+        self.assertAlmostEqual(explained["exposure"], 2 ** black, places=4)
 
     def test_named_metals_mirror_the_studio(self):
         """A metal's name alone is the physical metal under the default lights, and the classic table's row under all others."""

@@ -212,7 +212,7 @@ CONTEXT = {
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),
     "wireframe-width": (["--wireframe"], "2"), "wireframe-color": (["--wireframe"], "red"), "edge-angle": (["--edges", "crease"], "20"),
     "edge-width": (["--edges", "all"], "3"), "edge-color": (["--edges", "all"], "red"), "hidden-lines": (["--wireframe"], "show"), "surfaces": ([], "off"),
-    "look": ([], "classic"), "ground": ([], "checker"), "ao": ([], "off"), "cavity": ([], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
+    "look": ([], "classic"), "ground": ([], "checker"), "ao": ([], "off"), "cavity": ([], "off"), "brighten": (["dark.obj"], "off"), "specular-aa": (["--material", "#ffc356,metallic=1,roughness=0.3"], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
     "environment-rotation": (["--environment", "studio", "--reflectivity", "0.5"], "90"),
 }
 
@@ -231,6 +231,8 @@ class Defaults(Case):
         (self.folder / "floor.mtl").write_text("newmtl a\nmap_Kd -s 20 20 stripes.png\n")
         (self.folder / "floor.obj").write_text("mtllib floor.mtl\nusemtl a\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\n"
                                                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 4/4 3/3 2/2 1/1\n")
+        (self.folder / "dark.mtl").write_text("newmtl a\nKd 0.02 0.02 0.02\n")
+        (self.folder / "dark.obj").write_text((self.folder / "floor.obj").read_text().replace("floor.mtl", "dark.mtl"))
         lights = [{"type": "point", "position": [i % 5 - 2, i // 5 - 2, 3], "color": [.05, .05, .05], "attenuation": [0, 0, 1]} for i in range(25)]
         (self.folder / "lights.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}], "lights": lights}))
 

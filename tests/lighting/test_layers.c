@@ -328,10 +328,57 @@ static void test_neutral(void **state)
         surroundings e = {{0.3f, 0.4f, 0.5f}, {0.6f, 0.7f, 0.8f}, 0, 0};
         e.albedo = single_scattering(eye_cosine(s), given.roughness);
         e.bias = schlick_scattering(eye_cosine(s), given.roughness);
-        vec3 kd = scale3(given.base, 1 - given.metallic), around = surroundings_light(f, kd, e),
-             layered_around = layered_surroundings(s, m, kd, e, e, LAYER_VOLUME - 1);
-        assert_true(fabsf(around.x - layered_around.x) <= 2e-6f && fabsf(around.y - layered_around.y) <= 2e-6f);
+        vec3 kd = scale3(given.base, 1 - given.metallic);
+        returned_light around = surroundings_light(f, kd, e),
+                       layered_around = layered_surroundings(s, m, kd, e, e, LAYER_VOLUME - 1);
+        assert_true(fabsf(around.diffuse.x - layered_around.diffuse.x) <= 2e-6f);
+        assert_true(fabsf(around.specular.y - layered_around.specular.y) <= 2e-6f);
     }
+}
+
+static void make_unit(const double v[3], double out[3])
+{
+    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int c = 0; c < 3; c++)
+        out[c] = v[c] / length;
+}
+
+static vec3 narrow3(const double v[3]) { return (vec3){(float)v[0], (float)v[1], (float)v[2]}; }
+
+// Specular antialiasing: the variance of normals against differences of unit normals, Toksvig's length, and the wider lobe.
+static void test_widening(void **state)
+{
+    (void)state;
+    struct random r = {11};
+    for (int i = 0; i < 2000; i++) {
+        double normal[3], slope[2][3], sum = 0;
+        const double scale = (double)random_between(&r, 0.5f, 2.5f), step = 1e-6;
+        for (int c = 0; c < 3; c++) {
+            normal[c] = scale * (double)random_between(&r, -1, 1) + (c == 2 ? 2 : 0);
+            slope[0][c] = (double)random_between(&r, -0.2f, 0.2f);
+            slope[1][c] = (double)random_between(&r, -0.2f, 0.2f);
+        }
+        for (int k = 0; k < 2; k++) {
+            double before[3], after[3], here[2][3];
+            for (int c = 0; c < 3; c++) {
+                here[0][c] = normal[c] - step * slope[k][c];
+                here[1][c] = normal[c] + step * slope[k][c];
+            }
+            make_unit(here[0], before);
+            make_unit(here[1], after);
+            for (int c = 0; c < 3; c++)
+                sum += pow((after[c] - before[c]) / (2 * step), 2) / 12;
+        }
+        float found = normal_variance(narrow3(normal), narrow3(slope[0]), narrow3(slope[1]));
+        assert_true(fabs((double)found - sum) <= 1e-5 * (1 + sum));
+        double roughness = (double)random_between(&r, 0.05f, 1), alpha = roughness * roughness;
+        double wide = pow(fmin(alpha * alpha + fmin(2 * sum, 0.18), 1), 0.25);
+        assert_true(fabs((double)widened_roughness((float)roughness, (float)sum) - wide) <= 2e-6);
+    }
+    assert_true(widened_roughness(0.3f, 0) == 0.3f && widened_roughness(0, 1) > 0.65f && widened_roughness(1, 9) == 1);
+    assert_true(map_variance((vec3){0, 0, 1}, 1, 5) == 0 && map_variance((vec3){0, 0, 0.5f}, 1, -2) == 0);
+    double r_length = 0.803;
+    assert_true(fabs((double)map_variance((vec3){0.48f, 0, 0.64f}, 2, 3) - 4 * (1 - r_length) / r_length) < 1e-6);
 }
 
 // Numbers of the texts.
@@ -395,7 +442,8 @@ static void test_sheen_table(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_known_answers), cmocka_unit_test(test_neutral),
-                                       cmocka_unit_test(test_random_points), cmocka_unit_test(test_sheen_table)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_widening), cmocka_unit_test(test_known_answers),
+                                       cmocka_unit_test(test_neutral), cmocka_unit_test(test_random_points),
+                                       cmocka_unit_test(test_sheen_table)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -136,7 +136,8 @@ static double mean_difference(bool single)
     lam_environment *environment = make_environment();
     lam_scene *scene =
         make_spheres(environment, (lam_rgb){(float)base_color[0], (float)base_color[1], (float)base_color[2]});
-    lam_image picture = draw_spheres(scene, (lam_draw_params){.single_scattering = single}, 0, LAM_ISA_AUTO);
+    lam_image picture = draw_spheres(
+        scene, (lam_draw_params){.single_scattering = single, .specular_aa = LAM_SPECULAR_AA_OFF}, 0, LAM_ISA_AUTO);
     lam_image normals = draw_spheres(scene, (lam_draw_params){.output = LAM_OUTPUT_NORMALS}, 0, LAM_ISA_AUTO);
     double sum = 0, v[3] = {0, 0, 1};
     int count = 0;

@@ -121,8 +121,10 @@ static void environment(int viewer, const float *const in[INPUTS], float *const 
         surroundings e = {load3(in, IN_SKY, i), load3(in, IN_GROUND, i), single_scattering(n_dot_v, m.roughness),
                           schlick_scattering(n_dot_v, m.roughness)};
         vec3 kd = scale3(base, 1.0f - m.metallic);
-        store3(out, OUT_SPLIT_SUM, i, surroundings_light(f, kd, e));
-        store3(out, OUT_SPLIT_ALONE, i, surroundings_light(fresnel_of(base, m.metallic, num_of(0.0f)), kd, e));
+        returned_light whole = surroundings_light(f, kd, e);
+        returned_light alone = surroundings_light(fresnel_of(base, m.metallic, num_of(0.0f)), kd, e);
+        store3(out, OUT_SPLIT_SUM, i, add3(whole.diffuse, whole.specular));
+        store3(out, OUT_SPLIT_ALONE, i, add3(alone.diffuse, alone.specular));
     }
 }
 #undef TAKE

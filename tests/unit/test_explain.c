@@ -142,9 +142,10 @@ static void check_layers(const lam_explained_point *p)
     if (p->environment_scale + p->environment_bias == 0)
         return;
     for (int c = 0; c < 3; c++) {
-        float parts = (&p->environment_diffuse.r)[c] + (&all->mirrored_part.r)[c] + (&all->sheen_part.r)[c];
-        assert_near(parts + (&all->coat_part.r)[c], (&p->reflection.r)[c]);
-        layered_surroundings += (&p->reflection.r)[c] > 0;
+        float parts = (&all->mirrored_part.r)[c] + (&all->sheen_part.r)[c] + (&all->coat_part.r)[c];
+        assert_near(parts, (&p->environment_specular.r)[c]);
+        assert_true((&p->reflection.r)[c] == 0);
+        layered_surroundings += parts > 0;
     }
 }
 

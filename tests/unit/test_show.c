@@ -87,7 +87,7 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
     for (int i = 0; i < lights; i++)
         add(sums, draw_show(scene, camera, params, LAM_OUTPUT_LIGHT, i));
     add(sums, draw_show(scene, camera, params, LAM_OUTPUT_EMISSION, 0));
-    add(sums, draw_show(scene, camera, params, LAM_OUTPUT_REFLECTION, 0));
+    add(sums, draw_show(scene, camera, params, LAM_OUTPUT_ENVIRONMENT, 0));
     // What is left is the scene's own ambient light: that of a scene without others.
     lam_light ambient = lam_light_default(LAM_LIGHT_AMBIENT);
     ambient.ambient = lam_scene_ambient(scene);

@@ -265,6 +265,9 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         draw.shading = by_vertex ? LAM_SHADING_GOURAUD : LAM_SHADING_PHONG;
     draw.color = (lam_color_mode)o->picture.color_mode;
     draw.exposure = o->picture.exposure_kind == EXPOSURE_LITERAL ? o->picture.exposure : 0;
+    // Who chooses an exposure or a colour gets it as it is.
+    if (o->picture.exposure_kind != EXPOSURE_BY_FILE || o->material.model_color || o->material.materials.count)
+        draw.brighten = LAM_BRIGHTEN_OFF;
     draw.rig = rig;
     draw.edge_color = color_or(o->shading.edge_color, o->picture.color_mode, draw.edge_color);
     draw.wireframe_color = color_or(o->shading.wireframe_color, o->picture.color_mode, draw.wireframe_color);

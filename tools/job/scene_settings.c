@@ -131,7 +131,9 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     const lam_draw_params *draw = &job->draw;
     lam_picture_settings s = job->settings;
     s.present &= LAM_SETTING_ENVIRONMENT;
-    s.present |= draw->exposure != 0 || job->file_lights ? LAM_SETTING_EXPOSURE : 0;
+    // A scene file is not brightened: it says how bright it is.
+    const double brightened = job->times.frame.brightened;
+    s.present |= draw->exposure != 0 || brightened != 0 || job->file_lights ? LAM_SETTING_EXPOSURE : 0;
     s.present |= draw->tone != LAM_TONE_AUTO ? LAM_SETTING_TONE : 0;
     s.present |=
         LAM_SETTING_SIZE | LAM_SETTING_SAMPLES | LAM_SETTING_BACKGROUND | LAM_SETTING_COLOR | LAM_SETTING_CAMERA;
@@ -146,6 +148,7 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     s.height = job->image.height;
     s.camera = job->camera;
     s.draw = *draw;
+    s.draw.exposure += brightened;
     char *names = NULL;
     if (job->studio && !(s.present & LAM_SETTING_ENVIRONMENT)) {
         s.environment_built_in = "studio";

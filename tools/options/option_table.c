@@ -89,10 +89,11 @@ static const struct word color_mode_words[] = {
 
 static const struct word show_words[] = {
     {"ambient", LAM_OUTPUT_AMBIENT, "the ambient term"},
-    {"diffuse", LAM_OUTPUT_DIFFUSE, "the diffuse term of all lights"},
-    {"specular", LAM_OUTPUT_SPECULAR, "the highlights of all lights"},
+    {"diffuse", LAM_OUTPUT_DIFFUSE, "the diffuse term of all lights, and of the environment on physical materials"},
+    {"specular", LAM_OUTPUT_SPECULAR, "the highlights of all lights, and of the environment on physical materials"},
     {"emission", LAM_OUTPUT_EMISSION, "the light that the surface emits"},
-    {"reflection", LAM_OUTPUT_REFLECTION, "the reflection of the environment"},
+    {"reflection", LAM_OUTPUT_REFLECTION, "the reflection of the environment by classic materials"},
+    {"environment", LAM_OUTPUT_ENVIRONMENT, "the light of the environment on all materials"},
     {"light:NAME", LAM_OUTPUT_LIGHT, "the contribution of one light, by its name or its number from 1"},
     {"normals", LAM_OUTPUT_NORMALS, "in eye space: (n + 1)/2"},
     {"tangents", LAM_OUTPUT_TANGENTS, "in eye space: (t + 1)/2"},
@@ -480,6 +481,17 @@ struct option option_table[OPTIONS_MAX] = {
      "radius. It affects the same light as `--ao`. `--show ao --ao off --cavity on` "
      "shows its effect.",
      .others = "curvature ridges valleys no-cavity"},
+    {"specular-aa", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
+     "Specular antialiasing. Where the normals of the mesh or of a normal map vary within a pixel, highlights become "
+     "jagged "
+     "streaks that flicker. With this option the roughness grows there (docs/lighting/physical.md).",
+     .others = "specular-antialiasing toksvig glitter fireflies no-specular-aa"},
+    {"brighten", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
+     "A black model needs more light than a white one, or only its outline is visible. The studio is brighter, by up "
+     "to 2.5 stops, if the "
+     "base colours of a model file are dark. `--exposure 0`, `--color` and `--material` switch this off. "
+     "`docs/lighting/tone.md` has the rule.",
+     .others = "auto-exposure dark-models"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
     {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,

@@ -205,8 +205,9 @@ static void write_point(struct json *json, const lam_explanation *e, const lam_e
             color(json, "irradiance", p->irradiance);
             real(json, "scale", p->environment_scale);
             real(json, "bias", p->environment_bias);
-            color(json, "diffuse_part", p->environment_diffuse);
         }
+        color(json, "diffuse_part", p->environment_diffuse);
+        color(json, "specular_part", p->environment_specular);
         json_close(json, '}');
     }
     json_open(json, "terms", '{');
@@ -263,6 +264,7 @@ static void write_maps(struct json *json, const lam_explained_fragment *f)
     color(json, "base_color", v->base_color);
     real(json, "metallic", v->metallic);
     real(json, "roughness", v->roughness);
+    real(json, "lit_roughness", v->lit_roughness);
     real(json, "shininess", v->shininess);
     real(json, "occlusion", v->occlusion);
     json_vector(json, "mesh_normal", v->mesh_normal);

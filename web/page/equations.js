@@ -82,16 +82,18 @@ export function aroundEquations(triangle, point) {
   if (point.terms.ambient.some((x) => x !== 0))
     add('ambient', `${dimmed ? 'unoccluded · (' : ''}ka La${terms.length ? ' + Σ hemispheres' : ''}${dimmed ? ')' : ''}`, dimmed ? `${number(point.unoccluded)} · (${sum})` : sum, point.terms.ambient);
   const { environment: e } = point, { reflectivity } = triangle.material;
-  if (!e || !point.terms.reflection.some((x) => x !== 0)) return rows;
+  if (!e) return rows;
   if (e.prefiltered) {
     for (const name of ['irradiance', 'prefiltered', 'scale', 'bias']) add(name, '', null, e[name]);
     const { layers } = point;
     if (layers) {
       add('diffuse part', '', null, e.diffuse_part);
       for (const name of ['mirrored', 'sheen', 'coat']) if (layers[`${name}_part`].some((x) => x !== 0)) add(`${name} part`, '', null, layers[`${name}_part`]);
-      add('reflection', 'the sum of these parts', null, point.terms.reflection);
-    } else add('reflection', 'kd irradiance (1 − (0.04 scale + bias)) + prefiltered (f0 scale + bias)', null, point.terms.reflection);
-  } else add('reflection', `${dimmed ? 'unoccluded · ' : ''}kr environment`, `${dimmed ? `${number(point.unoccluded)} · ` : ''}${triple(reflectivity)} · ${triple(e.light)}`, point.terms.reflection);
+    } else {
+      add('diffuse part', 'kd irradiance (1 − (0.04 scale + bias))', null, e.diffuse_part);
+      add('mirrored part', 'prefiltered (f0 scale + bias)', null, e.specular_part);
+    }
+  } else if (point.terms.reflection.some((x) => x !== 0)) add('reflection', `${dimmed ? 'unoccluded · ' : ''}kr environment`, `${dimmed ? `${number(point.unoccluded)} · ` : ''}${triple(reflectivity)} · ${triple(e.light)}`, point.terms.reflection);
   return rows;
 }
 

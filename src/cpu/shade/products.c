@@ -95,8 +95,9 @@ struct material_products *products_make(struct buffer *storage, const struct fra
 }
 
 // Returns the levels that a roughness needs: the material's number alone, or times a map's. A mesh without texture
-// coordinates uses no map.
-static unsigned parts_of_number(const struct material_products *m, lam_map slot, float factor, bool stretched)
+// coordinates uses no map. `widens` is true if the variance of normals widens it.
+static unsigned parts_of_number(const struct material_products *m, lam_map slot, float factor, bool stretched,
+                                bool widens)
 {
     const float margin = 1e-4f; // allows for the rounding of filtered texels
     float low = factor, high = factor;
@@ -106,20 +107,23 @@ static unsigned parts_of_number(const struct material_products *m, lam_map slot,
         low = factor * range[0] < low ? factor * range[0] : low;
         high = factor * range[1] > high ? factor * range[1] : high;
     }
+    if (widens)
+        high = widened_roughness(high > 1 ? 1 : high, 1);
     return environment_light_parts(prefilter_level(low - margin), prefilter_level(stretched ? 1 : high + margin));
 }
 
 unsigned environment_parts_of(const struct shade_frame *shade)
 {
     unsigned parts = 0;
+    const bool widens = shade->frame->widens_highlights;
     for (int i = 0; i < shade->frame->material_count; i++) {
         const struct material_products *m = &shade->materials[i];
         const lam_material *given = m->given;
         if (!given->physical)
             continue;
-        parts |= parts_of_number(m, LAM_MAP_ROUGHNESS, given->roughness, m->layers & LAYER_ANISOTROPY);
+        parts |= parts_of_number(m, LAM_MAP_ROUGHNESS, given->roughness, m->layers & LAYER_ANISOTROPY, widens);
         if (m->layers & LAYER_CLEARCOAT)
-            parts |= parts_of_number(m, LAM_MAP_CLEARCOAT_ROUGHNESS, given->clearcoat_roughness, false);
+            parts |= parts_of_number(m, LAM_MAP_CLEARCOAT_ROUGHNESS, given->clearcoat_roughness, false, widens);
     }
     return parts;
 }

@@ -62,6 +62,8 @@ struct shading_batch {
     float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // factor of ka; `color` is the factor of kd
     float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // factor of the highlights; and the emission
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
+    // The variance of the normals of base and coat within the pixel (lam_specular_aa).
+    float variance[BATCH_ROW], coat_variance[BATCH_ROW];
     // For materials with maps and layers (layered.inc): their numbers after maps.
     struct {
 #define NUMBER_ROW(member, field, map) float member[BATCH_ROW];

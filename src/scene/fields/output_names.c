@@ -11,6 +11,7 @@ static const char *const names[LAM_OUTPUT_COUNT] = {
     [LAM_OUTPUT_EMISSION] = "emission",
     [LAM_OUTPUT_REFLECTION] = "reflection",
     [LAM_OUTPUT_LIGHT] = "light",
+    [LAM_OUTPUT_ENVIRONMENT] = "environment",
     [LAM_OUTPUT_NORMALS] = "normals",
     [LAM_OUTPUT_TANGENTS] = "tangents",
     [LAM_OUTPUT_DEPTH] = "depth",
@@ -38,7 +39,10 @@ const char *lam_ground_name(lam_ground ground)
     return (unsigned)ground < LAM_GROUND_COUNT ? ground_names[ground] : NULL;
 }
 
-bool lam_output_is_light(lam_output output) { return (unsigned)output <= LAM_OUTPUT_LIGHT; }
+bool lam_output_is_light(lam_output output)
+{
+    return (unsigned)output <= LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_ENVIRONMENT;
+}
 
 int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int capacity)
 {

@@ -50,6 +50,11 @@ WORDS(occlusion_words,
 WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto` and selects `screen`"},
       {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
+WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on with the studio's lights or environment light"},
+      {"off", LAM_SPECULAR_AA_OFF, "the exact equations"},
+      {"on", LAM_SPECULAR_AA_ON, "rougher by the variance of the normals within each pixel"})
+WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "model files in the studio's light"},
+      {"off", LAM_BRIGHTEN_OFF, "the light is as bright as for every model"})
 WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
       {"shadow", LAM_GROUND_SHADOW,
        "a transparent plane that shows only shadows and occlusion, as black with an alpha"},
@@ -117,6 +122,10 @@ static const lam_setting rows[] = {
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",
      .summary = "Darken small valleys and lighten ridges: auto, off or on."},
+    {"specular_aa", MEMBER(WORD, specular_aa), WORDS_OF(specular_aa_words), .expected = "lam_specular_aa",
+     .summary = "Smooth the glitter of bumpy physical materials: auto, off or on."},
+    {"brighten", MEMBER(WORD, brighten), WORDS_OF(brighten_words), .expected = "lam_brighten",
+     .summary = "Light dark models with a brighter studio: auto or off."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
      .expected = "more than 0, up to 10",
      .summary = "The range of occlusion, as a fraction of half the diagonal of the scene's bounding box."},

@@ -47,15 +47,15 @@ void explain_layers(const lam_explained_layers *layers)
         row_number(4, "share", (double)layers->coat, "of the coat: clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)");
 }
 
-// Prints the environment light that each part of the surface reflects. Their sum is the term.
+// Prints the environment light that each part of the surface reflects. The diffuse part belongs to the diffuse term, the
+// others to the specular term.
 void explain_environment_parts(const lam_explained_point *p)
 {
     const lam_explained_layers *layers = p->layers;
     lam_rgb diffuse = p->environment_diffuse;
     if (!layers) {
-        lam_rgb mirrored = {p->reflection.r - diffuse.r, p->reflection.g - diffuse.g, p->reflection.b - diffuse.b};
         row_color(4, "diffuse part", diffuse, "base (1 − metallic) ⊙ irradiance/π (1 − (0.04 scale + bias))");
-        row_color(4, "mirrored part", mirrored, "prefiltered ⊙ (f0 scale + bias)");
+        row_color(4, "mirrored part", p->environment_specular, "prefiltered ⊙ (f0 scale + bias)");
         return;
     }
     char text[200], under[60];

@@ -267,6 +267,11 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
             row_number(4, "scale", (double)p->environment_scale, "");
             row_number(4, "bias", (double)p->environment_bias, "the lobe's integral is f0 scale + bias");
             explain_environment_parts(p);
+        } else if (e->reference && f->surface.physical) {
+            char text[100];
+            snprintf(text, sizeof text, "of the integral of the environment's light, by %d directions", e->reference);
+            row_color(4, "diffuse part", p->environment_diffuse, text);
+            row_color(4, "mirrored part", p->environment_specular, "");
         }
     }
 
@@ -288,20 +293,19 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
                  p->hemisphere_count ? " + Σ hemispheres" : "", tint, (double)p->ambient_light.r,
                  (double)p->ambient_light.g, (double)p->ambient_light.b, p->hemisphere_count ? " + …" : "");
         row_color(4, "ambient", p->ambient, text);
-        snprintf(text, sizeof text, "Σ of the lights' diffuse terms%s", tint);
+        bool around = !is_black(p->environment_diffuse) || !is_black(p->environment_specular);
+        snprintf(text, sizeof text, "Σ of the lights' diffuse terms%s%s", tint,
+                 around ? " + the environment's diffuse part" : "");
         row_color(4, "diffuse", p->diffuse, text);
-        row_color(4, "specular", p->specular, "Σ of the lights' specular terms");
+        row_color(4, "specular", p->specular,
+                  !around     ? "Σ of the lights' specular terms"
+                  : p->layers ? "Σ of the lights' specular terms + the environment's other parts"
+                              : "Σ of the lights' specular terms + the environment's mirrored part");
         snprintf(text, sizeof text, "kr ⊙ environment = (%.7g %.7g %.7g) ⊙ (%.7g %.7g %.7g)",
                  (double)f->surface.reflectivity.r, (double)f->surface.reflectivity.g,
                  (double)f->surface.reflectivity.b, (double)p->environment_light.r, (double)p->environment_light.g,
                  (double)p->environment_light.b);
-        if (p->environment_scale + p->environment_bias > 0 && p->layers)
-            snprintf(text, sizeof text, "the sum of its parts, above");
-        else if (p->environment_scale + p->environment_bias > 0)
-            snprintf(text, sizeof text, "kd ⊙ irradiance (1 − (0.04 scale + bias)) + prefiltered (f0 scale + bias)");
-        else if (e->reference && f->surface.physical)
-            snprintf(text, sizeof text, "the integral of the environment's light, by %d directions", e->reference);
-        row_color(4, "reflection", p->reflection, e->has_environment ? text : "");
+        row_color(4, "reflection", p->reflection, e->has_environment && !around ? text : "");
     }
     row_color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");
     if (p->result.r != p->sum.r || p->result.g != p->sum.g || p->result.b != p->sum.b)
@@ -407,6 +411,8 @@ static void print_values(const lam_explained_fragment *f)
     if (m->physical) {
         row_number(4, "metallic", (double)v->metallic, "");
         row_number(4, "roughness", (double)v->roughness, v->roughness < 0.045f ? "lit as 0.045" : "");
+        if (v->lit_roughness > v->roughness)
+            row_number(4, "widened to", (double)v->lit_roughness, "by the variance of the normals within the pixel");
     } else {
         row_number(4, "shininess α", (double)v->shininess, "");
     }

@@ -1,0 +1,155 @@
+// frame_brighten.c: by how much the studio is brighter for a dark model: a black product is photographed with more light than a white
+// one, or only its outline would be seen. It follows from the colours of the surfaces alone, not from the view: all pictures of a model
+// have the same exposure.
+#include "frame.h"
+
+#include "linear.h"
+#include "scene_internal.h"
+#include "texture_map.h"
+
+#include <string.h>
+
+// A model is dark if three quarters of its surface are darker than BRIGHT, by the luminance of the base colours. If m stops are missing,
+// it gets root(RATE m) of them, at most MOST, and not so many that 5 % of the surface would exceed WHITE.
+#define BRIGHT 0.35
+#define RATE   0.8
+#define MOST   2.5
+#define WHITE  1.0
+
+enum { SAMPLES = 4096, BINS = 256, STEPS = 6 }; // triangles that are looked at; steps of a stop
+
+// The area of triangles by the luminance of their base colours: bin b is of sqrt(luminance) = b / BINS.
+struct luminances {
+    double area[BINS], all;
+};
+
+static double luminance(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
+
+// The linear value of an sRGB byte, near enough for a mean.
+static double decoded(uint8_t byte)
+{
+    double x = byte / 255.0;
+    return x * x * (0.3 + 0.7 * x);
+}
+
+static uint32_t element(const uint32_t *own, const uint32_t *shared, uint32_t corner)
+{
+    return own ? own[corner] : shared ? shared[corner] : corner;
+}
+
+// The factor of the mesh's own colour at a triangle's first corner.
+static void tint(const lam_mesh *mesh, uint32_t triangle, double color[3])
+{
+    if (!mesh->colors)
+        return;
+    uint32_t at =
+        mesh->colors_rate == LAM_PER_VERTEX ? element(mesh->color_indices, mesh->indices, 3 * triangle) : triangle;
+    for (int c = 0; c < 3; c++)
+        color[c] *= mesh->colors_format == LAM_COLORS_LINEAR_F32
+                        ? (double)((const float *)mesh->colors)[4 * (size_t)at + (size_t)c]
+                        : decoded(((const uint8_t *)mesh->colors)[4 * (size_t)at + (size_t)c]);
+}
+
+// The base colour in the middle of a triangle.
+static double base_luminance(const lam_mesh *mesh, const lam_material *material, uint32_t triangle)
+{
+    double color[3] = {(double)material->diffuse.r, (double)material->diffuse.g, (double)material->diffuse.b};
+    const lam_texture_map *map = material->maps[LAM_MAP_DIFFUSE];
+    const float *from = map && map->texcoords ? mesh->second_texcoords : mesh->texcoords;
+    const uint32_t *own = map && map->texcoords ? mesh->second_texcoord_indices : mesh->texcoord_indices;
+    tint(mesh, triangle, color);
+    if (map && from) {
+        float s = 0, t = 0;
+        for (uint32_t k = 0; k < 3; k++) {
+            const float *at = from + 2 * (size_t)element(own, mesh->indices, 3 * triangle + k);
+            s += at[0] / 3;
+            t += at[1] / 3;
+        }
+        texel value = texture_map_base(map, s, t);
+        for (int c = 0; c < 3; c++)
+            color[c] *= (double)value[c];
+    }
+    return luminance(color[0], color[1], color[2]);
+}
+
+// Twice the area of a triangle in eye space.
+static double area_of(const struct frame_draw *draw, uint32_t triangle)
+{
+    lam_vec3 p[3];
+    for (uint32_t k = 0; k < 3; k++) {
+        const float *from = draw->mesh->positions + 3 * (size_t)element(NULL, draw->mesh->indices, 3 * triangle + k);
+        double at[3];
+        for (int i = 0; i < 3; i++)
+            at[i] = (double)draw->eye[i][0] * (double)from[0] + (double)draw->eye[i][1] * (double)from[1] +
+                    (double)draw->eye[i][2] * (double)from[2];
+        p[k] = v3(at[0], at[1], at[2]);
+    }
+    return v3_length(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
+}
+
+static void add(struct luminances *sum, double bright, double area)
+{
+    if (!(area > 0) || !math_finite(area) || !(bright >= 0))
+        return;
+    int bin = 0;
+    while (bin < BINS - 1 && bright >= ((double)bin + 1) * ((double)bin + 1) / ((double)BINS * BINS))
+        bin++;
+    sum->area[bin] += area;
+    sum->all += area;
+}
+
+// Returns the luminance that a share of the surface does not exceed.
+static double percentile(const struct luminances *sum, double share)
+{
+    double below = 0;
+    int bin = 0;
+    while (bin < BINS - 1 && below + sum->area[bin] < share * sum->all)
+        below += sum->area[bin++];
+    return ((double)bin + 0.5) * ((double)bin + 0.5) / ((double)BINS * BINS);
+}
+
+static bool is_dark(const lam_rgb *c) { return c->r == 0 && c->g == 0 && c->b == 0; }
+
+// Returns whether the studio lights a model that comes with its own colours, and lights all of it.
+static bool applies(const struct frame *frame, const lam_scene *scene)
+{
+    const lam_draw_params *settings = &frame->settings;
+    if (settings->brighten != LAM_BRIGHTEN_AUTO || !*scene->format || strcmp(scene->format, "scene") == 0)
+        return false;
+    if (scene->lights.count || scene->environment || (settings->rig != LAM_RIG_AUTO && settings->rig != LAM_RIG_STUDIO))
+        return false;
+    if (settings->color == LAM_COLOR_RAW || settings->ground == LAM_GROUND_CHECKER ||
+        settings->ground == LAM_GROUND_COLOR)
+        return false;
+    for (int i = 0; i < frame->range_count; i++) {
+        const lam_material *material = frame->materials[frame->ranges[i].front];
+        if (frame->ranges[i].reflection == LAM_REFLECTION_NONE || !is_dark(&material->emission))
+            return false;
+    }
+    return lam_output_is_light(settings->output) || settings->output == LAM_OUTPUT_CLIPPED;
+}
+
+double frame_brighten_stops(const struct frame *frame, const lam_scene *scene)
+{
+    struct luminances sum = {.all = 0};
+    const uint32_t step = frame->triangle_count / SAMPLES + 1;
+    if (!applies(frame, scene))
+        return 0;
+    for (int i = 0; i < frame->range_count; i++) {
+        const struct frame_draw_range *range = &frame->ranges[i];
+        const struct frame_draw *draw = &frame->draws[range->draw];
+        uint32_t end = range->first_id + range->count, first = (range->first_id + step - 1) / step * step;
+        for (uint32_t id = first; id < end && !draw->strokes && !draw->ground; id += step)
+            add(&sum, base_luminance(draw->mesh, frame->materials[range->front], id - draw->first_id),
+                area_of(draw, id - draw->first_id));
+    }
+    int steps = 0;
+    double bright = percentile(&sum, 0.75), white = percentile(&sum, 0.95);
+    bool more = sum.all > 0;
+    while (more && steps < (int)(MOST * STEPS)) {
+        double half = (steps + 0.5) / STEPS; // half a step more
+        more = bright * math_exp2(half * half / RATE) < BRIGHT && white * math_exp2((steps + 1.0) / STEPS) < WHITE;
+        steps += more;
+    }
+    return (double)steps / STEPS;
+}

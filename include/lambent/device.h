@@ -344,8 +344,8 @@ typedef struct lam_draw_params {
     lam_rgba wireframe_color, edge_color;
     // ON fails with LAM_BAD_ARGUMENT together with LAM_OCCLUSION_RAYS or without Phong shading.
     lam_cavity cavity;
-    lam_specular_aa specular_aa; // LAM_BAD_ARGUMENT: ON without Phong shading
-    lam_brighten brighten;
+    lam_specular_aa specular_aa; // ON without Phong shading fails with LAM_BAD_ARGUMENT
+    lam_brighten brighten;       // more light for dark models
     LAM_RESERVED(13);
 } lam_draw_params;
 

@@ -157,7 +157,8 @@ typedef struct lam_explained_point {
     float unoccluded;
     // The layers of a physical material; NULL: the material has none.
     const lam_explained_layers *layers;
-    lam_rgb environment_specular; // the environment's light in the specular term, with `reference` too
+    // The environment's light in the specular term, with `reference` too; linear.
+    lam_rgb environment_specular;
     LAM_RESERVED(5);
 } lam_explained_point;
 

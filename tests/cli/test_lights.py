@@ -67,7 +67,7 @@ class Default(Case):
             (self.folder / f"{name}.mtl").write_text(f"newmtl a\nKd {kd} {kd} {kd}\n" + "Ke 0.5 0.5 0.5\n" * (name == "lamp"))
             (self.folder / f"{name}.obj").write_text(f"mtllib {name}.mtl\nusemtl a\n" + shape)
             self.given |= {f"{name}.mtl", f"{name}.obj"}
-        stops = lambda *words: [float(s) for s in re.findall(r"exposure ([0-9.]+) stops more, for a dark model", self.good(*words, "-s", "32", "-v", "-o", "v-{view}.png").stderr.decode())]
+        stops = lambda *words: [float(s) for s in re.findall(r"exposure raised by ([0-9.]+) stops for a dark model", self.good(*words, "-s", "32", "-v", "-o", "v-{view}.png").stderr.decode())]
         [grey], [black] = stops("grey.obj"), stops("black.obj")
         self.assertTrue(0.5 <= grey < black <= 2.5, (grey, black))
         self.assertEqual(stops("black.obj", "--view", "back,top"), [black] * 2)

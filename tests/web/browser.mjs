@@ -107,8 +107,8 @@ async function gestures() {
     ok(good && text.startsWith('lambent sphere --size=120x120'), `gesture: ${label}`, text);
     await undoIn(page);
     ok((await commandOf(page)) === ['lambent', ...START].join(' '), `gesture: ${label}, undone at once`, await commandOf(page));
+    await settled(page, `undo ${label}`); // the next gesture starts from the picture that is shown
     if (!all && label !== 'wheel') continue;
-    await settled(page, `undo ${label}`);
     await page.locator('#redo').click();
     await settled(page, `redo ${label}`);
     ok((await commandOf(page)) === text, `gesture: ${label}, and redone`, await commandOf(page));

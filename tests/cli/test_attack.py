@@ -164,6 +164,17 @@ class Attack(Case):
             for name in more:
                 (self.place / name).unlink()
 
+    def test_convert(self):
+        """Beside an OBJ file its MTL file and numbered pictures can be made, beside other models nothing. Older files and links stay."""
+        self.attack("convert", "cube.obj", "out.glb", "-q", more={"out.glb"}, ATTACK_WRITE="victim:new.png:out.mtl:out-0.png:cube.mtl:out.obj")
+        names = "victim:out-front.png:out-12345.png:out-.png:o_t.mtl:out.png:out-0.jpg:deeper/out-0.png"
+        self.attack("convert", "cube.obj", "out.obj", "-q", more={"out.glb", "out.obj"}, ATTACK_WRITE=names)
+        (self.place / "mine-1.png").write_bytes(b"a photograph")
+        os.symlink("victim", self.place / "out-1.png")
+        self.attack("convert", "cube.obj", "mine.obj", "-q", more={"out.glb", "out.obj", "mine.obj", "mine-1.png", "out-1.png"}, ATTACK_WRITE="mine-1.png")
+        self.attack("convert", "cube.obj", "out.obj", "-q", more={"out.glb", "out.obj", "mine.obj", "mine-1.png", "out-1.png"}, ATTACK_WRITE="out-1.png")
+        self.assertEqual((self.place / "mine-1.png").read_bytes(), b"a photograph")
+
     def test_batch(self):
         """Of the output folder's files those that the batch makes can be changed, and no other."""
         out = self.place / "out"

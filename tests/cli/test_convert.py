@@ -240,6 +240,38 @@ end_header
         self.assertEqual(sorted(os.listdir(self.folder / "sub")), ["a b.c-0.png", "a b.c.mtl", "a b.c.obj"])
         self.assertEqual(self.picture("sub/a b.c.obj", "--show", "coverage"), self.picture(SPOT, "--show", "coverage"))
 
+    def test_links_beside(self):
+        """A link with the name of a file beside the model is not followed, whether the model is there or not, with the sandbox and without."""
+        (self.folder / "precious").write_text("of the user")
+        self.given.update(("precious", "ship.obj", "ship.mtl", "ship-0.png"))
+        for name in ("ship.mtl", "ship-0.png"):
+            for target in ("precious", "missing"):
+                for sandbox in ("auto", "off"):
+                    (self.folder / "ship.obj").write_text("older")
+                    os.symlink(target, self.folder / name)
+                    self.bad(5, "convert", SPOT, "ship.obj", "--sandbox", sandbox, says=(name, "is a link"))
+                    self.assertEqual(((self.folder / "precious").read_text(), (self.folder / "ship.obj").read_text()), ("of the user", "older"))
+                    self.assertFalse((self.folder / "missing").exists())
+                    os.remove(self.folder / name)
+        (self.folder / "ship.obj").unlink()
+        os.symlink("real.obj", self.folder / "ship.obj")  # a link that the user names is followed
+        (self.folder / "real.obj").write_text("older")
+        self.good("convert", SPOT, "ship.obj", "-q")
+        self.assertTrue((self.folder / "ship.obj").is_symlink() and (self.folder / "real.obj").stat().st_size > 1000)
+
+    def test_all_files_or_none(self):
+        """If one file of the model cannot be written, the older files of all of them stay."""
+        old = {}
+        self.good("convert", "cube.obj", "o.obj", "-q")
+        for name in ("o.obj", "o.mtl"):
+            old[name] = (self.folder / name).read_bytes()
+        self.given.update(("o.obj", "o.mtl"))
+        for sandbox in ("auto", "off"):  # the picture fits, and the model does not
+            command = [PROGRAM, "convert", "-q", SPOT, "o.obj", "--sandbox", sandbox]
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (120000, 120000)))
+            self.assertEqual((done.returncode, {name: (self.folder / name).read_bytes() for name in old}), (5, old), done.stderr)
+            self.assertEqual(sorted(self.new_files()), [])
+
     def test_names_that_files_cannot_have(self):
         """OBJ and MTL name files without quotes: files beside the model get names that can be read back."""
         self.good("convert", "-q", SPOT, "plain.obj")

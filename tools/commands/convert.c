@@ -87,23 +87,32 @@ static bool check(struct convert *c, lam_error *error)
     return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and the output are the same file", c->output);
 }
 
-// Returns whether a path is one of the model's companion files, such as "part.mtl" and "part-0.png". Unless the model
-// existed before, existing companion files of others are kept.
-static bool is_beside(const char *output, const char *path)
+// The library writes _ for a letter that OBJ and MTL files cannot name.
+static bool is_letter(char given, char written)
 {
-    size_t stem = strlen(output) - strlen(ending(output)) - 1;
-    const char *rest = path + stem;
-    bool same = strlen(path) > stem;
-    for (size_t i = 0; same && i < stem; i++) // the library writes _ for a letter that OBJ and MTL cannot name
-        same = path[i] == output[i] || (path[i] == '_' && output[i] != '/');
-    return same && !strchr(rest, '/') &&
-           (strcmp(rest, ".mtl") == 0 || (*rest == '-' && strcmp(ending(rest), "png") == 0));
+    return written == given ||
+           (written == '_' && ((signed char)given <= ' ' || given == '-' || given == '\\' || given == 0x7f));
 }
 
+// Returns whether the path may be a file beside an OBJ file, "part.mtl" or "part-0.png". The numbers are known after the model is read.
+static bool is_beside(const struct convert *c, const char *path)
+{
+    size_t stem = strlen(c->output) - strlen(ending(c->output)) - 1;
+    const char *rest = path + stem;
+    bool is = strcmp(c->format, "obj") == 0 && strlen(path) > stem;
+    for (size_t i = 0; is && i < stem; i++)
+        is = is_letter(c->output[i], path[i]);
+    size_t digits = is && *rest == '-' ? strspn(rest + 1, "0123456789") : 0;
+    return is && (strcmp(rest, ".mtl") == 0 || (digits && digits <= 4 && strcmp(rest + 1 + digits, ".png") == 0));
+}
+
+// A file beside the model stays if the model is not there yet: somebody else wrote it.
 static enum writer_right right_of(void *user, const char *path)
 {
     const struct convert *c = user;
-    return strcmp(path, c->output) == 0 || is_beside(c->output, path) ? WRITER_ANY : WRITER_NONE;
+    return strcmp(path, c->output) == 0 ? WRITER_ANY
+           : !is_beside(c, path)        ? WRITER_NONE
+                                        : (c->replaces ? WRITER_ANY : WRITER_NEW) | WRITER_IMPLIED;
 }
 
 static bool check_beside(const struct convert *c, const char *path, lam_error *error)
@@ -116,42 +125,25 @@ static bool check_beside(const struct convert *c, const char *path, lam_error *e
                path, c->output);
 }
 
-// *is_new: the file was written, and was not there before.
-static bool save_one(const char *path, const lam_bytes *bytes, bool *is_new, lam_error *error)
-{
-    struct stat found;
-    bool there = lstat(path, &found) == 0, ok = writer_save(path, bytes, false, error);
-    *is_new = ok && !there;
-    return ok;
-}
-
-// Writes the files beside the model first: it refers to them. If the model cannot be written, new files beside it are removed.
+// Writes the model last: it refers to the files beside it.
 static bool write_files(struct convert *c, lam_error *error)
 {
-    int count = 0;
+    int count = 0, filled = 0;
     while (lam_export_file_name(c->result, count))
         count++;
-    bool *is_new = calloc((size_t)count + 1, sizeof *is_new);
-    bool ok = is_new || complain(error, LAM_LIMIT, "out of memory");
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = count - 1; ok && i >= 0; i--) {
-            char *path = path_of(c, i);
-            lam_bytes bytes = lam_export_file(c->result, i);
-            ok = path || complain(error, LAM_LIMIT, "out of memory");
-            if (pass == 0)
-                ok = ok && job_check_inputs(c->job.scene, path, false, error) &&
-                     (i == 0 || check_beside(c, path, error));
-            else
-                ok = ok && save_one(path, &bytes, &is_new[i], error);
-            free(path);
-        }
-    for (int i = 1; !ok && i < count; i++) // files beside a model that is not there
-        if (is_new[i]) {
-            char *path = path_of(c, i);
-            writer_remove(path ? path : "");
-            free(path);
-        }
-    free(is_new);
+    struct writer_file *files = calloc((size_t)count + 1, sizeof *files);
+    bool ok = files || complain(error, LAM_LIMIT, "out of memory");
+    for (int i = count - 1; ok && i >= 0; i--) {
+        char *path = path_of(c, i);
+        ok = path || complain(error, LAM_LIMIT, "out of memory");
+        ok = ok && job_check_inputs(c->job.scene, path, false, error) && (i == 0 || check_beside(c, path, error));
+        if (path)
+            files[filled++] = (struct writer_file){path, lam_export_file(c->result, i), right_of(c, path)};
+    }
+    ok = ok && writer_save_all(files, count, error);
+    for (int i = 0; i < filled; i++)
+        free((char *)(uintptr_t)files[i].path);
+    free(files);
     return ok;
 }
 

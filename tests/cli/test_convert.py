@@ -3,8 +3,10 @@ import json
 import os
 import resource
 import shutil
+import signal
 import struct
 import subprocess
+import time
 import zipfile
 
 from harness import PROGRAM, ROOT, Case, covered, read_png
@@ -224,6 +226,43 @@ end_header
         self.assertEqual(self.picture("c.glb"), self.picture("d.glb"))
         self.given |= self.new_files()
         self.bad(1, "convert", "cube.obj", "x.obj", "--thumbnail", says=".glb")
+
+    # --- limits
+
+    def bomb(self, objects):
+        """A small GLB file with many objects of 100 triangles each (EXT_mesh_gpu_instancing)."""
+        data = struct.pack("<9f4I", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 2, 1, 2)
+        sparse = {"count": 2, "indices": {"bufferView": 1, "componentType": 5125}, "values": {"bufferView": 2}}
+        root = {"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_mesh_gpu_instancing"], "scene": 0, "scenes": [{"nodes": [0]}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                              {"componentType": 5125, "count": 300, "type": "SCALAR", "sparse": sparse},
+                              {"componentType": 5126, "count": objects, "type": "VEC3"}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}], "buffers": [{"byteLength": len(data)}],
+                "nodes": [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}}}],
+                "bufferViews": [{"buffer": 0, "byteOffset": a, "byteLength": n} for a, n in ((0, 36), (36, 8), (44, 8))]}
+        text = json.dumps(root).encode()
+        text += b" " * (-len(text) % 4)
+        (self.folder / "bomb.glb").write_bytes(struct.pack("<4s4I", b"glTF", 2, 28 + len(text) + len(data), len(text), 0x4E4F534A) + text +
+                                               struct.pack("<2I", len(data), 0x004E4942) + data)
+        self.given.add("bomb.glb")
+
+    def test_limits(self):
+        """The export obeys the limits of memory and time, and ends soon after a signal."""
+        self.bomb(90000)
+        many = ["--expansion-limit", "100000000"]
+        for ending in ("obj", "ply", "stl", "3mf"):
+            output = f"o.{ending}"
+            self.bad(4, "convert", "bomb.glb", output, says="--expansion-limit")
+            self.bad(4, "convert", "bomb.glb", output, "--memory-limit", "300MB", *many, says="--memory-limit")
+            self.bad(4, "convert", "bomb.glb", output, "--memory-limit", "none", "--time-limit", 0.5, *many, says="time limit")
+        self.bad(4, "convert", "bomb.glb", "o.glb", "--memory-limit", "60MB", says="--memory-limit")
+        process = subprocess.Popen([PROGRAM, "convert", "bomb.glb", "o.obj", "-q", "--memory-limit", "none", *many], cwd=self.folder)
+        time.sleep(0.6)
+        begin = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), -signal.SIGINT)
+        self.assertLess(time.monotonic() - begin, 2)
+        self.assertEqual(self.new_files(), set())
 
     # --- files
 

@@ -13,6 +13,7 @@
 #include "interrupt.h"
 #include "job.h"
 #include "job_inputs.h"
+#include "job_steps.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"
@@ -167,7 +168,8 @@ static bool draw_thumbnail(const struct convert *c, struct progress *progress, l
 static bool convert(struct convert *c, struct progress *progress, lam_error *error)
 {
     lam_picture_settings settings;
-    lam_export_params params = {.name = file_name(c->output)};
+    lam_control control;
+    lam_export_params params = {.name = file_name(c->output), .control = &control};
     if (!job_load(&c->job, progress, error))
         return false;
     if (lam_scene_picture_settings(c->job.scene, &settings) && settings.present & LAM_SETTING_CAMERA)
@@ -176,7 +178,8 @@ static bool convert(struct convert *c, struct progress *progress, lam_error *err
     if (c->options->convert.thumbnail && !draw_thumbnail(c, progress, &thumbnail, error))
         return false;
     params.thumbnail = c->options->convert.thumbnail ? &thumbnail : NULL;
-    c->result = lam_scene_export(c->job.scene, c->format, &params, error);
+    c->result =
+        !job_control(&c->job, NULL, &control, error) ? NULL : lam_scene_export(c->job.scene, c->format, &params, error);
     lam_image_free(&thumbnail);
     return c->result && write_files(c, error);
 }

@@ -83,16 +83,6 @@ static bool write_all(int file, const lam_bytes *bytes)
     return true;
 }
 
-static bool keep_rights(int file, const struct stat *older)
-{
-#ifdef _WIN32
-    (void)file, (void)older;
-    return true;
-#else
-    return fchmod(file, older->st_mode & 0666) == 0 || errno == EPERM;
-#endif
-}
-
 // Creates a file beside the target, and keeps the rights of the target to read and write, as lam_bytes_save does.
 static bool fill_hidden(struct staged *staged, const lam_bytes *bytes)
 {
@@ -111,7 +101,8 @@ static bool fill_hidden(struct staged *staged, const lam_bytes *bytes)
         if (file < 0 && (!staged->hidden || errno != EEXIST))
             return false;
     }
-    bool ok = file >= 0 && write_all(file, bytes) && (!exists || keep_rights(file, &there));
+    bool ok = file >= 0 && write_all(file, bytes) &&
+              (!exists || chmod(staged->hidden, there.st_mode & 0666) == 0 || errno == EPERM);
     int reason = errno;
     if (file >= 0 && close(file) != 0 && ok) {
         ok = false;

@@ -167,6 +167,8 @@ static lam_material apply(const struct parser *parser, lam_color_mode mode, lam_
         if (given(parser, i)) {
             material_note_written(&m, i);
             word_set_field(lam_material_field(i), &m, parser->numbers[i]);
+            if (strcmp(lam_material_field(i)->key, "opacity") == 0 && m.alpha_mode == LAM_ALPHA_OPAQUE)
+                m.alpha_mode = LAM_ALPHA_BLEND; // an opaque material would ignore it
         }
     for (int i = 0; lam_material_field(i); i++)
         if (given(parser, factor_of(i)))

@@ -97,6 +97,15 @@ class Reading(Settings):
         self.assertEqual(self.picture("s.json"), plain)
         self.assertNotIn("settings", self.report("s.json", env=self.env))
 
+    def test_ground_yields_to_flat_shading(self):
+        self.write({"ground": "shadow"})
+        for words in (["--shading", "flat"], ["--stage", "vertex"], ["--look", "technical"]):
+            self.assertEqual(self.good("cube.obj", *words, "-q", "-o", "a.png", env=self.env).stderr, b"")
+
+    def test_byte_order_mark(self):
+        self.file.write_bytes(b"\xef\xbb\xbf{}")
+        self.assertEqual(self.good("config", env=self.env).stdout.decode(), f"{self.file}: read\n")
+
     def test_config_command(self):
         self.write('{\n  "shadows": true,\n  "image": {\n    "background": "white"\n  }\n}\n')
         self.assertEqual(self.good("config", env=self.env).stdout.decode(),
@@ -111,6 +120,7 @@ class Reading(Settings):
         (self.folder / ".config").mkdir()
         shown = self.good("config", env={"HOME": str(self.folder), "XDG_CONFIG_HOME": "", "CI": ""}).stdout.decode()
         self.assertTrue(shown.startswith(f"{self.folder}/.config/lambent/lambent.json: "), shown)
+        self.assertIn("neither XDG_CONFIG_HOME nor HOME", self.good("config", env={"HOME": "", "XDG_CONFIG_HOME": "", "CI": ""}).stdout.decode())
 
     def test_thumbnailer(self):
         """The file manager's size wins; the rest of the settings applies."""
@@ -237,8 +247,8 @@ class Wrong(Settings):
 
     def test_hint(self):
         """A command that the settings make wrong says where they come from."""
-        self.write({"ground": "shadow"})
-        done = self.bad(1, "cube.obj", "--shading", "flat", env=self.env)
+        self.write({"shadows": True})
+        done = self.bad(1, "cube.obj", "--hide", "nothing", env=self.env)
         self.assertIn(f"The settings of {self.file} are in force; --no-config ignores them.", done.stderr.decode())
 
     def test_sandbox(self):

@@ -45,7 +45,10 @@ int run_config(int operand_count, char **operands, const struct options *options
     if (ok && options->report.json) {
         print_json(&own, &source);
     } else if (ok) {
-        printf("%s: %s\n", *source.path ? source.path : "lambent.json", states[source.state][1]);
+        if (*source.path)
+            printf("%s: %s\n", source.path, states[source.state][1]);
+        else
+            puts("no settings file: neither XDG_CONFIG_HOME nor HOME names a folder");
         for (int i = 0; option_table[i].name; i++)
             if (own.by_config[i])
                 printf("  line %-4d --%s%s%s\n", own.by_config[i], option_table[i].name, own.values[i] ? " " : "",

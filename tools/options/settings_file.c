@@ -178,6 +178,13 @@ static bool is_decided(const struct reader *r, const struct option *option)
     const char *name = option->name, *pair = strcmp(name, "shading") == 0 ? "stage"
                                              : strcmp(name, "stage") == 0 ? "shading"
                                                                           : name;
+    static const char *const phong_only[] = {"ground", "cavity", "specular-aa"};
+    lam_stage stage = r->before->draw.stage;
+    bool by_vertex =
+        r->before->draw.shading != LAM_SHADING_PHONG || stage == LAM_STAGE_VERTEX || stage == LAM_STAGE_APPLICATION;
+    for (size_t i = 0; by_vertex && i < sizeof phong_only / sizeof *phong_only; i++)
+        if (strcmp(name, phong_only[i]) == 0)
+            return true; // the command line or its look rules them out
     return option_given(r->before, name) || option_given(r->before, pair) ||
            (strcmp(name, "size") == 0 && r->before->batch.size_count);
 }
@@ -335,7 +342,8 @@ static char *read_text(const char *path, size_t *length, lam_error *error)
 static bool apply_text(struct reader *r, size_t length)
 {
     json_error_t reason;
-    json_t *root = json_loadb(r->text, length, JSON_REJECT_DUPLICATES, &reason);
+    size_t mark = length >= 3 && memcmp(r->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; // a byte order mark
+    json_t *root = json_loadb(r->text + mark, length - mark, JSON_REJECT_DUPLICATES, &reason);
     bool ok = json_is_object(root);
     if (!root)
         complain(r->error, LAM_CANNOT_READ, "%.300s:%d: not valid JSON: %.150s", r->path, reason.line, reason.text);

@@ -79,8 +79,9 @@ const struct topic topics[] = {
      "and row Y, counted from 0 at the top left corner. For each visible triangle it prints the samples, the object, "
      "the "
      "position in the triangle, n, v and t, and the material. For each light it prints its matrix (rows ambient, "
-     "diffuse, specular), l, r and h, the angles between n and l, r and v, n and h, the distance, attenuation and spot "
-     "factor, the highlight's base and power, and its diffuse and specular terms. At the end it prints the terms and "
+     "diffuse, specular), l, r and h, the angles between n and l, r and v, and n and h, the distance, the attenuation "
+     "and spot factors, the base and exponent of the highlight, and the diffuse and specular terms of the light. At "
+     "the end it prints the terms and "
      "their sum, the weighted sum of the triangles over the background, the encoding and the bytes. Vectors are in eye "
      "space. The numbers are bit-identical to the numbers behind the picture. For the formulas, see "
      "`docs/lighting.md`. `--json` prints the same numbers on one line. `-o figure.svg` draws the numbers as a "
@@ -95,9 +96,8 @@ const struct topic topics[] = {
      "define no unit. `info` prints the volume only for closed surfaces: each edge belongs to as many triangles in one "
      "direction as in the other. `info` also reads files that require an unknown extension, as with `--lenient`, and "
      "reports the extension. The memory is the sum of the model's size and the memory needed to draw a picture of "
-     "1024x1024 pixels. To measure it, Lambent draws the depths once. If a model cannot be read, Lambent reports it "
-     "and exits with the "
-     "highest exit code."},
+     "1024x1024 pixels. To measure it, Lambent draws the depths once. If Lambent cannot read a model, it reports the "
+     "error and continues; the exit code is then the highest exit code of all models."},
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares "
      "these pictures with the pictures of the CPU device. Without `--vertex`, Lambent generates a correct vertex "
@@ -111,8 +111,8 @@ const struct topic topics[] = {
      "separate process, which `--stop-after` and `--memory-limit` limit. `lambent check --class FOLDER --csv "
      "grades.csv -o sheets/` checks a class. A submission is a folder with one fragment shader and at most one vertex "
      "shader; outside such folders it is a fragment shader and the vertex shader of the same name. `sheets/index.html` "
-     "is a page with all results. You can also name several shaders: `lambent check */phong.frag */phong.vert` pairs "
-     "the fragment and vertex shaders of the same folder and name, and `-o sheets/` writes a sheet for each. If "
+     "is a page with all results. You can also give several shaders: `lambent check */phong.frag */phong.vert` pairs "
+     "the fragment and vertex shaders of the same folder and name, and `-o sheets/` writes a sheet for each shader. If "
      "Lambent cannot check a shader, it reports the error and checks the other shaders. The exit code is 0 if every "
      "scene of every shader matches the reference; otherwise it is the highest exit code of all shaders. The exit code "
      "is also 6 for shaders that do not compile, do not end, or write NaN. With `--json`, Lambent prints the report on "
@@ -158,8 +158,9 @@ const struct topic topics[] = {
      "`docs/convert.md`."},
     {"formulas", "Surfaces given by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
      "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v. `--implicit 'x^2+y^2+z^2-1'` "
-     "draws the surface on which an expression of x, y and z is zero. `-o torus.obj`, `.stl` or `.ply` saves it as a "
-     "model file. Built-in shapes can be saved too: `lambent shape teapot -o teapot.stl`. Normals come from symbolic "
+     "draws the surface on which an expression of x, y and z is zero. `-o torus.obj`, `.stl` or `.ply` saves the "
+     "surface as a model file. You can also save built-in shapes: `lambent shape teapot -o teapot.stl`. Normals come "
+     "from symbolic "
      "derivatives. If the ends of a surface over u and v meet, Lambent joins them. Creases along a grid line stay "
      "sharp (`--segments 64x32`). `docs/shapes.md` describes the language."},
     {"plots", "Plots", BIT(PLOT) | BIT(CAPTIONS), TOPIC_NO_TABLE,

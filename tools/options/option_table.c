@@ -250,7 +250,8 @@ struct option option_table[OPTIONS_MAX] = {
      "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
      "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
      "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
-     "If two models would be written to the same file, it reports an error before it starts. To write a literal brace, "
+     "If two models would be written to the same file, Lambent reports an error before it starts. To write a literal "
+     "brace, "
      "use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open it in a browser to turn "
      "the model and change every option; it works offline (`docs/web.md`). This format requires the page built by "
      "`make web`.",
@@ -446,8 +447,7 @@ struct option option_table[OPTIONS_MAX] = {
      "(default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a directional light that shines from this "
      "direction. "
      "`direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` is the point at which it aims. "
-     "By "
-     "default a directional light travels along 0/0/-1, and a spot aims at the model's centre. "
+     "By default, a directional light travels along 0/0/-1, and a spot aims at the model's centre. "
      "`frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the frame of the scene. "
      "`camera` is the frame of the eye: x right, y up, looking along -z; a light without a position is at the eye. "
      "`view` uses the axes of the eye, with the origin at the middle of the scene's box. `object` is the frame of the "
@@ -457,7 +457,7 @@ struct option option_table[OPTIONS_MAX] = {
      "`#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light uses `color` or `ambient` (0.2), a "
      "hemisphere light `sky` (0.4), `ground` (0.1) and `up`.\nFalloff: `attenuation=a/b/c` is 1/(a + b d + c d^2). "
      "With r after b and c, the distance d is in radii (`1/2.7r/5r`). `range` (also with r) is the distance beyond "
-     "which the light contributes nothing. A spot's cone is defined by `cutoff` (half angle in degrees, 45) and "
+     "which the light contributes nothing. The cone of a spot is given by `cutoff` (half angle in degrees, 45) and "
      "`exponent`, or by the half angles `inner` and `outer`. `name` appears in reports.\n`lambent help lights` lists "
      "all keys.",
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... replace the studio", .store = store_light,
@@ -803,7 +803,7 @@ struct option option_table[OPTIONS_MAX] = {
      "ignored. In `batch`, `@FILE` has the same effect.",
      .kind = VALUE_FILE, .store = store_list, .others = "input-list filelist models-from", FIELD(batch.lists),
      .single = TAKES_MANY},
-    {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl beside the pictures",
+    {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl in the folder of the pictures",
      "Write a line of JSON for each picture that succeeds or fails.",
      "A line records the model, the picture, the result (`class`, `exit`, `error`), the duration of each step in "
      "milliseconds, the number of triangles and the warnings. It also records the size of the picture in bytes, the "

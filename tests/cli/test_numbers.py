@@ -106,7 +106,7 @@ ROWS = [
     ("docs/web.md", "is limited to {} MB", counted("megabytes of PAGE_FILES_MAX", lambda: constant("tools/page/page_write.h", "PAGE_FILES_MAX").look_up() / 1e6)),
     ("docs/lighting/diffuse.md", "`roughness_angle` in degrees, {} by default", field("roughness_angle")),
     ("docs/lighting/lights.md", "With more than {}, each part of the picture skips", FEW_LIGHTS),
-    ("docs/lighting/surfaces.md", "At most {} translucent triangles may lie over one pixel", LAYERS),
+    ("docs/lighting/surfaces.md", "At most {} translucent triangles may cover one pixel", LAYERS),
     ("docs/lighting/reflection.md", "Faces may have up to {} pixels on a side", SPHERE),
     ("docs/lighting/reflection.md", "built in, computed, {} pixels on each side", constant("src/environment/environment_made.c", "SIDE")),
     ("docs/internals/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
@@ -191,7 +191,7 @@ class Sentences(Case):
     def test_shown_shader(self):
         """The sum that docs/shaders.md shows is a part of what its command prints."""
         page = (ROOT / "docs/shaders.md").read_text()
-        command, shown = re.search(r"(?s)    lambent (shader [^\n]*--products)\n\nwhose sum is\n\n```glsl\n(.*?)```", page).groups()
+        command, shown = re.search(r"(?s)    lambent (shader [^\n]*--products)\n\nThe sum in this shader is:\n\n```glsl\n(.*?)```", page).groups()
         self.assertIn(shown, self.good(*command.split()).stdout.decode())
 
 

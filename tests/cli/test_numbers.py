@@ -105,7 +105,7 @@ ROWS = [
     ("docs/view.md", "a token of {} random bits", counted("bits of VIEW_TOKEN_SIZE", lambda: (constant("tools/view/view.h", "VIEW_TOKEN_SIZE").look_up() - 1) * 4)),
     ("docs/web.md", "is limited to {} MB", counted("megabytes of PAGE_FILES_MAX", lambda: constant("tools/page/page_write.h", "PAGE_FILES_MAX").look_up() / 1e6)),
     ("docs/lighting/diffuse.md", "`roughness_angle` in degrees, {} by default", field("roughness_angle")),
-    ("docs/lighting/lights.md", "With more than {}, each part of the picture skips", FEW_LIGHTS),
+    ("docs/lighting/lights.md", "With more than {} lights, Lambent skips the weakest lights", FEW_LIGHTS),
     ("docs/lighting/surfaces.md", "At most {} translucent triangles may cover one pixel", LAYERS),
     ("docs/lighting/reflection.md", "Faces may have up to {} pixels on a side", SPHERE),
     ("docs/lighting/reflection.md", "built in, computed, {} pixels on each side", constant("src/environment/environment_made.c", "SIDE")),

@@ -85,7 +85,7 @@ static const struct word term_words_list[] = {
 
 static const struct word color_mode_words[] = {
     {"srgb", LAM_COLOR_SRGB, "Lambent decodes the colours of files, computes linear light and encodes the picture"},
-    {"raw", LAM_COLOR_RAW, "no conversion: the file stores the results of the equations"},
+    {"raw", LAM_COLOR_RAW, "no conversion; the file stores the results of the equations"},
     {NULL, 0, NULL}};
 
 static const struct word show_words[] = {
@@ -415,7 +415,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
      "The camera and the lights attached to it follow the axis; the model's coordinates do not change. Lambent reads "
      "STL and 3MF files as Z up, as in CAD and 3D printing; other formats as Y up, except terrains in the xy plane. "
-     "Capitals and a plus sign (`+Z`) are accepted.",
+     "Lambent also accepts capital letters and a plus sign (`+Z`).",
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
@@ -440,8 +440,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
      "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
      "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`, followed by a colon and keys separated by "
-     "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds to them, "
-     "and `none` removes all but the ambient light. If you also give `--rig`, the lights of the rig are "
+     "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds a light "
+     "to them, and `none` removes all lights except ambient light. If you also give `--rig`, the lights of the rig are "
      "kept.\nPosition: `position=x/y/z` "
      "is in the model's units or, with r after each number, in radii of the model's bounding sphere, from its centre "
      "(default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a directional light that shines from this "
@@ -470,8 +470,9 @@ struct option option_table[OPTIONS_MAX] = {
      look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, default, file, none or auto.",
-     "A named rig replaces the model's own lights. `docs/lighting/lights.md` lists the lights of each rig.", rig_words,
-     .brief = "a set of lights: studio, headlight, three-point ...", .store = store_word,
+     "Every rig except `auto` and `file` replaces the model's own lights. `docs/lighting/lights.md` lists the lights "
+     "of each rig.",
+     rig_words, .brief = "a set of lights: studio, headlight, three-point ...", .store = store_word,
      .others = "lights light-setup studio headlight", FIELD(lighting.rig),
      .has_field = offsetof(struct options, lighting.has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
@@ -709,7 +710,7 @@ struct option option_table[OPTIONS_MAX] = {
      "How OpenGL filters textures: exact (in the shader) or hardware.",
      "Graphics cards round the weights of their filters, mostly to 1/256, and approximate the level of detail. "
      "`hardware` is therefore faster and less exact (`docs/opengl.md`). The CPU device is always exact and rejects "
-     "`hardware`. With the command `shader`, the option selects how the printed shaders read textures.",
+     "`hardware`. In the `shader` command, the option selects how the printed shaders read textures.",
      texture_filter_words, .store = store_word, .others = "texture-filtering texturefilter",
      FIELD(work.texture_filter)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median time.", NULL, .store = store_integer,
@@ -844,10 +845,11 @@ struct option option_table[OPTIONS_MAX] = {
      "it ignores them. Each part writes its own journal and page, with names such as `lambent-2-of-4.jsonl` "
      "(`docs/batch.md`). `lambent journal` summarises them.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
-    {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or list.",
+    {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or by list.",
      "With `name` each shard reads all names, which takes a second or two for a million. With `list`, it reads only "
-     "the K-th of N equal parts of one list (`@FILE`). The models must be sorted by the names of their pictures "
-     "(`LC_ALL=C sort`), so that no two pictures share a name. If the list changes, models move to other shards, and "
+     "the K-th of N equal parts of one list (`@FILE`). The list must be sorted by the names of the pictures (`LC_ALL=C "
+     "sort`), so that Lambent can check that no two pictures share a name. If the list changes, models move to other "
+     "shards, and "
      "`--resume` refuses to continue.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
     {"jobs", 0, GROUP_BATCH, "-", NULL, "`batch`: Read one JSON job per line, and answer each job with a line of JSON.",
@@ -895,7 +897,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "Amplify the difference picture by this factor.", NULL,
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
 
-    {"check", 0, GROUP_HASH, "FILE", NULL, "Compare with the hashes in FILE; the exit code is 6 if they differ.",
+    {"check", 0, GROUP_HASH, "FILE", NULL,
+     "Compare the pictures with the hashes in FILE; if they differ, the exit code is 6.",
      "Lambent lists changed models, new models, and missing models (models in FILE that you did not give). If you give "
      "no models, Lambent draws the models listed in FILE. If FILE was made with another version or with other options, "
      "Lambent reports this first.",
@@ -1064,7 +1067,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "Stop if no page has been open for this many minutes.", NULL,
      .store = store_number, .others = "idle-timeout", FIELD(viewer.idle_minutes),
      .has_field = offsetof(struct options, viewer.has_idle), .min = 0.001, .max = 1e6},
-    {"no-open", 0, GROUP_VIEWER, NULL, NULL, "Print the address, and do not open a browser.",
+    {"no-open", 0, GROUP_VIEWER, NULL, NULL, "Print the address, but do not open a browser.",
      "Without a display Lambent never opens a browser.", .store = store_switch, .others = "no-browser headless",
      FIELD(viewer.no_open)},
 
@@ -1074,7 +1077,7 @@ struct option option_table[OPTIONS_MAX] = {
      "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
      "sheet are always identical. An SVG file requests DejaVu Sans, but the viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
-    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without text; no font is needed.", NULL, .store = store_switch,
+    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw no text; no font is needed.", NULL, .store = store_switch,
      .others = "no-text no-labels", FIELD(captions.no_captions)},
 
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",

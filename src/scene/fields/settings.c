@@ -64,9 +64,9 @@ WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
 WORDS(edges_words, {"crease", LAM_EDGES_CREASE, "edges at which two faces meet at an angle"},
       {"boundary", LAM_EDGES_BOUNDARY, "edges that belong to only one face"},
       {"silhouette", LAM_EDGES_SILHOUETTE, "edges between front and back faces"})
-WORDS(hidden_lines_words, {"remove", LAM_HIDDEN_LINES_REMOVE, "omit them"},
-      {"dash", LAM_HIDDEN_LINES_DASH, "draw them dashed"},
-      {"show", LAM_HIDDEN_LINES_SHOW, "draw them as if no surface hid them"})
+WORDS(hidden_lines_words, {"remove", LAM_HIDDEN_LINES_REMOVE, "omit the edges"},
+      {"dash", LAM_HIDDEN_LINES_DASH, "draw dashed lines"},
+      {"show", LAM_HIDDEN_LINES_SHOW, "draw the edges as if no surface hid them"})
 WORDS(surfaces_words, {"on", 0, "draw surfaces"}, {"off", 1, "draw only lines and points"})
 WORDS(terminator_words, {"on", 0, "shadow rays start on the curved surface defined by the normals"},
       {"off", 1,

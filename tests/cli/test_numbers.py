@@ -93,7 +93,7 @@ OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
 # A page, a sentence of it in which every number that the code decides is {}, and where those numbers come from.
 ROWS = [
     ("docs/lighting/pixels.md", "snapped to 1/{} of a pixel", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
-    ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
+    ("docs/lighting/pixels.md", "is up to 1/{} of a pixel outside", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "(by default {} in pictures of up to {}² pixels, {} up to {}², {} above)", *SAMPLES),
     ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} up to {}², {} above |", *SAMPLES),
     ("tools/options/option_table.c", "\"{} up to {}x256 pixels, {} up to {}x512, {} above\"", *SAMPLES),
@@ -135,7 +135,7 @@ ROWS = [
     ("docs/shaders.md", "RGBA32F, {} texels wide", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
-    ("docs/formats.md", "more than {} times its own size from zero", constant("src/geometry/origin.h", "ORIGIN_RATIO")),
+    ("docs/formats.md", "from zero is more than {} times its own size", constant("src/geometry/origin.h", "ORIGIN_RATIO")),
     ("docs/formats.md", "| `Ns` | shininess, 0 to {}; none: {}. With exactly 0,", code("src/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
     ("docs/check.md", "at most one pixel in {} differs by more than `--tolerance` ({} steps of 1/255)", PIXELS_OVER_CHECK, TOLERANCE),
     ("docs/check.md", "the shader exceeded `--stop-after` ({} seconds)", option("stop-after")),

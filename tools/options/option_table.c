@@ -204,7 +204,7 @@ static const struct word texture_filter_words[] = {
     {"hardware", TEXTURE_FILTER_HARDWARE, "filtering by the graphics card: faster, less exact"},
     {NULL, 0, NULL}};
 
-static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "both sides are drawn"},
+static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "draw both sides"},
                                          {"back", LAM_CULL_BACK, NULL},
                                          {"front", LAM_CULL_FRONT, NULL},
                                          {NULL, 0, NULL}};
@@ -300,7 +300,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"compress", 0, GROUP_PICTURE, "LEVEL", "fast", "The compression of PNG files: fast or best.",
      "`best` makes the file about a third smaller, but takes a second or two for a million pixels; `fast` takes a few "
      "milliseconds. The pixels are identical. Other formats ignore the option. `best` needs libdeflate, and the bytes "
-     "of the file depend on the version of libdeflate. With `fast` the bytes depend only on the picture.",
+     "of the file depend on the version of libdeflate. With `fast`, the bytes depend only on the picture.",
      compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress)},
     {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG; lossless WebP", "The quality of JPEG and WebP files, 1 to 100.",
      "A lower number gives a smaller file of lower quality. At 90 and above, JPEG files store a colour for every "
@@ -355,7 +355,7 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that reproduces this picture.",
      "The file stores every setting of the picture: the model's path relative to FILE, the camera, all lights "
-     "(including the lights of a rig), materials, transforms and picture options. `lambent FILE` then draws the "
+     "(including the lights of a rig), materials, transforms and picture options. `lambent FILE` then draws an "
      "identical picture. Lambent overwrites FILE if it exists. `docs/scene-file.md` describes the format.",
      .kind = VALUE_FILE, .of_file = true, .store = store_text, .others = "export-scene write-scene",
      FIELD(picture.save_scene)},
@@ -376,7 +376,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time), .min = -1e9,
      .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
-     "Without this option Lambent refuses such a file (exit 3), because the picture could be wrong without the "
+     "Without this option, Lambent refuses such a file (exit 3), because the picture could be wrong without the "
      "extension. "
      "With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML prefixes in "
      "3MF files.",
@@ -384,7 +384,7 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side to view the model from, or a list: front, back, left, right, top, bottom, iso or three-quarter.",
-     "By default the camera is 30 degrees to the right of the front and 20 degrees above the horizon. The model fills "
+     "By default, the camera is 30 degrees to the right of the front and 20 degrees above the horizon. The model fills "
      "92 % of the "
      "picture's width or height, whichever limits it. `--azimuth` and `--elevation` override the angles of a "
      "side.\n`render` "
@@ -540,12 +540,13 @@ struct option option_table[OPTIONS_MAX] = {
      "material of that name. Lambent does not draw them, and they cast no shadows. `lambent view` and the web page "
      "list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
-    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
-     "It replaces the shininess of every material, including materials set by `--material`.", .store = store_number,
-     .others = "gloss glossiness specular-exponent exponent", FIELD(material.shininess),
+    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 is sharp.",
+     "The value replaces the shininess of every material, including materials set by `--material`.",
+     .store = store_number, .others = "gloss glossiness specular-exponent exponent", FIELD(material.shininess),
      .has_field = offsetof(struct options, material.has_shininess), .min = 0, .max = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
-     "It replaces the opacity of every material, including materials set by `--material`. The alpha of vertex colours "
+     "The value replaces the opacity of every material, including materials set by `--material`. The alpha of vertex "
+     "colours "
      "still multiplies it.",
      .store = store_number, .others = "alpha transparency translucency", FIELD(material.opacity),
      .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
@@ -565,7 +566,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"single-scattering", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Rough metals then look darker, as in renderers that omit this term.", .words = NULL},
     {"reference", 0, GROUP_SHADING, "N", NULL, NULL,
-     "By default Lambent approximates environment light by the split sum. This option integrates it numerically, for "
+     "By default, Lambent approximates environment light by the split sum. This option integrates it numerically, for "
      "comparison. With 1024 directions most results are within 0.5 % of the exact integral, with 4096 within 0.2 %. "
      "The directions are the same at every point and on every machine. CPU only.",
      .others = "ground-truth importance-samples"},
@@ -596,7 +597,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "If the alpha is below 1, the surfaces show through.",
      .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
-     "At a `crease` edge, two faces meet at more than `--edge-angle`, or more than two faces meet. A `boundary` edge "
+     "At a `crease` edge, two faces meet at an angle larger than `--edge-angle`, or more than two faces meet. A "
+     "`boundary` edge "
      "belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing face. `--edges all "
      "--surfaces off` makes a technical drawing.",
      .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
@@ -678,7 +680,8 @@ struct option option_table[OPTIONS_MAX] = {
      "its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first light that "
      "has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in degrees), "
      "`intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light comes, in "
-     "its own frame, like the camera's angles: 0 is the front, 90 the right. `time` is the time in a glTF file's "
+     "the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. `time` is the time in a "
+     "glTF file's "
      "animation; without numbers, the sweep covers the whole animation.\nYou can give more stops: "
      "`light.elevation=10..80..10`. "
      "If a sweep ends as it begins, for example after a whole turn, the last frame is one step before the end, so that "
@@ -718,7 +721,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
      "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
      "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
-     "counts memory before it allocates it. The default is a quarter of the available memory, divided by the number of "
+     "counts memory before allocating it. The default is a quarter of the available memory, divided by the number of "
      "models drawn at the same time. The available memory is the smallest of the machine's memory, the limits of "
      "control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and T are "
      "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the process "
@@ -727,7 +730,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
      "The limit applies to the elapsed time for reading, drawing and writing each model. Multiplied by the number of "
      "threads (`--threads`), it also limits the processor time. Lambent stops within half a second after the limit. In "
-     "an animation the default applies to each frame; a limit that you set applies to all frames together.",
+     "an animation, the default applies to each frame; a limit that you set applies to all frames together.",
      .store = store_seconds, .others = "timeout", FIELD(limits.time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
     {"triangle-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
@@ -743,7 +746,8 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "max-objects instance-limit max-instances node-limit", FIELD(limits.object_limit), .max = 2147483647},
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a picture has more layers per pixel than this, on average (exit 4).",
-     "A layer is a translucent or masked surface over a pixel. Each of these also counts as one layer: 32 lights on a "
+     "A layer is a translucent or masked surface that covers a pixel. Each of these also counts as one layer: 32 "
+     "lights on a "
      "point, 32 opaque surfaces one behind the other, and environment light on a surface. The default is 40 plus one "
      "per "
      "16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as 65536 pixels. The OpenGL "
@@ -875,7 +879,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "Lambent prints the report to standard output, instead of the line with the file's name. If the picture goes to "
      "standard output, Lambent prints the report, and nothing else, to standard error. It also prints a report on "
-     "failure. The schema is `docs/report.schema.json`. For `compare` the report contains the caption of each picture "
+     "failure. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption of each picture "
      "and the options that draw the picture.",
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
@@ -949,7 +953,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, FIELD(plot.to), .min = 1e-6, .max = 1e9},
 
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
-     "Without this option Lambent generates a correct vertex shader, which recognises varyings by name and type "
+     "Without this option, Lambent generates a correct vertex shader, which recognises varyings by name and type "
      "(`docs/check.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
@@ -1045,7 +1049,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_text, .others = "implicit-surface isosurface level-set marching-cubes sdf", FIELD(shape.implicit),
      .loads = true},
     {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of x in which an implicit surface is drawn.",
-     "Give two constant expressions. By default Lambent searches for the surface in -4..4, and in -16..16 if the "
+     "Give two constant expressions. By default, Lambent searches for the surface in -4..4, and in -16..16 if the "
      "surface is closed only in the larger range.",
      .store = store_text, .others = "x-range box bounds", FIELD(shape.x_range), .loads = true},
     {"y", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of y.", NULL, .store = store_text,
@@ -1053,7 +1057,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"z", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of z.", NULL, .store = store_text,
      .others = "z-range", FIELD(shape.z_range), .loads = true},
     {"flip", 0, GROUP_SHAPE, NULL, NULL, "Swap front and back faces.",
-     "By default the front of a parametric surface is the side to which the cross product of the derivatives by u and "
+     "By default, the front of a parametric surface is the side to which the cross product of the derivatives by u and "
      "by v points. The front of an implicit surface is the side to which the gradient points.",
      .store = store_switch, .others = "flip-normals invert-normals", FIELD(shading.flip), .loads = true},
     {"object", 0, GROUP_SHADER, "N", "all", "Print the shaders for only one object of the scene, counted from 0.",
@@ -1072,7 +1076,7 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(viewer.no_open)},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
-     "By default the environment variable `LAMBENT_FONT` names the font. If it is not set, Lambent uses the first of "
+     "By default, the environment variable `LAMBENT_FONT` names the font. If it is not set, Lambent uses the first of "
      "these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, FreeSans, Roboto. "
      "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
      "sheet are always identical. An SVG file requests DejaVu Sans, but the viewer may use another font.",
@@ -1083,7 +1087,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
      "The settings file: keys of scene files that override the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if it exists and the "
-     "environment variable `CI` is not set. It never reads a settings file beside a model. Looks and options on the "
+     "environment variable `CI` is not set. It never reads a settings file from a model's folder. Looks and options on "
+     "the "
      "command line override settings; scene files ignore them. `lambent config` prints the current settings, and "
      "`docs/settings.md` "
      "describes the file.",

@@ -82,8 +82,7 @@ const struct command command_table[] = {
                         ALL | 1ull << GROUP_SHADER, .min_operands = 0, .max_operands = 1, .defaults = shader_defaults},
     [COMMAND_diff] = {"diff", "OLD NEW",
                       "Compare two pictures, two models or the models of two folders; -o writes a picture, or a page "
-                      "of "
-                      "models before and after.",
+                      "of models before and after.",
                       (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_DIFF | TAKES_JSON | TAKES_QUIET | TAKES_MANY |
                           TAKES_TITLE,
                       .min_operands = 2, .max_operands = 2,

@@ -240,19 +240,18 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest instr
 
 struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
-     "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. "
-     "If the name of a file, pipe or device has no known extension, Lambent also writes a PNG. By default, Lambent "
-     "writes "
+     "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. If "
+     "the name of a file, pipe or device has no known extension, Lambent also writes a PNG. By default, Lambent writes "
      "`MODEL.png` to the current folder (`model.png` if the model comes from standard input), and never overwrites a "
-     "file that another program created. `-o pictures/`, with a trailing slash, "
-     "writes to that folder and creates it if it is missing; every command that writes files accepts it. `--out` is an "
+     "file that another program created. `-o pictures/`, with a trailing slash, writes to that folder and creates it "
+     "if it is missing; every command that writes files accepts it. `--out` is an "
      "alias.\nA file name may contain placeholders in braces, which Lambent replaces for each model: `-o "
      "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
      "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
      "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
      "If two models would be written to the same file, Lambent reports an error before it starts. To write a literal "
-     "brace, "
-     "use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open it in a browser to turn "
+     "brace, use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open it in a browser "
+     "to turn "
      "the model and change every option; it works offline (`docs/web.md`). This format requires the page built by "
      "`make web`.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
@@ -261,8 +260,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800, 1920x1080, or a list of sizes.",
      "`render` and `batch` accept up to 16 sizes, such as `1024,256x128`. These commands read each model once and draw "
      "each picture separately, without scaling. If `--view` lists several sides, Lambent draws every side in every "
-     "size. "
-     "Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
+     "size. Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
      .several = "sizes", .brief = "pixels: 800, 1920x1080, or a list", .store = store_size,
      .others = "resolution resolutions thumbnails width height dimensions pixels viewport window", .max = 65535,
      .single = TAKES_SIZE},
@@ -288,10 +286,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "The background fills all pixels that the model does not cover. This also applies to `--show` and to sheets. The "
-     "sheets of "
-     "`compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the "
-     "basic names (`black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` "
-     "and the other colour names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
+     "sheets of `compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), "
+     "one of the basic names (`black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
+     "`orange` and the other colour names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or "
+     "`transparent`.",
      .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
      .others = "bg background-color backdrop transparent", FIELD(picture.background)},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
@@ -305,8 +303,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG; lossless WebP", "The quality of JPEG and WebP files, 1 to 100.",
      "A lower number gives a smaller file of lower quality. At 90 and above, JPEG files store a colour for every "
      "pixel; below 90, they store one colour for every four pixels. WebP is lossless at 100 and by default. Other "
-     "formats ignore the option. The bytes depend "
-     "on the version of libjpeg-turbo or libwebp.",
+     "formats ignore the option. The bytes depend on the version of libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
      .max = 100},
     {"term", 0, GROUP_PICTURE, "METHOD", "auto",
@@ -317,8 +314,7 @@ struct option option_table[OPTIONS_MAX] = {
      "to the width of the window. With a value other than `auto`, Lambent also shows the picture if `-o` names a file "
      "with 8 bits per channel. Lambent shows no picture with `--json` or `--quiet`, with several models, or if "
      "standard output is not a terminal. `sixel` and `blocks` need libchafa (Debian's package `libchafa0`). "
-     "`docs/terminal.md` lists the "
-     "terminals.",
+     "`docs/terminal.md` lists the terminals.",
      term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,
      .others = "terminal sixel kitty preview inline", FIELD(picture.term)},
     {"durable", 0, GROUP_PICTURE, NULL, NULL, "Flush each picture and its folder to disk before continuing (fsync).",
@@ -329,11 +325,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
      "Brighten or darken the picture: 1 doubles the light, -1 halves it; or auto.",
      "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. This "
-     "includes `--color-mode raw`, float pictures and the light terms of `--show`. The background keeps its colour. "
-     "If the picture uses the lights of a glTF file (candela, lux), the default is `auto`. With `auto`, Lambent "
-     "selects an exposure, in thirds of a stop, at which 95 % of the covered pixels are no brighter than 0.8. Lambent "
-     "reports the selected "
-     "value. `--exposure 0` keeps the light unchanged.",
+     "includes `--color-mode raw`, float pictures and the light terms of `--show`. The background keeps its colour. If "
+     "the picture uses the lights of a glTF file (candela, lux), the default is `auto`. With `auto`, Lambent selects "
+     "an exposure, in thirds of a stop, at which 95 % of the covered pixels are no brighter than 0.8. Lambent reports "
+     "the selected value. `--exposure 0` keeps the light unchanged.",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
@@ -347,9 +342,9 @@ struct option option_table[OPTIONS_MAX] = {
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. `light:key` shows "
      "the contribution of the light named key, and `light:1` shows the contribution of the first light. `n.l` and "
      "`n.h` use the first light that has a direction; `n.l:key` and `n.h:key` select another light. The other names "
-     "show surface quantities. "
-     "`all` writes the picture, every term and every light as layers of one `.exr` file. `.pfm` and `.exr` store the "
-     "values unchanged; 8-bit pictures encode them without the sRGB curve. For the complete table, see `docs/show.md`.",
+     "show surface quantities. `all` writes the picture, every term and every light as layers of one `.exr` file. "
+     "`.pfm` and `.exr` store the values unchanged; 8-bit pictures encode them without the sRGB curve. For the "
+     "complete table, see `docs/show.md`.",
      show_words, .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
      .others = "unlit pass aov channel layer debug term only", FIELD(picture.show)},
 
@@ -377,18 +372,17 @@ struct option option_table[OPTIONS_MAX] = {
      .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
      "Without this option, Lambent refuses such a file (exit 3), because the picture could be wrong without the "
-     "extension. "
-     "With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML prefixes in "
+     "extension. With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML "
+     "prefixes in "
      "3MF files.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side to view the model from, or a list: front, back, left, right, top, bottom, iso or three-quarter.",
      "By default, the camera is 30 degrees to the right of the front and 20 degrees above the horizon. The model fills "
-     "92 % of the "
-     "picture's width or height, whichever limits it. `--azimuth` and `--elevation` override the angles of a "
-     "side.\n`render` "
-     "and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. Without a pattern in "
+     "92 % of the picture's width or height, whichever limits it. `--azimuth` and `--elevation` override the angles of "
+     "a side.\n`render` and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. "
+     "Without a pattern in "
      "`-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
      view_words, .several = "views", .brief = "front, left, top, iso ...; or a list: front,left", .store = store_word,
      .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
@@ -429,11 +423,10 @@ struct option option_table[OPTIONS_MAX] = {
      "A camera: eye=x/y/z,target=x/y/z,fovy=30 and more keys; or a camera of the file, by name or number.",
      "A value without `=` is the name of a camera in the model file (glTF), or its number, counted from 0. Otherwise "
      "the value is a list of keys, separated by commas, in the model's own coordinates: `eye` (required), `target` "
-     "(default: the middle of the "
-     "model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30; alone it is `--fov`) or "
-     "`ortho` (parallel projection: model units from the picture's middle to its top), `near` and `far` (both or "
-     "neither; fitted by default). You cannot combine this option with `--view`, `--azimuth`, `--elevation`, `--zoom`, "
-     "`--fov` or `--projection`. `--json` reports the camera of any picture with these keys.",
+     "(default: the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30; "
+     "alone it is `--fov`) or `ortho` (parallel projection: model units from the picture's middle to its top), `near` "
+     "and `far` (both or neither; fitted by default). You cannot combine this option with `--view`, `--azimuth`, "
+     "`--elevation`, `--zoom`, `--fov` or `--projection`. `--json` reports the camera of any picture with these keys.",
      .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
      .min = FOV_MIN, .max = FOV_MAX},
 
@@ -442,24 +435,21 @@ struct option option_table[OPTIONS_MAX] = {
      "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`, followed by a colon and keys separated by "
      "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds a light "
      "to them, and `none` removes all lights except ambient light. If you also give `--rig`, the lights of the rig are "
-     "kept.\nPosition: `position=x/y/z` "
-     "is in the model's units or, with r after each number, in radii of the model's bounding sphere, from its centre "
-     "(default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a directional light that shines from this "
-     "direction. "
-     "`direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` is the point at which it aims. "
-     "By default, a directional light travels along 0/0/-1, and a spot aims at the model's centre. "
-     "`frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the frame of the scene. "
-     "`camera` is the frame of the eye: x right, y up, looking along -z; a light without a position is at the eye. "
-     "`view` uses the axes of the eye, with the origin at the middle of the scene's box. `object` is the frame of the "
-     "model before `--rotate`, and `object:NAME` is the frame of a named object.\nEmission: `color` times `intensity` "
-     "(1) "
-     "is the diffuse and specular light; `ambient` (0), `diffuse` and `specular` set each separately. A colour is "
-     "`#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light uses `color` or `ambient` (0.2), a "
-     "hemisphere light `sky` (0.4), `ground` (0.1) and `up`.\nFalloff: `attenuation=a/b/c` is 1/(a + b d + c d^2). "
-     "With r after b and c, the distance d is in radii (`1/2.7r/5r`). `range` (also with r) is the distance beyond "
-     "which the light contributes nothing. The cone of a spot is given by `cutoff` (half angle in degrees, 45) and "
-     "`exponent`, or by the half angles `inner` and `outer`. `name` appears in reports.\n`lambent help lights` lists "
-     "all keys.",
+     "kept.\nPosition: `position=x/y/z` is in the model's units or, with r after each number, in radii of the model's "
+     "bounding sphere, from its centre (default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a "
+     "directional light that shines from this direction. `direction=x/y/z` is the direction in which the light "
+     "travels, and `target=x/y/z` is the point at which it aims. By default, a directional light travels along 0/0/-1, "
+     "and a spot aims at the model's centre. `frame=world|camera|view|object|object:NAME` selects the coordinate "
+     "frame. `world` is the frame of the scene. `camera` is the frame of the eye: x right, y up, looking along -z; a "
+     "light without a position is at the eye. `view` uses the axes of the eye, with the origin at the middle of the "
+     "scene's box. `object` is the frame of the model before `--rotate`, and `object:NAME` is the frame of a named "
+     "object.\nEmission: `color` times `intensity` (1) is the diffuse and specular light; `ambient` (0), `diffuse` and "
+     "`specular` set each separately. A colour is `#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light "
+     "uses `color` or `ambient` (0.2), a hemisphere light `sky` (0.4), `ground` (0.1) and `up`.\nFalloff: "
+     "`attenuation=a/b/c` is 1/(a + b d + c d^2). With r after b and c, the distance d is in radii (`1/2.7r/5r`). "
+     "`range` (also with r) is the distance beyond which the light contributes nothing. The cone of a spot is given by "
+     "`cutoff` (half angle in degrees, 45) and `exponent`, or by the half angles `inner` and `outer`. `name` appears "
+     "in reports.\n`lambent help lights` lists all keys.",
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... replace the studio", .store = store_light,
      .others = "l lamp sun spot point directional lighting", FIELD(lighting.lights)},
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
@@ -518,11 +508,11 @@ struct option option_table[OPTIONS_MAX] = {
      "followed by keys (`gold,shininess=80`). Under the default lights, `brass`, `bronze`, `chrome`, `copper`, `gold` "
      "and `silver` without keys are physical metals that reflect the studio. `glass` is clear glass (`lambent help "
      "glass`). Properties that you do not list keep the model's values. `lambent help materials` lists the keys (a "
-     "colour is `#rrggbb`, a name, `r/g/b` or one number). `color` "
-     "sets ambient and diffuse; `specular_color` sets specular. The factors `ka`, `kd`, `ks` and `kr` multiply "
-     "ambient, diffuse, specular and mirrored light (`kr` multiplies the specular colour, white by default).\n`@NAME` "
-     "limits the option to the objects of that name, or else to the parts (OBJ groups, STL solids), or else to the "
-     "model's materials: `ruby@handle`. If several options match a surface, the last one wins.",
+     "colour is `#rrggbb`, a name, `r/g/b` or one number). `color` sets ambient and diffuse; `specular_color` sets "
+     "specular. The factors `ka`, `kd`, `ks` and `kr` multiply ambient, diffuse, specular and mirrored light (`kr` "
+     "multiplies the specular colour, white by default).\n`@NAME` limits the option to the objects of that name, or "
+     "else to the parts (OBJ groups, STL solids), or else to the model's materials: `ruby@handle`. If several options "
+     "match a surface, the last one wins.",
      .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
      .others = "m mat specular diffuse", FIELD(material.materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
@@ -546,8 +536,7 @@ struct option option_table[OPTIONS_MAX] = {
      .has_field = offsetof(struct options, material.has_shininess), .min = 0, .max = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
      "The value replaces the opacity of every material, including materials set by `--material`. The alpha of vertex "
-     "colours "
-     "still multiplies it.",
+     "colours still multiplies it.",
      .store = store_number, .others = "alpha transparency translucency", FIELD(material.opacity),
      .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
 
@@ -598,9 +587,8 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
      "At a `crease` edge, two faces meet at an angle larger than `--edge-angle`, or more than two faces meet. A "
-     "`boundary` edge "
-     "belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing face. `--edges all "
-     "--surfaces off` makes a technical drawing.",
+     "`boundary` edge belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing "
+     "face. `--edges all --surfaces off` makes a technical drawing.",
      .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", .others = "feature-angle sharp-angle"},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", .others = "outline-width"},
@@ -615,9 +603,8 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "faces lines-only no-surfaces hide-surfaces"},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Use this option for comparison with old programs. Lambent then clamps vertex colours to 0...1 before "
-     "interpolation, and "
-     "limits the shininess to 128. It also attenuates the ambient light of each light and limits it to the light's "
-     "cone.",
+     "interpolation, and limits the shininess to 128. It also attenuates the ambient light of each light and limits it "
+     "to the light's cone.",
      .words = NULL},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, for every material.", NULL,
      .store = store_switch, FIELD(shading.two_sided)},
@@ -636,18 +623,16 @@ struct option option_table[OPTIONS_MAX] = {
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "Segments of a built-in shape, such as 64x32: slices around the axis, and stacks along it.",
      "With `--parametric`, N is the number of segments along u and M is the number along v; N alone sets both. N is 3 "
-     "to 16384; "
-     "`lambent shapes` describes the segments of each shape. The default of M depends on the shape. `gyroid`, "
-     "`metaballs` and `--implicit` accept only N, at most 1024 cells.",
+     "to 16384; `lambent shapes` describes the segments of each shape. The default of M depends on the shape. "
+     "`gyroid`, `metaballs` and `--implicit` accept only N, at most 1024 cells.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The environment that shiny surfaces reflect: an image, six faces, sky or studio.",
      "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, TGA, PPM, "
      "PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in OpenGL's order: "
      "`px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are built in. To use a "
-     "file named `sky`, write `./sky`. Classic "
-     "materials reflect the environment only if they have a reflectivity (see `--reflectivity`). "
-     "`docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
+     "file named `sky`, write `./sky`. Classic materials reflect the environment only if they have a reflectivity (see "
+     "`--reflectivity`). `docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
@@ -661,11 +646,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
      "The model rotates about its up axis in equal steps, counter-clockwise as seen from above. Frame k is identical "
      "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
-     "exposure. By "
-     "default, and with a name that "
-     "ends in `.png` or `.webp`, Lambent writes all frames to one animated PNG or WebP that loops forever. With "
-     "`{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a separate file, in any format. "
-     "For examples, see `docs/animation.md`.",
+     "exposure. By default, and with a name that ends in `.png` or `.webp`, Lambent writes all frames to one animated "
+     "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a "
+     "separate file, in any format. For examples, see `docs/animation.md`.",
      .store = store_integer, .others = "spin turnaround orbit rotate360 animate gif apng", FIELD(animation.turntable),
      .min = 2, .max = 100000},
     {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
@@ -681,13 +664,12 @@ struct option option_table[OPTIONS_MAX] = {
      "has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in degrees), "
      "`intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light comes, in "
      "the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. `time` is the time in a "
-     "glTF file's "
-     "animation; without numbers, the sweep covers the whole animation.\nYou can give more stops: "
-     "`light.elevation=10..80..10`. "
-     "If a sweep ends as it begins, for example after a whole turn, the last frame is one step before the end, so that "
-     "the loop is seamless. You can combine several sweeps, also with `--turntable`. Lambent fits the camera once, to "
-     "the first frame. For `azimuth` and `elevation`, the distance of the camera is constant. For `time`, the camera "
-     "fits the bounding boxes of all frames. Only `zoom` and `fov` change the camera between frames.",
+     "glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can give more stops: "
+     "`light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole turn, the last frame is "
+     "one step before the end, so that the loop is seamless. You can combine several sweeps, also with `--turntable`. "
+     "Lambent fits the camera once, to the first frame. For `azimuth` and `elevation`, the distance of the camera is "
+     "constant. For `time`, the camera fits the bounding boxes of all frames. Only `zoom` and `fov` change the camera "
+     "between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
     {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames in a sweep.",
@@ -736,8 +718,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"triangle-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a model has more triangles than this (exit 4).",
      "Lines and points count as triangles. Each object counts with all triangles of its mesh, even if several objects "
-     "share the mesh. The default is 50 "
-     "million plus 100 per byte of the model's files, at most 200 million. k, M and G are powers of 1000.",
+     "share the mesh. The default is 50 million plus 100 per byte of the model's files, at most 200 million. k, M and "
+     "G are powers of 1000.",
      .store = store_count, .others = "max-triangles polygon-limit vertex-limit", FIELD(limits.triangle_limit),
      .max = 2147483647},
     {"object-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
@@ -747,11 +729,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a picture has more layers per pixel than this, on average (exit 4).",
      "A layer is a translucent or masked surface that covers a pixel. Each of these also counts as one layer: 32 "
-     "lights on a "
-     "point, 32 opaque surfaces one behind the other, and environment light on a surface. The default is 40 plus one "
-     "per "
-     "16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as 65536 pixels. The OpenGL "
-     "devices ignore this limit.",
+     "lights on a point, 32 opaque surfaces one behind the other, and environment light on a surface. The default is "
+     "40 plus one per 16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as 65536 pixels. "
+     "The OpenGL devices ignore this limit.",
      .store = store_count, .others = "max-layers overdraw-limit", FIELD(limits.layer_limit), .max = 2147483647},
     {"expansion-limit", 0, GROUP_LIMITS, "N", "2000",
      "Stop if a model needs more memory than N times the size of its files plus 500 MB (exit 4).",
@@ -794,8 +774,7 @@ struct option option_table[OPTIONS_MAX] = {
      "`--allow-path ../textures`. Scene files with `--files-inside`, and links in the folders of `batch`, may then "
      "also point to the allowed folder, and the sandbox permits reading it. With `--jobs`, all files named in jobs "
      "must be in an allowed folder, but models can still use only the files in their own folders. Pages (`-o "
-     "FILE.html`) and `view` never include files from "
-     "other folders.",
+     "FILE.html`) and `view` never include files from other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
@@ -813,8 +792,7 @@ struct option option_table[OPTIONS_MAX] = {
      "A line records the model, the picture, the result (`class`, `exit`, `error`), the duration of each step in "
      "milliseconds, the number of triangles and the warnings. It also records the size of the picture in bytes, the "
      "picture's hash, a hash for each file that Lambent read, and the key for `--skip-same`. Lambent writes the line "
-     "after the picture is complete. `none` writes no "
-     "journal. `docs/batch.md` describes every field.",
+     "after the picture is complete. `none` writes no journal. `docs/batch.md` describes every field.",
      .kind = VALUE_FILE, .store = store_text, .others = "log record", FIELD(batch.journal)},
     {"resume", 0, GROUP_BATCH, NULL, NULL, "Resume: skip pictures that the journal lists as done.",
      "Without a journal, Lambent draws everything, so you can use the same command to start and to resume a run. "
@@ -853,8 +831,7 @@ struct option option_table[OPTIONS_MAX] = {
      "With `name` each shard reads all names, which takes a second or two for a million. With `list`, it reads only "
      "the K-th of N equal parts of one list (`@FILE`). The list must be sorted by the names of the pictures (`LC_ALL=C "
      "sort`), so that Lambent can check that no two pictures share a name. If the list changes, models move to other "
-     "shards, and "
-     "`--resume` refuses to continue.",
+     "shards, and `--resume` refuses to continue.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
     {"jobs", 0, GROUP_BATCH, "-", NULL, "`batch`: Read one JSON job per line, and answer each job with a line of JSON.",
      "For servers: one process draws all jobs until its standard input ends (`docs/worker.md`). A job contains an "
@@ -931,8 +908,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"title", 0, GROUP_SHEET, "TEXT", NULL, "The title of a sheet, a plot or a figure, in any language; '' for none.",
      "An SVG file stores titles and captions as text, so the viewer provides the fonts, supports right-to-left "
      "languages and can read the text aloud. In a PNG file, Lambent draws the letters one by one. The default font "
-     "covers Latin, Greek "
-     "and Cyrillic. For Chinese, Japanese and Korean, give a font that covers them (`--font`). For scripts that run "
+     "covers Latin, Greek and Cyrillic. For Chinese, Japanese and Korean, give a font that covers them (`--font`). For "
+     "scripts that run "
      "from right to left or join letters, write an SVG file.",
      .store = store_text, .single = TAKES_TITLE, .others = "heading name header", FIELD(captions.title)},
     {"caption", 0, GROUP_SHEET, "TEXT", NULL, "The caption of a sheet's next picture, in any language; repeatable.",
@@ -945,8 +922,8 @@ struct option option_table[OPTIONS_MAX] = {
      "accepts. For `shininess` they are 10, 50 and 1000, for `light` one light of each type, and for `show` (also "
      "called `term`) the five terms. If you give `--across` twice, the first defines the rows of a grid and the second "
      "defines its columns. `mistake=A,B` uses OpenGL to draw shaders with known mistakes next to the correct shader, "
-     "with the differences between them (`lambent shader --mistake list`). `mistake` alone draws all mistakes "
-     "that are visible in the scene.",
+     "with the differences between them (`lambent shader --mistake list`). `mistake` alone draws all mistakes that are "
+     "visible in the scene.",
      .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(sheet.across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or degrees.", NULL,
@@ -974,8 +951,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_text, FIELD(check.scenes)},
     {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit the processor time of a shader.",
      "The limit applies to all scenes together. Lambent adds the processor time of all threads, so other programs on "
-     "the machine do not affect it. The elapsed "
-     "time may be up to 20 times as long.",
+     "the machine do not affect it. The elapsed time may be up to 20 times as long.",
      .store = store_number, FIELD(check.stop_after_s), .min = 0.1, .max = 1e6},
     {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000", "Stop the search after drawing this many pictures.",
      "If the search finds no set of mistakes that explains the picture, the report states how many sets Lambent tried "
@@ -984,8 +960,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"class", 0, GROUP_CHECK, "FOLDER", NULL, "Check every submission in a folder.",
      "A submission is a sub-folder with one fragment shader, at most one vertex shader and any other files. Outside "
      "sub-folders, a submission is a fragment shader and the vertex shader of the same name. With `-o FOLDER/`, "
-     "Lambent "
-     "writes a page for the whole class, `index.html`, and a sheet for each submission.",
+     "Lambent writes a page for the whole class, `index.html`, and a sheet for each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
     {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader, with its points and mistakes.", NULL,
      .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
@@ -1018,8 +993,8 @@ struct option option_table[OPTIONS_MAX] = {
      "texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
-     "The lecture style uses the symbols of lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
-     "`blinn-phong` and `kajiya-kay`, with any lights and any shading, its uniforms and its picture are the same as in "
+     "The lecture style uses the symbols of lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, `blinn-phong` "
+     "and `kajiya-kay`, with any lights and any shading, its uniforms and its picture are the same as in "
      "the full style. Lambent rejects textures and other reflection models in this style. With `--stage application`, "
      "Lambent also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
      style_words, .store = store_word, FIELD(shader.style)},
@@ -1042,10 +1017,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"implicit", 0, GROUP_SHAPE, "FORMULA", NULL,
      "The surface on which an expression of x, y and z is zero: 'x^2+y^2+z^2-1'.",
      "The expression is negative inside the surface. You can also write an equation: `x^2+y^2+z^2 = 1` is the same "
-     "surface. Definitions may precede the "
-     "expression: `a = 2; (sqrt(x^2+y^2)-a)^2 + z^2 - 1`. The language is the same as in `--parametric`. Normals come "
-     "from the symbolic gradient. `--segments` sets the number of cells along the longest side of the box around the "
-     "surface (default: 96).",
+     "surface. Definitions may precede the expression: `a = 2; (sqrt(x^2+y^2)-a)^2 + z^2 - 1`. The language is the "
+     "same as in `--parametric`. Normals come from the symbolic gradient. `--segments` sets the number of cells along "
+     "the longest side of the box around the surface (default: 96).",
      .store = store_text, .others = "implicit-surface isosurface level-set marching-cubes sdf", FIELD(shape.implicit),
      .loads = true},
     {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of x in which an implicit surface is drawn.",
@@ -1088,10 +1062,8 @@ struct option option_table[OPTIONS_MAX] = {
      "The settings file: keys of scene files that override the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if it exists and the "
      "environment variable `CI` is not set. It never reads a settings file from a model's folder. Looks and options on "
-     "the "
-     "command line override settings; scene files ignore them. `lambent config` prints the current settings, and "
-     "`docs/settings.md` "
-     "describes the file.",
+     "the command line override settings; scene files ignore them. `lambent config` prints the current settings, and "
+     "`docs/settings.md` describes the file.",
      .kind = VALUE_FILE, .store = store_text, .others = "settings preferences rc conf configuration",
      FIELD(settings.file)},
     {"no-config", 0, GROUP_SETTINGS, NULL, NULL, "Ignore the user's settings file.", NULL, .store = store_switch,

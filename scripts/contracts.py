@@ -170,7 +170,7 @@ def page(program, runs):
     meaning = meanings(program)
     yield """# Built-in contracts of `lambent check`
 
-After reading this page you know the names that each built-in contract expects, and the findings of the check in the courses' own programs.
+This page lists the names that each built-in contract expects, and the mistakes that the check finds in the courses' own programs.
 
 `scripts/contracts.py` (`make docs`) writes this page. Each section contains a contract's names, a correct program, and the report on
 the course's own program, rewritten with the same mistakes. [Checking a shader](../check.md) explains the reports, and [contract

@@ -16,8 +16,9 @@
                                .backlit_fibre = ((flags) & LOBE_BACKLIT_FIBRE) != 0},
 
 static const lam_reflection_info models[LAM_REFLECTION_COUNT] = {
-    [LAM_REFLECTION_AUTO] = {.word = "auto",
-                             .summary = "the material's own: ggx for physical ones, blinn-phong for classic ones"},
+    [LAM_REFLECTION_AUTO] =
+        {.word = "auto",
+         .summary = "the material's own model: ggx for physical materials, blinn-phong for classic materials"},
     [LAM_REFLECTION_NONE] = {.word = "none", .summary = "the diffuse colour, unlit"},
     LOBES(LOBE)};
 

@@ -93,7 +93,7 @@ OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
 # A page, a sentence of it in which every number that the code decides is {}, and where those numbers come from.
 ROWS = [
     ("docs/lighting/pixels.md", "snapped to 1/{} of a pixel", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
-    ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
+    ("docs/lighting/pixels.md", "is up to 1/{} of a pixel outside", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "(by default {} in pictures of up to {}² pixels, {} up to {}², {} above)", *SAMPLES),
     ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} up to {}², {} above |", *SAMPLES),
     ("tools/options/option_table.c", "\"{} up to {}x256 pixels, {} up to {}x512, {} above\"", *SAMPLES),
@@ -105,10 +105,10 @@ ROWS = [
     ("docs/view.md", "a token of {} random bits", counted("bits of VIEW_TOKEN_SIZE", lambda: (constant("tools/view/view.h", "VIEW_TOKEN_SIZE").look_up() - 1) * 4)),
     ("docs/web.md", "is limited to {} MB", counted("megabytes of PAGE_FILES_MAX", lambda: constant("tools/page/page_write.h", "PAGE_FILES_MAX").look_up() / 1e6)),
     ("docs/lighting/diffuse.md", "`roughness_angle` in degrees, {} by default", field("roughness_angle")),
-    ("docs/lighting/lights.md", "With more than {}, each part of the picture skips", FEW_LIGHTS),
-    ("docs/lighting/surfaces.md", "At most {} translucent triangles may lie over one pixel", LAYERS),
+    ("docs/lighting/lights.md", "With more than {} lights, Lambent skips the weakest lights", FEW_LIGHTS),
+    ("docs/lighting/surfaces.md", "At most {} translucent triangles may cover one pixel", LAYERS),
     ("docs/lighting/reflection.md", "Faces may have up to {} pixels on a side", SPHERE),
-    ("docs/lighting/reflection.md", "built in, computed, {} pixels on a side", constant("src/environment/environment_made.c", "SIDE")),
+    ("docs/lighting/reflection.md", "built in, computed, {} pixels on each side", constant("src/environment/environment_made.c", "SIDE")),
     ("docs/internals/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
     ("docs/internals/cpu.md", "A thread holds {} such fragments", LAYERS),
     ("docs/internals/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
@@ -128,17 +128,17 @@ ROWS = [
     ("docs/check.md", "exponent {}; attenuation 1/(1 + {} d + {} d²)", code("classroom/check/contracts/nyu.json", r'"shininess": (\d+)'),
      code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, ([\d.]+),'),
      code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, [\d.]+, ([\d.]+)\]')),
-    ("tools/options/option_table.c", "the number of triangles over a pixel: c/(c + {})", OVERDRAW),
+    ("tools/options/option_table.c", "the number of triangles that cover a pixel: c/(c + {})", OVERDRAW),
     ("include/lambent/device.h", "no channel below {}", LEAST_ID),
-    ("docs/opengl.md", "drawn in parts of {}×{}", *2 * [constant("src/gl/gl_device.h", "PART_SIZE_MAX")]),
+    ("docs/opengl.md", "in tiles of {}×{} pixels", *2 * [constant("src/gl/gl_device.h", "PART_SIZE_MAX")]),
     ("docs/opengl.md", "the teapot ({} triangles)", TEAPOT),
     ("docs/shaders.md", "RGBA32F, {} texels wide", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
-    ("docs/formats.md", "more than {} times its own size from zero", constant("src/geometry/origin.h", "ORIGIN_RATIO")),
+    ("docs/formats.md", "from zero is more than {} times its own size", constant("src/geometry/origin.h", "ORIGIN_RATIO")),
     ("docs/formats.md", "| `Ns` | shininess, 0 to {}; none: {}. With exactly 0,", code("src/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
     ("docs/check.md", "at most one pixel in {} differs by more than `--tolerance` ({} steps of 1/255)", PIXELS_OVER_CHECK, TOLERANCE),
-    ("docs/check.md", "it exceeded `--stop-after` ({} seconds)", option("stop-after")),
+    ("docs/check.md", "the shader exceeded `--stop-after` ({} seconds)", option("stop-after")),
     ("docs/lighting.md", "about {} hundred lines", counted("the hundreds of lines of lobes.h, lights.h and sum.h", lambda: round(sum(
         len((ROOT / "src/lighting" / name).read_text().splitlines()) for name in ("lobes.h", "lights.h", "sum.h")) / 100))),
     ("tools/help/topics.c", "`--tolerance` (default {}) applies to each channel of a pixel: one pixel in {} may exceed",
@@ -191,7 +191,7 @@ class Sentences(Case):
     def test_shown_shader(self):
         """The sum that docs/shaders.md shows is a part of what its command prints."""
         page = (ROOT / "docs/shaders.md").read_text()
-        command, shown = re.search(r"(?s)    lambent (shader [^\n]*--products)\n\nwhose sum is\n\n```glsl\n(.*?)```", page).groups()
+        command, shown = re.search(r"(?s)    lambent (shader [^\n]*--products)\n\nThe sum in this shader is:\n\n```glsl\n(.*?)```", page).groups()
         self.assertIn(shown, self.good(*command.split()).stdout.decode())
 
 

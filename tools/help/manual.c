@@ -177,7 +177,7 @@ void generate_markdown(void)
            "# The command line\n\n"
            "    lambent [OPTIONS] MODEL...\n"
            "    lambent COMMAND [ARGUMENTS]\n\n"
-           "## Examples\n\n| command | what it does |\n|---|---|\n");
+           "## Examples\n\n| command | description |\n|---|---|\n");
     for (const struct example *e = examples; e->line; e++) {
         printf("| `");
         cell(e->line);
@@ -187,12 +187,12 @@ void generate_markdown(void)
     }
     printf("\n## Options\n");
     for (int group = 0; group < GROUP_COUNT; group++) {
-        printf("\n### %s\n\n| option | default | what it does |\n|---|---|---|\n", group_titles[group]);
+        printf("\n### %s\n\n| option | default | description |\n|---|---|---|\n", group_titles[group]);
         for (const struct option *o = option_table; o->name; o++)
             if ((int)o->group == group && !o->now)
                 markdown_option(o);
     }
-    printf("\n## Commands\n\n| command | what it does |\n|---|---|\n");
+    printf("\n## Commands\n\n| command | description |\n|---|---|\n");
     for (const struct command *c = command_table; c->name; c++) {
         printf("| `%s%s", c->name, c->operands ? " " : "");
         cell(c->operands ? c->operands : "");

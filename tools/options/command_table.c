@@ -27,7 +27,7 @@ static const struct own_default shader_defaults[] = {{"output", "standard output
 static const struct own_default shape_defaults[] = {{"output", "NAME.png, parametric.png or implicit.png", NULL},
                                                     {NULL, NULL, NULL}};
 static const struct own_default diff_defaults[] = {
-    {"output", "no picture, no page", "a picture of two pictures' difference, or a page: FILE.html"},
+    {"output", "no picture, no page", "a picture of the difference between two pictures, or a page: FILE.html"},
     {"size", "384x384", "of the pictures of models: 800 or 1920x1080"},
     {NULL, NULL, NULL}};
 static const struct own_default hash_defaults[] = {{"output", "none: --check compares", "the text file of hashes"},
@@ -54,7 +54,7 @@ const struct command command_table[] = {
                          ABOUT | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_REPORT, .min_operands = 1,
                          .max_operands = -1, .defaults = journal_defaults},
     [COMMAND_compare] = {"compare", "MODEL",
-                         "Draw several labelled pictures on one sheet: methods, lights or terms side by side.",
+                         "Draw a sheet of labelled pictures that compare methods, lights or terms side by side.",
                          (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_SHEET | 1ull << GROUP_CAPTIONS | TAKES_QUIET |
                              TAKES_JSON,
                          .min_operands = 1, .max_operands = 1,
@@ -82,8 +82,7 @@ const struct command command_table[] = {
                         ALL | 1ull << GROUP_SHADER, .min_operands = 0, .max_operands = 1, .defaults = shader_defaults},
     [COMMAND_diff] = {"diff", "OLD NEW",
                       "Compare two pictures, two models or the models of two folders; -o writes a picture, or a page "
-                      "of "
-                      "models before and after.",
+                      "of models before and after.",
                       (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_DIFF | TAKES_JSON | TAKES_QUIET | TAKES_MANY |
                           TAKES_TITLE,
                       .min_operands = 2, .max_operands = 2,
@@ -104,11 +103,12 @@ const struct command command_table[] = {
                       ABOUT | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
                           TAKES_QUIET | TAKES_FILES | TAKES_TERM | TAKES_TITLE,
                       .min_operands = 1, .max_operands = -1, .defaults = plot_defaults},
-    [COMMAND_lights] = {"lights", "MODEL",
-                        "Print the lights of a model, or of the rig if the model has no lights, in scene file form.",
-                        ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |
-                            1ull << GROUP_SHADING | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
-                        .min_operands = 1, .max_operands = 1, .one_more = "it prints the lights of one model"},
+    [COMMAND_lights] =
+        {"lights", "MODEL",
+         "Print the lights of a model (or of the rig if the model has no lights) in the format of scene files.",
+         ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS | 1ull << GROUP_SHADING |
+             1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
+         .min_operands = 1, .max_operands = 1, .one_more = "it prints the lights of one model"},
     [COMMAND_shape] = {"shape", "[NAME]",
                        "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save it as "
                        "OBJ, STL or PLY.",
@@ -133,11 +133,11 @@ const struct command command_table[] = {
                            .max_operands = 0,
                            .one_more = "it lists all materials; lambent teapot --material gold shows one",
                            .defaults = materials_defaults},
-    [COMMAND_config] = {"config", NULL, "Print the settings in force, and the file that they come from.",
+    [COMMAND_config] = {"config", NULL, "Print the current settings, and the name of the settings file.",
                         ABOUT | 1ull << GROUP_SETTINGS | TAKES_JSON, .min_operands = 0, .max_operands = 0,
                         .one_more = "it prints the settings; write them to the file that it names"},
     [COMMAND_devices] = {"devices", NULL,
-                         "List the devices that can draw on this machine, and the reasons why other devices cannot.",
+                         "List the devices that can draw on this machine, and explain why other devices cannot.",
                          ABOUT | TAKES_JSON, .min_operands = 0, .max_operands = 0},
     [COMMAND_help] = {"help", "[TOPIC]", "Explain a subject, a command or an option; without a name, list all of them.",
                       ABOUT, .min_operands = 0, .max_operands = -1, .verbatim = true},
@@ -195,7 +195,7 @@ const struct example examples[] = {
     {"lambent koala.obj --turntable 36 --fps 12", "writes an animated PNG of the turning model", false},
     {"lambent koala.obj --sweep light.azimuth=0..360 -o 'light-{frame}.png'",
      "draws 36 pictures while the light circles the model", false},
-    {"lambent koala.obj --json", "reports the files read, the camera and the time of each step", false},
+    {"lambent koala.obj --json", "reports the files read, the camera and the duration of each step", false},
     {"lambent info ship.glb", "lists the model's size, triangles, materials and animations", false},
     {"lambent compare koala.obj --sheet terms", "shows the lighting terms side by side, with captions", false},
     {"lambent compare bunny.ply --across 'light=point;directional:direction=-1/-2/-1'",
@@ -214,11 +214,12 @@ const struct example examples[] = {
      "writes the model's shaders, and C code that sets their inputs", false},
     {"lambent shape --parametric 'x=u*cos(v); y=u*sin(v); z=cos(3u)' --u 0..4 -o ripple.obj",
      "saves a surface given by formulas as a model", false},
-    {"lambent shape --implicit 'x^2+y^2+z^2-1'", "draws the points at which an expression is zero: here a sphere",
+    {"lambent shape --implicit 'x^2+y^2+z^2-1'", "draws the surface on which an expression is zero; here, a sphere",
      false},
-    {"lambent diff old.png new.png -o where.png", "prints the difference of two pictures, and draws it", false},
+    {"lambent diff old.png new.png -o where.png", "prints the difference between two pictures, and draws it", false},
     {"lambent diff old/ new/ -o report.html", "shows models before and after on one page", false},
-    {"lambent hash models/ -o pictures.hash", "writes the hashes of all pictures, for a repository", false},
+    {"lambent hash models/ -o pictures.hash",
+     "writes the hashes of all pictures to a file, which you can keep in a repository", false},
     {"lambent hash --check pictures.hash", "lists the models whose pictures changed", false},
     {NULL, NULL, false},
 };

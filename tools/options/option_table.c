@@ -51,8 +51,9 @@ static const struct word sandbox_words[] = {{"auto", SANDBOX_AUTO, "use every me
                                             {NULL, 0, NULL}};
 
 static const struct word shard_by_words[] = {
-    {"name", SHARD_BY_NAME, "by the hash of each model's name: a new model does not move the others"},
-    {"list", SHARD_BY_LIST, "consecutive models of one sorted list: each shard reads only its own models"},
+    {"name", SHARD_BY_NAME,
+     "by the hash of each model's name: adding a model does not move other models to another shard"},
+    {"list", SHARD_BY_LIST, "into consecutive blocks of one sorted list, so that each shard reads only its own models"},
     {NULL, 0, NULL}};
 static const struct word light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
@@ -84,7 +85,7 @@ static const struct word term_words_list[] = {
 
 static const struct word color_mode_words[] = {
     {"srgb", LAM_COLOR_SRGB, "Lambent decodes the colours of files, computes linear light and encodes the picture"},
-    {"raw", LAM_COLOR_RAW, "no conversion: the file stores the results of the equations"},
+    {"raw", LAM_COLOR_RAW, "no conversion; the file stores the results of the equations"},
     {NULL, 0, NULL}};
 
 static const struct word show_words[] = {
@@ -98,13 +99,13 @@ static const struct word show_words[] = {
     {"normals", LAM_OUTPUT_NORMALS, "in eye space: (n + 1)/2"},
     {"tangents", LAM_OUTPUT_TANGENTS, "in eye space: (t + 1)/2"},
     {"depth", LAM_OUTPUT_DEPTH,
-     "distance from the eye along the view direction: the nearest point is white, the farthest black"},
+     "distance from the eye along the view direction: the nearest point is white, the farthest point black"},
     {"n.l", LAM_OUTPUT_N_L, "cosine between normal and light: max(n.l, 0)"},
     {"n.h", LAM_OUTPUT_N_H, "cosine between normal and half vector: max(n.h, 0)"},
     {"facing", LAM_OUTPUT_FACING, "front blue, back red"},
     {"ids", LAM_OUTPUT_IDS, "a colour for each triangle"},
     {"coverage", LAM_OUTPUT_COVERAGE, "the fraction of covered samples"},
-    {"overdraw", LAM_OUTPUT_OVERDRAW, "the number of triangles over a pixel: c/(c + 3)"},
+    {"overdraw", LAM_OUTPUT_OVERDRAW, "the number of triangles that cover a pixel: c/(c + 3)"},
     {"clipped", LAM_OUTPUT_CLIPPED, "pixels outside 0 to 1: above red, below blue"},
     {"base-color", LAM_OUTPUT_BASE_COLOR, "the base or diffuse colour, with maps and vertex colours"},
     {"roughness", LAM_OUTPUT_ROUGHNESS, "of physical materials"},
@@ -171,9 +172,9 @@ static const struct word tone_words[] = {
 
 static const struct word look_words[] = {
     {"studio", 0, "the default"},
-    {"classic", 1, "the former studio: directional lights, no occlusion"},
-    {"catalog", 2, "the studio, with a ground that catches a soft shadow, for web pages"},
-    {"technical", 3, "feature edges over light, flat-shaded faces, for print"},
+    {"classic", 1, "the old studio: directional lights, no occlusion"},
+    {"catalog", 2, "for web pages: the studio and a ground plane that catches a soft shadow"},
+    {"technical", 3, "for print: feature edges over light, flat-shaded faces"},
     {NULL, 0, NULL}};
 
 static const struct word rig_words[] = {
@@ -203,14 +204,14 @@ static const struct word texture_filter_words[] = {
     {"hardware", TEXTURE_FILTER_HARDWARE, "filtering by the graphics card: faster, less exact"},
     {NULL, 0, NULL}};
 
-static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "both sides are drawn"},
+static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "draw both sides"},
                                          {"back", LAM_CULL_BACK, NULL},
                                          {"front", LAM_CULL_FRONT, NULL},
                                          {NULL, 0, NULL}};
 
 static const struct word normals_words[] = {
     {"file", LAM_NORMALS_FILE, "the file's normals, or smooth normals if the file contains none"},
-    {"smooth", LAM_NORMALS_SMOOTH, "computed smooth normals, even if the file contains normals"},
+    {"smooth", LAM_NORMALS_SMOOTH, "computed smooth normals; the file's normals are ignored"},
     {"facet", LAM_NORMALS_FACET, "one normal for each triangle"},
     {NULL, 0, NULL}};
 
@@ -239,112 +240,118 @@ static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest instr
 
 struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
-     "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. "
-     "Lambent also writes a PNG to a file, pipe or device without a known extension. By default, Lambent writes "
-     "`MODEL.png` to the current folder (`model.png` if the model comes from standard input), and never replaces a "
-     "file that another program wrote. `-o pictures/`, with a trailing slash, "
-     "writes to that folder and creates it if it is missing; every command that writes files accepts it. `--out` is an "
-     "alias.\nA name with words in braces is a pattern. Lambent fills it in for each model: `-o "
+     "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. If "
+     "the name of a file, pipe or device has no known extension, Lambent also writes a PNG. By default, Lambent writes "
+     "`MODEL.png` to the current folder (`model.png` if the model comes from standard input), and never overwrites a "
+     "file that another program created. `-o pictures/`, with a trailing slash, writes to that folder and creates it "
+     "if it is missing; every command that writes files accepts it. `--out` is an "
+     "alias.\nA file name may contain placeholders in braces, which Lambent replaces for each model: `-o "
      "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
      "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
      "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
-     "If two models would be written to the same file, it reports an error before it starts. Write `{{` and `}}` for "
-     "braces.\n`.html` writes one file that contains the picture and the model. In a browser, you can turn the model "
-     "and change every option, without a network (`docs/web.md`). This format needs the page that `make web` "
-     "builds.",
+     "If two models would be written to the same file, Lambent reports an error before it starts. To write a literal "
+     "brace, use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open it in a browser "
+     "to turn "
+     "the model and change every option; it works offline (`docs/web.md`). This format requires the page built by "
+     "`make web`.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
      FIELD(picture.output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800, 1920x1080, or a list of sizes.",
-     "`render` and `batch` accept up to 16 sizes, such as `1024,256x128`. They read each model once and draw each "
-     "picture separately, without scaling. If `--view` lists several sides, Lambent draws every side in every size. "
-     "Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
+     "`render` and `batch` accept up to 16 sizes, such as `1024,256x128`. These commands read each model once and draw "
+     "each picture separately, without scaling. If `--view` lists several sides, Lambent draws every side in every "
+     "size. Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
      .several = "sizes", .brief = "pixels: 800, 1920x1080, or a list", .store = store_size,
      .others = "resolution resolutions thumbnails width height dimensions pixels viewport window", .max = 65535,
      .single = TAKES_SIZE},
     {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
      "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, most visibly in small pictures. On a sheet, the default depends on the size of "
-     "each picture. Lambent computes the lighting once per triangle and pixel, at any number of samples.",
+     "each picture. Lambent computes the lighting once per triangle and pixel, regardless of the number of samples.",
      sample_words, .store = store_word,
      .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples)},
     {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
-     "A pixel on a slanted surface covers a long, narrow area of the texture. A single texture sample blurs the whole "
-     "area. N samples along it are up to N times as sharp.",
+     "A pixel on a slanted surface covers a long, narrow area of the texture. With a single texture sample, the whole "
+     "area is blurred. With N samples along the area, textures look up to N times as sharp.",
      .others = "anisotropic anisotropic-filtering"},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
-     "Lines of OBJ (`l`), PLY (`edge`) and glTF files have the same width at every distance. Lambent moves them "
-     "towards the eye by their width, so that lines on a surface are visible. Lines end without caps.",
+     "Lambent draws the lines of OBJ (`l`), PLY (`edge`) and glTF files with the same width at every distance. It "
+     "moves lines towards the eye by their width, so that lines on a surface are visible. Lines have no end caps.",
      .others = "linewidth stroke-width thickness"},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
-     "Points of OBJ (`p`) and glTF files, and vertices of PLY files without faces and edges, have the same size at "
-     "every distance. The default is 3 pixels, and at least 8 for fewer than 100 points.",
+     "Lambent draws the points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, at "
+     "the same size at every distance. The default is 3 pixels, or at least 8 pixels if there are fewer than 100 "
+     "points.",
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
-     "The background fills all pixels that the model does not cover, also with `--show` and on sheets. The sheets of "
-     "`compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), one of the "
-     "basic names (`black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` "
-     "and the other colour names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or `transparent`.",
+     "The background fills all pixels that the model does not cover. This also applies to `--show` and to sheets. The "
+     "sheets of `compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), "
+     "one of the basic names (`black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
+     "`orange` and the other colour names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or "
+     "`transparent`.",
      .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
      .others = "bg background-color backdrop transparent", FIELD(picture.background)},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
      FIELD(picture.color_mode)},
     {"compress", 0, GROUP_PICTURE, "LEVEL", "fast", "The compression of PNG files: fast or best.",
-     "`best` writes a file that is about a third smaller, in a second or two for a million pixels; `fast` needs a few "
+     "`best` makes the file about a third smaller, but takes a second or two for a million pixels; `fast` takes a few "
      "milliseconds. The pixels are identical. Other formats ignore the option. `best` needs libdeflate, and the bytes "
-     "of the file depend on the version of libdeflate. With `fast` the bytes depend only on the picture.",
+     "of the file depend on the version of libdeflate. With `fast`, the bytes depend only on the picture.",
      compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress)},
     {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG; lossless WebP", "The quality of JPEG and WebP files, 1 to 100.",
-     "A lower number gives a smaller, less exact file. From 90 up, JPEG stores a colour for every pixel; below 90, one "
-     "for every four pixels. WebP is lossless at 100 and by default. Other formats ignore the option. The bytes depend "
-     "on the version of libjpeg-turbo or libwebp.",
+     "A lower number gives a smaller file of lower quality. At 90 and above, JPEG files store a colour for every "
+     "pixel; below 90, they store one colour for every four pixels. WebP is lossless at 100 and by default. Other "
+     "formats ignore the option. The bytes depend on the version of libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
      .max = 100},
     {"term", 0, GROUP_PICTURE, "METHOD", "auto",
-     "Also show the picture in the terminal, by this method; off disables it.",
-     "If the terminal can show pictures and `-o` is missing, a single picture appears above the line that names its "
-     "file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by "
-     "environment variables, and queries other terminals (for at most half a second). It reduces the picture to the "
-     "width of the window. With a value other than `auto`, the picture also appears if `-o` names a file with 8 bits "
-     "per channel. Lambent sends no picture if standard output is not a terminal, with `--json` or `--quiet`, or for "
-     "several models. `sixel` and `blocks` need libchafa (Debian's package `libchafa0`). `docs/terminal.md` lists the "
-     "terminals.",
+     "Also show the picture in the terminal, with this method; off disables it.",
+     "If the terminal can show pictures and `-o` is missing, Lambent shows a single picture above the line that names "
+     "its file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by "
+     "their environment variables, and queries other terminals (for at most half a second). It scales the picture down "
+     "to the width of the window. With a value other than `auto`, Lambent also shows the picture if `-o` names a file "
+     "with 8 bits per channel. Lambent shows no picture with `--json` or `--quiet`, with several models, or if "
+     "standard output is not a terminal. `sixel` and `blocks` need libchafa (Debian's package `libchafa0`). "
+     "`docs/terminal.md` lists the terminals.",
      term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,
      .others = "terminal sixel kitty preview inline", FIELD(picture.term)},
     {"durable", 0, GROUP_PICTURE, NULL, NULL, "Flush each picture and its folder to disk before continuing (fsync).",
      "After a power failure, the disk contains either the complete old picture or the complete new one. Without this "
-     "option, the system writes pictures to disk within seconds. Most file systems give the same guarantee.",
+     "option, the operating system writes pictures to disk within seconds, and most file systems give the same "
+     "guarantee.",
      .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
      "Brighten or darken the picture: 1 doubles the light, -1 halves it; or auto.",
      "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. This "
-     "includes `--color-mode raw`, float pictures and the light terms of `--show`. The background keeps its colour. "
-     "`auto` is the default if the picture uses the lights of a glTF file (candela, lux). It selects the exposure, in "
-     "thirds of a stop, so that 95 % of the covered pixels are no brighter than 0.8. Lambent reports the selected "
-     "value. `--exposure 0` keeps the light unchanged.",
+     "includes `--color-mode raw`, float pictures and the light terms of `--show`. The background keeps its colour. If "
+     "the picture uses the lights of a glTF file (candela, lux), the default is `auto`. With `auto`, Lambent selects "
+     "an exposure, in thirds of a stop, at which 95 % of the covered pixels are no brighter than 0.8. Lambent reports "
+     "the selected value. `--exposure 0` keeps the light unchanged.",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
      "with physical materials. For all other pictures, and with `--color-mode raw`, it selects `none`, which clips "
-     "light at 1. Floating-point pictures store the light without the curve. `docs/lighting/tone.md` has the formulas.",
+     "light at 1. Floating-point pictures store the light without the curve. For the formulas, see "
+     "`docs/lighting/tone.md`.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
      FIELD(draw.tone)},
     {"show", 0, GROUP_PICTURE, "QUANTITY", "the picture",
      "Show a term of the light, one light, or a surface quantity instead of the picture.",
-     "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. `light:key` is "
-     "the contribution of the light named key, `light:1` the contribution of the first light. `n.l` and `n.h` use the "
-     "first light that has a direction; `n.l:key` and `n.h:key` name another. The other names show surface quantities. "
-     "`all` writes the picture, every term and every light as layers of one `.exr` file. `.pfm` and `.exr` store the "
-     "values unchanged; 8-bit pictures encode them without the sRGB curve. `docs/show.md` has the complete table.",
+     "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. `light:key` shows "
+     "the contribution of the light named key, and `light:1` shows the contribution of the first light. `n.l` and "
+     "`n.h` use the first light that has a direction; `n.l:key` and `n.h:key` select another light. The other names "
+     "show surface quantities. `all` writes the picture, every term and every light as layers of one `.exr` file. "
+     "`.pfm` and `.exr` store the values unchanged; 8-bit pictures encode them without the sRGB curve. For the "
+     "complete table, see `docs/show.md`.",
      show_words, .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
      .others = "unlit pass aov channel layer debug term only", FIELD(picture.show)},
 
     {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that reproduces this picture.",
-     "The file stores every setting of the picture: the model's path relative to FILE, the camera, all lights (a rig's "
-     "included), materials, transforms and the picture's options. `lambent FILE` then draws the identical picture. "
-     "Lambent replaces an existing FILE. `docs/scene-file.md` describes the format.",
+     "The file stores every setting of the picture: the model's path relative to FILE, the camera, all lights "
+     "(including the lights of a rig), materials, transforms and picture options. `lambent FILE` then draws an "
+     "identical picture. Lambent overwrites FILE if it exists. `docs/scene-file.md` describes the format.",
      .kind = VALUE_FILE, .of_file = true, .store = store_text, .others = "export-scene write-scene",
      FIELD(picture.save_scene)},
 
@@ -356,26 +363,26 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_text, .others = "material-variant skin", FIELD(model.variant)},
     {"animation", 0, GROUP_MODEL, "NAME|N", "none",
      "The animation that poses a glTF model: its name, or its number from 0.",
-     "It poses nodes, morph target weights and skins at the time given by `--time`.", NULL, .store = store_text,
+     "Lambent poses nodes, morph target weights and skins at the time given by `--time`.", NULL, .store = store_text,
      .others = "anim clip action", FIELD(model.animation)},
     {"time", 0, GROUP_MODEL, "SECONDS", "0",
      "The time, in seconds, in the animation given by `--animation`, or in the file's first animation.",
-     "Times before the first keyframe show the first pose, and times after the last keyframe show the last pose.", NULL,
+     "Before the first keyframe, Lambent shows the first pose; after the last keyframe, it shows the last pose.", NULL,
      .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time), .min = -1e9,
      .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
-     "Without this option Lambent refuses such a file (exit 3), because the picture could be wrong without the "
-     "extension. "
-     "With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML prefixes in "
+     "Without this option, Lambent refuses such a file (exit 3), because the picture could be wrong without the "
+     "extension. With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML "
+     "prefixes in "
      "3MF files.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side to view the model from, or a list: front, back, left, right, top, bottom, iso or three-quarter.",
-     "By default the camera is 30 degrees to the right of the front and 20 degrees above. The model fills 92 % of the "
-     "picture's width or height, whichever limits it. `--azimuth` and `--elevation` override the angles of a "
-     "side.\n`render` "
-     "and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. Without a pattern in "
+     "By default, the camera is 30 degrees to the right of the front and 20 degrees above the horizon. The model fills "
+     "92 % of the picture's width or height, whichever limits it. `--azimuth` and `--elevation` override the angles of "
+     "a side.\n`render` and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. "
+     "Without a pattern in "
      "`-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
      view_words, .several = "views", .brief = "front, left, top, iso ...; or a list: front,left", .store = store_word,
      .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
@@ -402,95 +409,93 @@ struct option option_table[OPTIONS_MAX] = {
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
      "The camera and the lights attached to it follow the axis; the model's coordinates do not change. Lambent reads "
      "STL and 3MF files as Z up, as in CAD and 3D printing; other formats as Y up, except terrains in the xy plane. "
-     "Capitals and a plus sign (`+Z`) are accepted.",
+     "Lambent also accepts capital letters and a plus sign (`+Z`).",
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
-     "The axis is x, y or z of the scene; rotations apply in the given order. Lights do not move (except lights in the "
-     "model's frame), and radii refer to the model before the rotation. The camera is fitted to the model before the "
-     "rotation. If the model would leave the picture at any angle, the camera moves back, so that the model keeps its "
-     "size and position at every angle. All pictures of a sheet share this camera.",
+     "The axis is x, y or z of the scene; rotations apply in the given order. Lights do not move, except lights in the "
+     "model's frame. Radii refer to the model before the rotation. Lambent also fits the camera to the model before "
+     "the rotation. If the model would leave the picture at any angle, the camera moves back, so that the model has "
+     "the same size and position at every angle. All pictures of a sheet share this camera.",
      .brief = "rotate the model: y:30", .store = store_rotation, .others = "r rotation turn spin",
      FIELD(shading.rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
      "A camera: eye=x/y/z,target=x/y/z,fovy=30 and more keys; or a camera of the file, by name or number.",
-     "A value without `=` names a camera of the model's file (glTF), or gives its number from 0. Otherwise keys are "
-     "separated by commas and use the model's own coordinates: `eye` (required), `target` (default: the middle of the "
-     "model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30; alone it is `--fov`) or "
-     "`ortho` (parallel projection: model units from the picture's middle to its top), `near` and `far` (both or "
-     "neither; fitted by default). The option excludes `--view`, `--azimuth`, `--elevation`, `--zoom`, `--fov` and "
-     "`--projection`. `--json` reports the camera of any picture with these keys.",
+     "A value without `=` is the name of a camera in the model file (glTF), or its number, counted from 0. Otherwise "
+     "the value is a list of keys, separated by commas, in the model's own coordinates: `eye` (required), `target` "
+     "(default: the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30; "
+     "alone it is `--fov`) or `ortho` (parallel projection: model units from the picture's middle to its top), `near` "
+     "and `far` (both or neither; fitted by default). You cannot combine this option with `--view`, `--azimuth`, "
+     "`--elevation`, `--zoom`, `--fov` or `--projection`. `--json` reports the camera of any picture with these keys.",
      .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
      .min = FOV_MIN, .max = FOV_MAX},
 
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
      "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
      "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`, followed by a colon and keys separated by "
-     "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds to them, "
-     "and `none` removes all but the ambient light. With `--rig`, the rig's lights remain.\nPosition: `position=x/y/z` "
-     "is in the model's units or, with r after each number, in radii of the model's bounding sphere, from its centre "
-     "(default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a directional light that comes from there. "
-     "`direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` the point at which it aims. By "
-     "default a directional light travels along 0/0/-1, and a spot aims at the model's centre. "
-     "`frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the frame of the scene. "
-     "`camera` is the frame of the eye: x right, y up, looking along -z; a light without a position is at the eye. "
-     "`view` uses the axes of the eye, with the origin at the middle of the scene's box. `object` is the frame of the "
-     "model before `--rotate`, and `object:NAME` the frame of a named object.\nEmission: `color` times `intensity` (1) "
-     "is the diffuse and specular light; `ambient` (0), `diffuse` and `specular` set each separately. A colour is "
-     "`#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light uses `color` or `ambient` (0.2), a "
-     "hemisphere light `sky` (0.4), `ground` (0.1) and `up`.\nFalloff: `attenuation=a/b/c` is 1/(a + b d + c d^2). "
-     "With r after b and c, the distance d is in radii (`1/2.7r/5r`). `range` (also with r) is the distance beyond "
-     "which the light contributes nothing. A spot's cone is defined by `cutoff` (half angle in degrees, 45) and "
-     "`exponent`, or by the half angles `inner` and `outer`. `name` appears in reports.\n`lambent help lights` lists "
-     "all keys.",
+     "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds a light "
+     "to them, and `none` removes all lights except ambient light. If you also give `--rig`, the lights of the rig are "
+     "kept.\nPosition: `position=x/y/z` is in the model's units or, with r after each number, in radii of the model's "
+     "bounding sphere, from its centre (default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a "
+     "directional light that shines from this direction. `direction=x/y/z` is the direction in which the light "
+     "travels, and `target=x/y/z` is the point at which it aims. By default, a directional light travels along 0/0/-1, "
+     "and a spot aims at the model's centre. `frame=world|camera|view|object|object:NAME` selects the coordinate "
+     "frame. `world` is the frame of the scene. `camera` is the frame of the eye: x right, y up, looking along -z; a "
+     "light without a position is at the eye. `view` uses the axes of the eye, with the origin at the middle of the "
+     "scene's box. `object` is the frame of the model before `--rotate`, and `object:NAME` is the frame of a named "
+     "object.\nEmission: `color` times `intensity` (1) is the diffuse and specular light; `ambient` (0), `diffuse` and "
+     "`specular` set each separately. A colour is `#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light "
+     "uses `color` or `ambient` (0.2), a hemisphere light `sky` (0.4), `ground` (0.1) and `up`.\nFalloff: "
+     "`attenuation=a/b/c` is 1/(a + b d + c d^2). With r after b and c, the distance d is in radii (`1/2.7r/5r`). "
+     "`range` (also with r) is the distance beyond which the light contributes nothing. The cone of a spot is given by "
+     "`cutoff` (half angle in degrees, 45) and `exponent`, or by the half angles `inner` and `outer`. `name` appears "
+     "in reports.\n`lambent help lights` lists all keys.",
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... replace the studio", .store = store_light,
      .others = "l lamp sun spot point directional lighting", FIELD(lighting.lights)},
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
      "A named set of options: studio, classic, catalog, technical, or your own file.",
      "A look is a file with one option per line. Options on the command line override options of the look; a rig or "
      "lights on the command line replace its lights. `lambent looks` lists the built-in looks. `lambent looks catalog` "
-     "prints the file of a look, which you can copy and change.",
+     "prints a look's file, which you can copy and edit.",
      look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, default, file, none or auto.",
-     "A named rig replaces the model's own lights. `docs/lighting/lights.md` lists the lights of each rig.", rig_words,
-     .brief = "a set of lights: studio, headlight, three-point ...", .store = store_word,
+     "Every rig except `auto` and `file` replaces the model's own lights. `docs/lighting/lights.md` lists the lights "
+     "of each rig.",
+     rig_words, .brief = "a set of lights: studio, headlight, three-point ...", .store = store_word,
      .others = "lights light-setup studio headlight", FIELD(lighting.rig),
      .has_field = offsetof(struct options, lighting.has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
      .kind = VALUE_COLOR, .store = store_opaque_color, .others = "ambient-light", FIELD(lighting.ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
-     "Draw a marker at each light: a ball, and a cone along the light's direction.",
+     "Draw a marker at each light: a ball, with a cone in the light's direction.",
      "The marker of a directional light is one and a half radii from the model's centre. Each marker has the colour of "
      "its light. The markers do not change the camera. Lambent reports markers outside the picture.",
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
      "With more than 16 lights, Lambent skips the weakest lights in each part of the picture. Together, the skipped "
-     "lights can change a channel by at most this share of its range. The default is half a step of an 8-bit "
-     "channel (0.5/255): no byte changes by more than 1. Lambent always skips lights that contribute nothing: behind "
-     "the surface, out of range or outside their cone.",
+     "lights can change a channel by at most this share of its range. The default is half a step of an 8-bit channel "
+     "(0.5/255), so no byte changes by more than 1. Lambent always skips lights that contribute nothing, because they "
+     "are behind the surface or out of range, or because the surface is outside their cone.",
      .words = NULL},
     {"ao", 0, GROUP_LIGHTS, "METHOD", NULL, NULL,
      "A recess receives less light from its surroundings than an open face. Occlusion dims ambient, hemisphere and "
      "environment light. It also dims lights whose key `occluded` is above 0, such as the studio's lights. Ambient "
-     "occlusion needs Phong shading. `docs/lighting/occlusion.md` has the "
-     "formulas.",
+     "occlusion requires Phong shading. For the formulas, see `docs/lighting/occlusion.md`.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
      "Cavity shading makes letters, holes, seams and wrinkles visible. It measures valleys and ridges at a small "
-     "radius. It affects the same light as `--ao`. `--show ao --ao off --cavity on` "
-     "shows its effect.",
+     "radius. It affects the same light as `--ao`. To see its effect alone, use `--show ao --ao off --cavity on`.",
      .others = "curvature ridges valleys no-cavity"},
     {"specular-aa", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "Specular antialiasing. Where the normals of the mesh or of a normal map vary within a pixel, highlights become "
-     "jagged "
-     "streaks that flicker. With this option the roughness grows there (docs/lighting/physical.md).",
+     "This option enables specular antialiasing. If the normals of a mesh or of a normal map vary within a pixel, "
+     "highlights become jagged streaks that flicker. Specular antialiasing increases the roughness of such pixels "
+     "(`docs/lighting/physical.md`).",
      .others = "specular-antialiasing toksvig glitter fireflies no-specular-aa"},
     {"brighten", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "A black model needs more light than a white one, or only its outline is visible. The studio is brighter, by up "
-     "to 2.5 stops, if the "
-     "base colours of a model file are dark. `--exposure 0`, `--color` and `--material` switch this off. "
-     "`docs/lighting/tone.md` has the rule.",
+     "A black model needs more light than a white one; otherwise only its outline is visible. If the base colours of a "
+     "model file are dark, Lambent brightens the studio by up to 2.5 stops. `--exposure 0`, `--color` and `--material` "
+     "disable this. For the rule, see `docs/lighting/tone.md`.",
      .others = "auto-exposure dark-models"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
     {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},
@@ -502,12 +507,12 @@ struct option option_table[OPTIONS_MAX] = {
      "The value is a material name from the classic table (with sRGB colours), keys separated by commas, or a name "
      "followed by keys (`gold,shininess=80`). Under the default lights, `brass`, `bronze`, `chrome`, `copper`, `gold` "
      "and `silver` without keys are physical metals that reflect the studio. `glass` is clear glass (`lambent help "
-     "glass`). Properties without a key keep the model's "
-     "values. `lambent help materials` lists the keys (a colour is `#rrggbb`, a name, `r/g/b` or one number). `color` "
-     "sets ambient and diffuse; `specular_color` sets specular. The factors `ka`, `kd`, `ks` and `kr` multiply "
-     "ambient, diffuse, specular and mirrored light (`kr` multiplies the specular colour, white by default).\n`@NAME` "
-     "limits the option to the objects of that name, or else to the parts (OBJ groups, STL solids), or else to the "
-     "model's materials: `ruby@handle`. If several options match a surface, the last one wins.",
+     "glass`). Properties that you do not list keep the model's values. `lambent help materials` lists the keys (a "
+     "colour is `#rrggbb`, a name, `r/g/b` or one number). `color` sets ambient and diffuse; `specular_color` sets "
+     "specular. The factors `ka`, `kd`, `ks` and `kr` multiply ambient, diffuse, specular and mirrored light (`kr` "
+     "multiplies the specular colour, white by default).\n`@NAME` limits the option to the objects of that name, or "
+     "else to the parts (OBJ groups, STL solids), or else to the model's materials: `ruby@handle`. If several options "
+     "match a surface, the last one wins.",
      .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
      .others = "m mat specular diffuse", FIELD(material.materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
@@ -518,19 +523,20 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "c paint tint albedo model-color mesh-color surface-color", FIELD(material.model_color),
      .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
-     "The material of back faces, as in `--material`; properties without a key are copied from the front.", NULL,
+     "The material of back faces, written as for `--material`; unlisted properties are copied from the front.", NULL,
      .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
-     "NAME selects the objects of that name, or else the parts (OBJ groups, STL solids), or else the surfaces of the "
-     "material of that name. They are neither drawn nor cast shadows. `lambent view` and the web page list the names.",
+     "NAME selects the objects of that name, or else the parts (OBJ groups, STL solids), or else the surfaces with the "
+     "material of that name. Lambent does not draw them, and they cast no shadows. `lambent view` and the web page "
+     "list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
-    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 sharp.",
-     "It replaces the shininess of every material, including materials set by `--material`.", .store = store_number,
-     .others = "gloss glossiness specular-exponent exponent", FIELD(material.shininess),
+    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 is sharp.",
+     "The value replaces the shininess of every material, including materials set by `--material`.",
+     .store = store_number, .others = "gloss glossiness specular-exponent exponent", FIELD(material.shininess),
      .has_field = offsetof(struct options, material.has_shininess), .min = 0, .max = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
-     "It replaces the opacity of every material, including materials set by `--material`. The alpha of vertex colours "
-     "still multiplies it.",
+     "The value replaces the opacity of every material, including materials set by `--material`. The alpha of vertex "
+     "colours still multiplies it.",
      .store = store_number, .others = "alpha transparency translucency", FIELD(material.opacity),
      .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
 
@@ -541,62 +547,64 @@ struct option option_table[OPTIONS_MAX] = {
     {"stage", 0, GROUP_SHADING, "STAGE", "fragment", NULL,
      "Without `--shading`, `application` and `vertex` imply Gouraud shading, and `fragment` implies Phong shading. "
      "`flat` works with all three stages, `gouraud` with `application` and `vertex`, and `phong` with `fragment`. On "
-     "the CPU all stages of a shading method draw identical pictures.",
+     "the CPU, a shading method draws the same picture at every stage.",
      .others = "per-vertex per-pixel per-fragment"},
     {"flat-normal", 0, GROUP_SHADING, "SOURCE", .words = NULL},
     {"viewer", 0, GROUP_SHADING, "KIND", .words = NULL},
     {"match-highlights", 0, GROUP_SHADING, NULL, .words = NULL},
     {"single-scattering", 0, GROUP_SHADING, NULL, NULL, NULL,
-     "Rough metals are then darker, as in renderers that omit this term.", .words = NULL},
+     "Rough metals then look darker, as in renderers that omit this term.", .words = NULL},
     {"reference", 0, GROUP_SHADING, "N", NULL, NULL,
-     "By default Lambent approximates environment light by the split sum. This option integrates it numerically, for "
+     "By default, Lambent approximates environment light by the split sum. This option integrates it numerically, for "
      "comparison. With 1024 directions most results are within 0.5 % of the exact integral, with 4096 within 0.2 %. "
      "The directions are the same at every point and on every machine. CPU only.",
      .others = "ground-truth importance-samples"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "
-     "hemisphere light and the environment cast no shadows. A light with a `radius` has soft shadows. "
-     "`docs/lighting/shadows.md` describes the method and well-known shadow errors.",
+     "hemisphere light and the environment cast no shadows. A light with a `radius` casts soft shadows. "
+     "`docs/lighting/shadows.md` describes the method and common shadow errors.",
      .others = "shadow cast-shadows raytrace shadow-map"},
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
-     "Lights then cast shadows on the ground and on the model. A `shadow` ground shows only the shadows, over any "
-     "background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to "
-     "the up axis (`--up`) and fades out with distance. It is invisible from below. A ground needs Phong shading. "
-     "`docs/lighting/ground.md` has pictures.",
+     "Lights then cast shadows on the ground plane and on the model. The kind `shadow` draws only the shadows, over "
+     "any background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to the "
+     "up axis (`--up`) and fades out with distance. It is invisible from below. A ground plane requires Phong shading. "
+     "For pictures, see `docs/lighting/ground.md`.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
     {"shadow-samples", 0, GROUP_SHADING, "N", NULL, NULL,
-     "The fraction of unblocked rays is the brightness of the light at that point. Above 48, points in full light or "
-     "full shadow use only 48 rays. Fewer rays are faster but cause visible banding.",
+     "The fraction of unblocked rays is the brightness of the light at that point. If you request more than 48 rays, "
+     "points in full light or full shadow still use only 48 rays. Fewer rays are faster but cause visible banding.",
      .others = "soft-shadow-samples light-samples"},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, NULL,
      "Lambent omits edges behind surfaces (see `--hidden-lines`) and edges that split polygons of OBJ and PLY files "
-     "into triangles. `--surfaces off` draws only the lines. Lines are smooth for every number of `--samples`. Light, "
-     "exposure, tone curve and distance do not affect their colour and width. `docs/edges.md` has pictures.",
+     "into triangles. `--surfaces off` draws only the lines. Lines are smooth with any value of `--samples`. Light, "
+     "exposure, tone curve and distance do not affect the colour and width of lines. For pictures, see "
+     "`docs/edges.md`.",
      .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
     {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .others = "wire-width"},
-    {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "With an alpha below 1 the surfaces show through.",
+    {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "If the alpha is below 1, the surfaces show through.",
      .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
-     "At a `crease`, two faces meet at more than `--edge-angle`, or more than two faces meet. At a `boundary`, a "
-     "surface ends. At a `silhouette`, one face of the edge is front-facing and the other is back-facing. `--edges all "
-     "--surfaces off` is a technical drawing.",
+     "At a `crease` edge, two faces meet at an angle larger than `--edge-angle`, or more than two faces meet. A "
+     "`boundary` edge belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing "
+     "face. `--edges all --surfaces off` makes a technical drawing.",
      .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", .others = "feature-angle sharp-angle"},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", .others = "outline-width"},
     {"edge-color", 0, GROUP_SHADING, "COLOR", "black", NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
      .others = "outline-color", FIELD(shading.edge_color)},
     {"hidden-lines", 0, GROUP_SHADING, "STYLE", NULL, NULL,
-     "Rays from each edge to the eye decide exactly whether the edge is hidden, so that lines along a surface show no "
-     "gaps. A surface hides the lines behind it if its opacity is at least 0.5; glass hides nothing.",
+     "Lambent traces rays from each edge to the eye to determine exactly whether the edge is hidden, so lines along a "
+     "surface have no gaps. A surface hides the lines behind it if its opacity is at least 0.5; glass hides nothing.",
      .others = "hidden-line dashed see-through xray x-ray"},
-    {"surfaces", 0, GROUP_SHADING, "SWITCH", NULL, NULL, "Surfaces that are not drawn still hide lines.",
+    {"surfaces", 0, GROUP_SHADING, "SWITCH", NULL, NULL,
+     "With `off`, the invisible surfaces still hide the lines behind them.",
      .others = "faces lines-only no-surfaces hide-surfaces"},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
-     "Use it for comparison with old programs. Lambent then clamps vertex colours to 0...1 before interpolation, and "
-     "limits the shininess to 128. It also attenuates the ambient light of each light and limits it to the light's "
-     "cone.",
+     "Use this option for comparison with old programs. Lambent then clamps vertex colours to 0...1 before "
+     "interpolation, and limits the shininess to 128. It also attenuates the ambient light of each light and limits it "
+     "to the light's cone.",
      .words = NULL},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, for every material.", NULL,
      .store = store_switch, FIELD(shading.two_sided)},
@@ -614,17 +622,17 @@ struct option option_table[OPTIONS_MAX] = {
      .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "Segments of a built-in shape, such as 64x32: slices around the axis, and stacks along it.",
-     "With `--parametric`, N is the number along u and M the number along v; N alone sets both. N is 3 to 16384; "
-     "`lambent shapes` describes the segments of each shape. The default of M depends on the shape. `gyroid`, "
-     "`metaballs` and `--implicit` accept only N, at most 1024 cells.",
+     "With `--parametric`, N is the number of segments along u and M is the number along v; N alone sets both. N is 3 "
+     "to 16384; `lambent shapes` describes the segments of each shape. The default of M depends on the shape. "
+     "`gyroid`, `metaballs` and `--implicit` accept only N, at most 1024 cells.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
-     "The surroundings that shiny surfaces reflect: an image, six faces, sky or studio.",
+     "The environment that shiny surfaces reflect: an image, six faces, sky or studio.",
      "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, TGA, PPM, "
-     "PFM, EXR or Radiance (.hdr). Six faces are files separated by commas in OpenGL's order, `px,nx,py,ny,pz,nz`, all "
-     "square and of the same size. `sky` and `studio` are built in. For a file named `sky`, write `./sky`. Classic "
-     "materials reflect the environment only if they have a reflectivity (see `--reflectivity`). "
-     "`docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
+     "PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in OpenGL's order: "
+     "`px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are built in. To use a "
+     "file named `sky`, write `./sky`. Classic materials reflect the environment only if they have a reflectivity (see "
+     "`--reflectivity`). `docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
@@ -636,12 +644,11 @@ struct option option_table[OPTIONS_MAX] = {
      .has_field = offsetof(struct options, material.has_reflectivity), .max = 1000},
 
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
-     "The model rotates about its up axis in equal steps, counter-clockwise from above; frame k is identical to a "
-     "picture with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and exposure. By "
-     "default, and with a name that "
-     "ends in `.png` or `.webp`, Lambent writes all frames to one animated PNG or WebP that loops forever. With "
-     "`{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a separate file, in any format. "
-     "`docs/animation.md` has examples.",
+     "The model rotates about its up axis in equal steps, counter-clockwise as seen from above. Frame k is identical "
+     "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
+     "exposure. By default, and with a name that ends in `.png` or `.webp`, Lambent writes all frames to one animated "
+     "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a "
+     "separate file, in any format. For examples, see `docs/animation.md`.",
      .store = store_integer, .others = "spin turnaround orbit rotate360 animate gif apng", FIELD(animation.turntable),
      .min = 2, .max = 100000},
     {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
@@ -656,12 +663,13 @@ struct option option_table[OPTIONS_MAX] = {
      "its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first light that "
      "has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in degrees), "
      "`intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light comes, in "
-     "its own frame, like the camera's angles: 0 is the front, 90 the right. `time` is the time of a glTF file's "
-     "animation; without numbers, it covers the whole length.\nYou can give more stops: `light.elevation=10..80..10`. "
-     "If a sweep ends as it begins (after a whole turn, for example), its last frame is one step before the end, so "
-     "the loop is seamless. You can combine several sweeps, also with `--turntable`. Lambent fits the camera once, to "
-     "the first frame. For `azimuth` and `elevation`, the camera keeps one distance; for `time`, it fits the boxes of "
-     "all frames. Only `zoom` and `fov` change the camera between frames.",
+     "the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. `time` is the time in a "
+     "glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can give more stops: "
+     "`light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole turn, the last frame is "
+     "one step before the end, so that the loop is seamless. You can combine several sweeps, also with `--turntable`. "
+     "Lambent fits the camera once, to the first frame. For `azimuth` and `elevation`, the distance of the camera is "
+     "constant. For `time`, the camera fits the bounding boxes of all frames. Only `zoom` and `fov` change the camera "
+     "between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
     {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames in a sweep.",
@@ -678,8 +686,8 @@ struct option option_table[OPTIONS_MAX] = {
      "does not support (exit 3).",
      isa_words, .store = store_word, .others = "simd instruction-set", FIELD(work.isa)},
     {"device", 0, GROUP_WORK, "NAME", "auto", "The device that draws: cpu, gl, gles or auto.",
-     "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If it is unavailable, the error states the "
-     "reason (exit 3). Lambent does not switch to another device. `lambent devices` lists the devices.",
+     "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If OpenGL is unavailable, the error message "
+     "states the reason (exit 3). Lambent does not switch to another device. `lambent devices` lists the devices.",
      device_words, .store = store_word, .others = "d gpu cpu backend renderer engine opengl gl", FIELD(work.device)},
     {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable", "The OpenGL device, by number or part of its name.",
      "`lambent devices` lists the numbers, hardware before software.", .store = store_text, FIELD(work.gl_device)},
@@ -687,30 +695,31 @@ struct option option_table[OPTIONS_MAX] = {
      "How OpenGL filters textures: exact (in the shader) or hardware.",
      "Graphics cards round the weights of their filters, mostly to 1/256, and approximate the level of detail. "
      "`hardware` is therefore faster and less exact (`docs/opengl.md`). The CPU device is always exact and rejects "
-     "`hardware`. With the command `shader`, the option selects how the printed shaders read textures.",
+     "`hardware`. In the `shader` command, the option selects how the printed shaders read textures.",
      texture_filter_words, .store = store_word, .others = "texture-filtering texturefilter",
      FIELD(work.texture_filter)},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median time.", NULL, .store = store_integer,
      .others = "iterations benchmark bench", FIELD(work.repeat), .min = 1, .max = 100000},
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
-     "Stop if a model needs more memory than this, for example 500M or 2Gi (exit 4).",
+     "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
      "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
-     "counts memory before it allocates it. The default is a quarter of the available memory, divided by the number of "
+     "counts memory before allocating it. The default is a quarter of the available memory, divided by the number of "
      "models drawn at the same time. The available memory is the smallest of the machine's memory, the limits of "
      "control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and T are "
-     "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. For "
-     "`check`, it limits the process that draws a shader.",
+     "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the process "
+     "that draws a shader.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
      "The limit applies to the elapsed time for reading, drawing and writing each model. Multiplied by the number of "
      "threads (`--threads`), it also limits the processor time. Lambent stops within half a second after the limit. In "
-     "an animation the default applies to each frame; a limit that you set applies to all frames together.",
+     "an animation, the default applies to each frame; a limit that you set applies to all frames together.",
      .store = store_seconds, .others = "timeout", FIELD(limits.time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
     {"triangle-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a model has more triangles than this (exit 4).",
-     "Lines and points count as triangles. Each object adds the number of triangles of its mesh. The default is 50 "
-     "million plus 100 per byte of the model's files, at most 200 million. k, M and G are powers of 1000.",
+     "Lines and points count as triangles. Each object counts with all triangles of its mesh, even if several objects "
+     "share the mesh. The default is 50 million plus 100 per byte of the model's files, at most 200 million. k, M and "
+     "G are powers of 1000.",
      .store = store_count, .others = "max-triangles polygon-limit vertex-limit", FIELD(limits.triangle_limit),
      .max = 2147483647},
     {"object-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
@@ -719,16 +728,15 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "max-objects instance-limit max-instances node-limit", FIELD(limits.object_limit), .max = 2147483647},
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a picture has more layers per pixel than this, on average (exit 4).",
-     "A layer is a translucent or masked surface over a pixel. Each of these also counts as one layer: 32 lights on a "
-     "point, 32 opaque surfaces one behind the other, and environment light on a surface. The default is 40 plus one "
-     "per "
-     "16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as 65536 pixels. The OpenGL "
-     "devices ignore this limit.",
+     "A layer is a translucent or masked surface that covers a pixel. Each of these also counts as one layer: 32 "
+     "lights on a point, 32 opaque surfaces one behind the other, and environment light on a surface. The default is "
+     "40 plus one per 16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as 65536 pixels. "
+     "The OpenGL devices ignore this limit.",
      .store = store_count, .others = "max-layers overdraw-limit", FIELD(limits.layer_limit), .max = 2147483647},
     {"expansion-limit", 0, GROUP_LIMITS, "N", "2000",
      "Stop if a model needs more memory than N times the size of its files plus 500 MB (exit 4).",
-     "A small file can expand to much memory, for example by compressed textures or meshes. This option limits the "
-     "expansion. `--memory-limit` limits memory independently of the file size.",
+     "A small file with compressed textures or meshes can expand to a large amount of memory. This option limits the "
+     "expansion relative to the file size. `--memory-limit` sets an absolute limit.",
      .store = store_count, .others = "ratio-limit compression-limit bomb", FIELD(limits.expansion_limit),
      .max = 2147483647, .single = TAKES_PICTURE_LIMITS},
     {"pixel-limit", 0, GROUP_LIMITS, "N", "400M",
@@ -737,15 +745,15 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_count, .others = "max-pixels texture-limit image-limit", FIELD(limits.pixel_limit),
      .max = 4294836225, .single = TAKES_PICTURE_LIMITS},
     {"file-limit", 0, GROUP_LIMITS, "BYTES", "32G", "Reject files larger than this (exit 4).",
-     "The limit applies separately to the model file and to each file that the model names.", .store = store_bytes,
+     "The limit applies separately to the model file and to each file that it refers to.", .store = store_bytes,
      .others = "max-file-size file-size-limit", FIELD(limits.file_limit_bytes), .single = TAKES_PICTURE_LIMITS},
     {"json-depth-limit", 0, GROUP_LIMITS, "N", "256",
      "Reject JSON (glTF and scene files) with deeper nesting than this (exit 4).", NULL, .store = store_integer,
      .others = "max-depth nesting", FIELD(limits.json_depth_limit), .min = 1, .max = 2000},
-    {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Allow a scene file to name only files in its own folder.",
-     "Use this option for scene files from strangers. All models and pictures must then be in the scene file's folder "
-     "or below it, after links and `..` are resolved. A scene file then cannot show other files. Files that a model "
-     "names (MTL) must always be in the model's folder. Files named on the command line may be anywhere.",
+    {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Allow a scene file to refer only to files in its own folder.",
+     "Use this option for scene files from untrusted sources. All models and pictures must then be in the scene file's "
+     "folder or below it, after Lambent resolves links and `..`. Files that a model refers to, such as MTL files, must "
+     "always be in the model's folder. Files given on the command line may be anywhere.",
      .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
      "Drop all privileges that reading files does not need: auto, require or off.",
@@ -756,15 +764,17 @@ struct option option_table[OPTIONS_MAX] = {
      "missing (exit 3), and restricts scene files to their own folder (`--files-inside`) and `--allow-path`. `-v`, "
      "`--json` and `--version` report the methods in use. The sandbox applies to commands that read models or "
      "pictures. `check` and OpenGL need privileges for their drivers; with `auto` they run without a sandbox. With "
-     "`auto`, a scene file (`.json`) may name files anywhere, unless `--files-inside` or `--allow-path` is given.",
+     "`auto`, a scene file (`.json`) may refer to files in any folder, unless you give `--files-inside` or "
+     "`--allow-path`.",
      sandbox_words, .store = store_word, .others = "seccomp landlock jail", FIELD(limits.sandbox),
      .single = TAKES_PICTURE_LIMITS},
-    {"allow-path", 0, GROUP_LIMITS, "DIR", NULL, "Allow models to read this file, or files in this folder; repeatable.",
-     "By default a model may read files only in its own folder. For textures in `../textures` give `--allow-path "
-     "../textures`. Scene files with `--files-inside`, and links in the folders of `batch`, may also point to the "
-     "allowed folder. The sandbox allows reading it. With `--jobs`, all files that jobs name must be in an allowed "
-     "folder; models still read only their own folders. Pages (`-o FILE.html`) and `view` never include files from "
-     "other folders.",
+    {"allow-path", 0, GROUP_LIMITS, "DIR", NULL,
+     "Allow models to use this file, or the files in this folder; repeatable.",
+     "By default, a model may use only the files in its own folder. If its textures are in `../textures`, add "
+     "`--allow-path ../textures`. Scene files with `--files-inside`, and links in the folders of `batch`, may then "
+     "also point to the allowed folder, and the sandbox permits reading it. With `--jobs`, all files named in jobs "
+     "must be in an allowed folder, but models can still use only the files in their own folders. Pages (`-o "
+     "FILE.html`) and `view` never include files from other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
@@ -777,21 +787,21 @@ struct option option_table[OPTIONS_MAX] = {
      "ignored. In `batch`, `@FILE` has the same effect.",
      .kind = VALUE_FILE, .store = store_list, .others = "input-list filelist models-from", FIELD(batch.lists),
      .single = TAKES_MANY},
-    {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl beside the pictures",
+    {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl in the folder of the pictures",
      "Write a line of JSON for each picture that succeeds or fails.",
-     "A line contains the model, the picture, the outcome (`class`, `exit`, `error`), the milliseconds of each step, "
-     "the triangles and the warnings. It also contains the picture's size in bytes and hash, the files read with their "
-     "hashes, and the key of `--skip-same`. Lambent writes the line after the picture is complete. `none` writes no "
-     "journal. `docs/batch.md` describes every field.",
+     "A line records the model, the picture, the result (`class`, `exit`, `error`), the duration of each step in "
+     "milliseconds, the number of triangles and the warnings. It also records the size of the picture in bytes, the "
+     "picture's hash, a hash for each file that Lambent read, and the key for `--skip-same`. Lambent writes the line "
+     "after the picture is complete. `none` writes no journal. `docs/batch.md` describes every field.",
      .kind = VALUE_FILE, .store = store_text, .others = "log record", FIELD(batch.journal)},
     {"resume", 0, GROUP_BATCH, NULL, NULL, "Resume: skip pictures that the journal lists as done.",
-     "Without a journal, Lambent draws everything, so the same command starts and resumes a run. Lambent refuses to "
-     "resume if the options of the picture differ from the journal's. If a run was killed, it first repeats the models "
-     "that were in progress, each in a process of its own.",
+     "Without a journal, Lambent draws everything, so you can use the same command to start and to resume a run. "
+     "Lambent refuses to resume if the picture options differ from those in the journal. If a run was killed, Lambent "
+     "first repeats the models that were in progress, each in a separate process.",
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
     {"retry-failed", 0, GROUP_BATCH, "N", "0", "Retry a picture that failed, at most N times.",
-     "Retries run at the end, and with `--resume` also for failures of earlier runs; each line of the journal counts "
-     "as one attempt. At the end Lambent lists the models that still fail.",
+     "Lambent retries at the end of the run. With `--resume`, it also retries failures of earlier runs. Each line of "
+     "the journal counts as one attempt. At the end Lambent lists the models that still fail.",
      .store = store_integer, .others = "retries retry attempts", FIELD(batch.retry_failed), .max = 1000},
     {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
      "Exit with 0 even if models fail, provided that the journal records each result.",
@@ -801,65 +811,66 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
      .single = TAKES_MANY},
     {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Skip pictures whose files and options match the journal.",
-     "A picture is skipped if its hash and its key match the journal. The key is a hash of all files that Lambent "
-     "looked for to read the model (including textures and material libraries), of all options with their defaults, "
-     "and of the program's version.",
+     "Lambent skips a picture if its hash and its key match the journal. The key is a hash of three inputs: all files "
+     "that Lambent looked for while reading the model (including textures and material libraries), all options with "
+     "their defaults, and the program's version.",
      .store = store_switch, .others = "incremental update changed newer cache", FIELD(batch.skip_same)},
     {"isolate", 0, GROUP_BATCH, NULL, NULL, "Draw each model in a separate process.",
      "If a model crashes the process or exhausts the memory, only that model fails. The journal records the class "
      "`crashed`, and the run continues.",
      .store = store_switch, .others = "process fork sandbox-process", FIELD(batch.isolate), .single = TAKES_MANY},
     {"shard", 0, GROUP_BATCH, "K/N", "1/1",
-     "Draw the K-th of N parts of the models (from 1); other machines draw the others.",
-     "A model's part depends only on its path: a new model does not move the others. `auto` takes K and N from "
+     "Draw only part K of N of the models, counted from 1; other machines draw the other parts.",
+     "A model's part depends only on its path, so adding a model does not move other models. `auto` takes K and N from "
      "SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and their counts; `auto/N` takes K from these variables or from "
      "JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent draws nothing. Without this option "
-     "it ignores them. The journal and the page of each part have separate names: `lambent-2-of-4.jsonl` "
+     "it ignores them. Each part writes its own journal and page, with names such as `lambent-2-of-4.jsonl` "
      "(`docs/batch.md`). `lambent journal` summarises them.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
-    {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or list.",
+    {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or by list.",
      "With `name` each shard reads all names, which takes a second or two for a million. With `list`, it reads only "
-     "the K-th of N equal parts of one list (`@FILE`). The models must be sorted by the names of their pictures "
-     "(`LC_ALL=C sort`), so that no two pictures share a name. If the list changes, models move to other shards, and "
-     "`--resume` refuses to continue.",
+     "the K-th of N equal parts of one list (`@FILE`). The list must be sorted by the names of the pictures (`LC_ALL=C "
+     "sort`), so that Lambent can check that no two pictures share a name. If the list changes, models move to other "
+     "shards, and `--resume` refuses to continue.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
-    {"jobs", 0, GROUP_BATCH, "-", NULL,
-     "`batch`: Read jobs, one line of JSON each, and answer each with a line of JSON.",
-     "For servers, one process draws all jobs until its standard input ends (`docs/worker.md`). A job has an `id`, a "
-     "`model` or its bytes, `options`, and an `output`. Without `output` the answer contains the picture. Files are "
-     "read and written only below the folders of `--allow-path`. The options of the command line apply to every job; a "
-     "job's own options are added after them. A file or a pipe can replace `-`.",
+    {"jobs", 0, GROUP_BATCH, "-", NULL, "`batch`: Read one JSON job per line, and answer each job with a line of JSON.",
+     "For servers: one process draws all jobs until its standard input ends (`docs/worker.md`). A job contains an "
+     "`id`, a `model` or its bytes, `options`, and an `output`. Without `output`, the answer contains the picture. "
+     "Lambent reads and writes files only inside the folders given with `--allow-path`. The options on the command "
+     "line apply to every job; Lambent adds a job's own options after them. Instead of `-`, you can give a file or a "
+     "pipe.",
      .kind = VALUE_FILE, .store = store_jobs, .others = "worker server daemon serve", FIELD(batch.jobs)},
     {"ahead", 0, GROUP_BATCH, "N", "twice the number of models drawn at once",
-     "The largest number of waiting jobs; at this number Lambent stops reading lines.", NULL, .store = store_integer,
+     "The maximum number of waiting jobs; at this number Lambent stops reading lines.", NULL, .store = store_integer,
      .others = "queue backlog queue-length", FIELD(batch.ahead), .min = 1, .max = 100000},
     {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The longest line of `--jobs`; longer lines are errors.",
      "A line can include the bytes of a model. Base64 needs four bytes for every three bytes of the model. The models "
      "of waiting jobs use at most twice this limit.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write a page of all pictures, failures first.",
-     "Lambent writes the thumbnails to the folder FILE-files beside it. The page needs no other file and no network.",
+     "Lambent writes the thumbnails to the folder FILE-files next to the page. Apart from these, the page needs no "
+     "other files and no network.",
      .kind = VALUE_FILE, .store = store_text, .others = "contact-sheet html gallery page", FIELD(batch.report_page),
      .single = TAKES_REPORT},
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "Lambent prints the report to standard output, instead of the line with the file's name. If the picture goes to "
      "standard output, Lambent prints the report, and nothing else, to standard error. It also prints a report on "
-     "failure. The schema is `docs/report.schema.json`. For `compare` the report contains the caption of each picture "
+     "failure. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption of each picture "
      "and the options that draw the picture.",
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,
-     "Print the pictures that the command would draw and write, without writing anything.",
+     "Print the pictures that the command would draw and write, but write nothing.",
      "Lambent reads and checks the models and the options, and checks whether it can write each picture. It draws "
-     "nothing. For each model it prints the picture with its size, whether it replaces a file, the camera, the device "
-     "and the options of the command line. With `--json` the report contains `planned` in place of `image`. It reports "
-     "the same errors, with the same exit codes, as the real command.",
+     "nothing. For each model, Lambent prints the name and size of the picture, whether the picture would overwrite a "
+     "file, the camera, the device and the options on the command line. With `--json`, the report contains `planned` "
+     "instead of `image`. Errors and exit codes are the same as without `--dry-run`.",
      .store = store_switch, .others = "plan simulate no-write preview what-if check-only", FIELD(report.dry_run)},
     {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Print the files read and the duration of each step to standard error.",
      NULL, .store = store_switch, FIELD(report.verbose)},
-    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print nothing but errors.", NULL, .store = store_switch,
-     .others = "silent", FIELD(report.quiet), .single = TAKES_QUIET},
+    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print only errors.", NULL, .store = store_switch, .others = "silent",
+     FIELD(report.quiet), .single = TAKES_QUIET},
 
     {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
      "The largest allowed difference of a channel, in steps of 1/255; above it the exit code is 6.", NULL,
@@ -867,61 +878,65 @@ struct option option_table[OPTIONS_MAX] = {
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "Amplify the difference picture by this factor.", NULL,
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
 
-    {"check", 0, GROUP_HASH, "FILE", NULL, "Compare with the hashes in FILE; the exit code is 6 if they differ.",
-     "Lambent lists models that changed, new models, and missing models (listed in the file, but not given). If you "
-     "name no models, Lambent draws the models listed in the file. If the file records another version or other "
-     "options, Lambent first reports this.",
+    {"check", 0, GROUP_HASH, "FILE", NULL,
+     "Compare the pictures with the hashes in FILE; if they differ, the exit code is 6.",
+     "Lambent lists changed models, new models, and missing models (models in FILE that you did not give). If you give "
+     "no models, Lambent draws the models listed in FILE. If FILE was made with another version or with other options, "
+     "Lambent reports this first.",
      .kind = VALUE_FILE, .store = store_text, .others = "verify compare-with against", FIELD(hash.check)},
     {"update", 0, GROUP_HASH, NULL, NULL,
      "With `--check`, write the new hashes to the file, and a sheet of the changed pictures.",
-     "Lambent writes the sheet beside the file: `pictures-changes.png` for `pictures.hash`. The sheet shows the old "
-     "picture, the new picture and their difference for the first 40 changed models. It shows an old picture only if "
-     "`--pictures` stored it, because a hash does not contain the picture.",
+     "Lambent writes the sheet next to the file: `pictures-changes.png` for `pictures.hash`. For each of the first 40 "
+     "changed models, the sheet shows the old picture, the new picture and the difference between them. The old "
+     "picture is available only if `--pictures` stored it, because a hash does not contain the picture.",
      .store = store_switch, .others = "renew accept bless", FIELD(hash.update)},
-    {"pictures", 0, GROUP_HASH, "DIR", NULL, "Store the pictures in this folder, for the sheet of the next `--update`.",
-     "Each picture is a PNG named after its model: `DIR/models/koala.obj.png`. Lambent writes the pictures with `-o` "
-     "and `--update`, and reads them with `--update`. The folder need not be in the repository: a CI cache is "
-     "sufficient.",
+    {"pictures", 0, GROUP_HASH, "DIR", NULL,
+     "Store the pictures in this folder, so that the next `--update` can build its sheet from them.",
+     "Each picture is a PNG file named after its model: `DIR/models/koala.obj.png`. `-o` and `--update` write the "
+     "pictures, and `--update` reads them. The folder need not be in the repository; a CI cache is sufficient.",
      .kind = VALUE_FILE, .store = store_text, .others = "keep cache-dir baseline", FIELD(hash.pictures)},
 
     {"thumbnail", 0, GROUP_CONVERT, NULL, NULL, "Put a picture of the model into the GLB file.",
-     "The picture has 512x512 pixels, drawn as by `lambent MODEL`. `asset.thumbnail` stores its index in `images`, as "
-     "in the draft of glTF 2.1. Programs that do not support this property ignore it.",
+     "The picture is the same as that of `lambent MODEL`, with 512x512 pixels. The property `asset.thumbnail` stores "
+     "the index of the picture in `images`, as in the draft of glTF 2.1. Programs that do not support this property "
+     "ignore it.",
      .store = store_switch, .others = "preview icon", FIELD(convert.thumbnail)},
 
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,
      .others = "layout", FIELD(sheet.name)},
     {"title", 0, GROUP_SHEET, "TEXT", NULL, "The title of a sheet, a plot or a figure, in any language; '' for none.",
-     "An SVG stores text as text: the viewer provides the fonts, supports right-to-left languages and can read the "
-     "text aloud. In a PNG, Lambent draws the letters one by one. The default font covers Latin, Greek "
-     "and Cyrillic. Chinese, Japanese and Korean need a font that covers them (`--font`). Scripts that run from right "
-     "to left or join letters need an SVG.",
+     "An SVG file stores titles and captions as text, so the viewer provides the fonts, supports right-to-left "
+     "languages and can read the text aloud. In a PNG file, Lambent draws the letters one by one. The default font "
+     "covers Latin, Greek and Cyrillic. For Chinese, Japanese and Korean, give a font that covers them (`--font`). For "
+     "scripts that run "
+     "from right to left or join letters, write an SVG file.",
      .store = store_text, .single = TAKES_TITLE, .others = "heading name header", FIELD(captions.title)},
     {"caption", 0, GROUP_SHEET, "TEXT", NULL, "The caption of a sheet's next picture, in any language; repeatable.",
      NULL, .store = store_texts, .others = "captions label labels", FIELD(captions.texts)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
      "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across makes a grid.",
-     "OPTION is one of the options above without its dashes. Values are separated by commas; if they contain commas, "
-     "as for `light` and `material`, by semicolons (`light=point;directional:color=red,frame=camera`). By default the "
-     "values are all names that the option accepts; for `shininess` 10, 50 and 1000, for `light` one light of each "
-     "type, and for `show`, also called `term`, the five terms. If the option is given twice, the first defines the "
-     "rows of a grid and the second its columns. `mistake=A,B` draws shaders with known mistakes beside the correct "
-     "shader, by OpenGL, with their differences (`lambent shader --mistake list`). `mistake` alone draws all mistakes "
-     "that are visible in the scene.",
+     "OPTION is one of the options above without its dashes. Separate the values by commas. If the values themselves "
+     "contain commas, as for `light` and `material`, separate them by semicolons "
+     "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
+     "accepts. For `shininess` they are 10, 50 and 1000, for `light` one light of each type, and for `show` (also "
+     "called `term`) the five terms. If you give `--across` twice, the first defines the rows of a grid and the second "
+     "defines its columns. `mistake=A,B` uses OpenGL to draw shaders with known mistakes next to the correct shader, "
+     "with the differences between them (`lambent shader --mistake list`). `mistake` alone draws all mistakes that are "
+     "visible in the scene.",
      .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(sheet.across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or degrees.", NULL,
      .store = store_number, FIELD(plot.to), .min = 1e-6, .max = 1e9},
 
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
-     "Without this option Lambent generates a correct vertex shader, which recognises varyings by name and type "
+     "Without this option, Lambent generates a correct vertex shader, which recognises varyings by name and type "
      "(`docs/check.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
-     "`auto` recognises a built-in contract by its names. If none fits, it infers the role of each input from its use. "
-     "It never selects `chile` and `glsl120`: name these contracts to use them. `--list` prints the contracts. A file "
-     "of your own is JSON (`docs/check/contract-file.md`).",
+     "`auto` recognises a built-in contract by its names. If no contract fits, Lambent infers the role of each input "
+     "from its use. `auto` never selects `chile` and `glsl120`; to use these contracts, give their names. `--list` "
+     "prints the contracts. To use your own contract, write it in JSON (`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(check.light_frame)},
@@ -929,24 +944,23 @@ struct option option_table[OPTIONS_MAX] = {
      highlight_words, .store = store_word, FIELD(check.highlight)},
     {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
      "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
-     "By default, Lambent expects a term if the shaders declare one of its names: without a specular colour, it "
-     "expects no highlight. If an expected colour is not declared, it is white.",
+     "By default, Lambent expects a term if the shaders declare one of its names. For example, without a specular "
+     "colour, it expects no highlight. If the shaders do not declare an expected colour, Lambent uses white.",
      term_words, .store = store_words, FIELD(check.terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
     {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit the processor time of a shader.",
      "The limit applies to all scenes together. Lambent adds the processor time of all threads, so other programs on "
-     "the machine do not affect it. The elapsed "
-     "time may be up to 20 times as long.",
+     "the machine do not affect it. The elapsed time may be up to 20 times as long.",
      .store = store_number, FIELD(check.stop_after_s), .min = 0.1, .max = 1e6},
     {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000", "Stop the search after drawing this many pictures.",
-     "If the search finds no set of mistakes, the report states how many sets it tried and whether it stopped at this "
-     "limit.",
+     "If the search finds no set of mistakes that explains the picture, the report states how many sets Lambent tried "
+     "and whether the search stopped at this limit.",
      .store = store_integer, .others = "effort budget tries", FIELD(check.search_limit), .min = 1, .max = 1000000000},
     {"class", 0, GROUP_CHECK, "FOLDER", NULL, "Check every submission in a folder.",
      "A submission is a sub-folder with one fragment shader, at most one vertex shader and any other files. Outside "
-     "sub-folders, a submission is a fragment shader and the vertex shader of the same name. With `-o FOLDER/` Lambent "
-     "writes a page for the whole class, `index.html`, and a sheet for each submission.",
+     "sub-folders, a submission is a fragment shader and the vertex shader of the same name. With `-o FOLDER/`, "
+     "Lambent writes a page for the whole class, `index.html`, and a sheet for each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
     {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader, with its points and mistakes.", NULL,
      .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
@@ -965,7 +979,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(check.list)},
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The version of GLSL: 330, 120 or 300es.",
-     "The spelling of a shader's first line, \"300 es\", also works.", glsl_words, .store = store_glsl,
+     "\"300 es\", as in a shader's first line, is also accepted.", glsl_words, .store = store_glsl,
      .others = "glsl-version shader-version", FIELD(shader.glsl)},
     {"host", 0, GROUP_SHADER, "LANGUAGE", NULL, "Also print code that sets all inputs of the shaders: c.",
      "The code compiles the sources, describes the vertex layout to OpenGL and sets every uniform to its value in this "
@@ -975,14 +989,14 @@ struct option option_table[OPTIONS_MAX] = {
      "Pass the products ka La, kd Ld and ks Ls as uniforms, as in many lectures.", NULL, .store = store_switch,
      FIELD(shader.products)},
     {"lights-in", 0, GROUP_SHADER, "STORAGE", "auto", "How the shaders store the lights: array, block or texture.",
-     "None of them has a fixed maximum number of lights. OpenGL supports the fewest lights in an array, and the most "
-     "in a texture.",
+     "Lambent sets no maximum number of lights. OpenGL allows the fewest lights in an array, and the most in a "
+     "texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
-     "The lecture style uses the symbols of lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
-     "`blinn-phong` and `kajiya-kay`, with any lights and any shading, its uniforms and its picture are the same as in "
-     "the full style. Lambent rejects textures and other reflection models in this style. With `--stage application` "
-     "Lambent also prints a C function that lights the vertices. See `docs/teaching.md`.",
+     "The lecture style uses the symbols of lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, `blinn-phong` "
+     "and `kajiya-kay`, with any lights and any shading, its uniforms and its picture are the same as in "
+     "the full style. Lambent rejects textures and other reflection models in this style. With `--stage application`, "
+     "Lambent also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
      style_words, .store = store_word, FIELD(shader.style)},
     {"mistake", 0, GROUP_SHADER, "NAME", NULL,
      "Introduce a known mistake into shaders of the lecture style; `list` lists them.",
@@ -993,8 +1007,8 @@ struct option option_table[OPTIONS_MAX] = {
      "A surface over u and v: 'x = ...; y = ...; z = ...', after any definitions.",
      "`a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)` is a torus. Formulas support `+ - * / ^`, "
      "parentheses, `pi`, `tau`, `e`, and these functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt "
-     "cbrt abs sign floor mod min max hypot pow. Normals come from symbolic derivatives. z is up, as in books, unless "
-     "`--up` says otherwise. `docs/shapes.md` describes the language and has examples.",
+     "cbrt abs sign floor mod min max hypot pow. Normals come from symbolic derivatives. z is up, as in textbooks, "
+     "unless you give `--up`. `docs/shapes.md` describes the language and gives examples.",
      .store = store_text, .others = "formula formulas surface equation", FIELD(shape.parametric), .loads = true},
     {"u", 0, GROUP_SHAPE, "FROM..TO", "0..2pi", "The range of u, two constant expressions.", NULL, .store = store_text,
      .others = "u-range", FIELD(shape.u_range), .loads = true},
@@ -1002,14 +1016,14 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "v-range", FIELD(shape.v_range), .loads = true},
     {"implicit", 0, GROUP_SHAPE, "FORMULA", NULL,
      "The surface on which an expression of x, y and z is zero: 'x^2+y^2+z^2-1'.",
-     "The expression is negative inside; `x^2+y^2+z^2 = 1` is the same surface. Definitions may precede the "
-     "expression: `a = 2; (sqrt(x^2+y^2)-a)^2 + z^2 - 1`. The language is the same as in `--parametric`. Normals come "
-     "from the symbolic gradient. `--segments` sets the number of cells along the longest side of the box around the "
-     "surface (default: 96).",
+     "The expression is negative inside the surface. You can also write an equation: `x^2+y^2+z^2 = 1` is the same "
+     "surface. Definitions may precede the expression: `a = 2; (sqrt(x^2+y^2)-a)^2 + z^2 - 1`. The language is the "
+     "same as in `--parametric`. Normals come from the symbolic gradient. `--segments` sets the number of cells along "
+     "the longest side of the box around the surface (default: 96).",
      .store = store_text, .others = "implicit-surface isosurface level-set marching-cubes sdf", FIELD(shape.implicit),
      .loads = true},
-    {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of x to which an implicit surface is cut.",
-     "Give two constant expressions. By default Lambent searches for the surface in -4..4, and in -16..16 if the "
+    {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of x in which an implicit surface is drawn.",
+     "Give two constant expressions. By default, Lambent searches for the surface in -4..4, and in -16..16 if the "
      "surface is closed only in the larger range.",
      .store = store_text, .others = "x-range box bounds", FIELD(shape.x_range), .loads = true},
     {"y", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of y.", NULL, .store = store_text,
@@ -1017,10 +1031,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"z", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of z.", NULL, .store = store_text,
      .others = "z-range", FIELD(shape.z_range), .loads = true},
     {"flip", 0, GROUP_SHAPE, NULL, NULL, "Swap front and back faces.",
-     "By default the front of a parametric surface is the side to which the cross product of the derivatives by u and "
+     "By default, the front of a parametric surface is the side to which the cross product of the derivatives by u and "
      "by v points. The front of an implicit surface is the side to which the gradient points.",
      .store = store_switch, .others = "flip-normals invert-normals", FIELD(shading.flip), .loads = true},
-    {"object", 0, GROUP_SHADER, "N", "all", "Print the shaders for only this object of the scene, counted from 0.",
+    {"object", 0, GROUP_SHADER, "N", "all", "Print the shaders for only one object of the scene, counted from 0.",
      "One pair of shaders usually works for the whole scene. Exceptions are scenes in which only some objects are "
      "two-sided, or only some have tangents for Kajiya-Kay.",
      .store = store_integer, FIELD(shader.object), .has_field = offsetof(struct options, shader.has_object), .min = 0,
@@ -1028,29 +1042,28 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"port", 0, GROUP_VIEWER, "N", "any free port", "The port of 127.0.0.1 that the viewer listens on.", NULL,
      .store = store_integer, FIELD(viewer.port), .min = 1, .max = 65535},
-    {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "Stop when no page has been open for this many minutes.", NULL,
+    {"idle", 0, GROUP_VIEWER, "MINUTES", "30", "Stop if no page has been open for this many minutes.", NULL,
      .store = store_number, .others = "idle-timeout", FIELD(viewer.idle_minutes),
      .has_field = offsetof(struct options, viewer.has_idle), .min = 0.001, .max = 1e6},
-    {"no-open", 0, GROUP_VIEWER, NULL, NULL, "Print the address, and do not open a browser.",
+    {"no-open", 0, GROUP_VIEWER, NULL, NULL, "Print the address, but do not open a browser.",
      "Without a display Lambent never opens a browser.", .store = store_switch, .others = "no-browser headless",
      FIELD(viewer.no_open)},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
-     "By default the environment variable `LAMBENT_FONT` names the font. If it is not set, Lambent uses the first of "
+     "By default, the environment variable `LAMBENT_FONT` names the font. If it is not set, Lambent uses the first of "
      "these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, FreeSans, Roboto. "
      "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
-     "sheet are always identical. An SVG requests DejaVu Sans; the viewer of the file may use another font.",
+     "sheet are always identical. An SVG file requests DejaVu Sans, but the viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
-    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw without text; no font is needed.", NULL, .store = store_switch,
+    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw no text; no font is needed.", NULL, .store = store_switch,
      .others = "no-text no-labels", FIELD(captions.no_captions)},
 
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
-     "The settings file: keys of scene files that replace defaults of the picture.",
+     "The settings file: keys of scene files that override the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if it exists and the "
-     "environment variable `CI` is not set. It never reads a settings file beside a model. Options of the command line "
-     "and looks override settings; scene files ignore them. `lambent config` prints the settings in force, and "
-     "`docs/settings.md` "
-     "describes the file.",
+     "environment variable `CI` is not set. It never reads a settings file from a model's folder. Looks and options on "
+     "the command line override settings; scene files ignore them. `lambent config` prints the current settings, and "
+     "`docs/settings.md` describes the file.",
      .kind = VALUE_FILE, .store = store_text, .others = "settings preferences rc conf configuration",
      FIELD(settings.file)},
     {"no-config", 0, GROUP_SETTINGS, NULL, NULL, "Ignore the user's settings file.", NULL, .store = store_switch,
@@ -1058,7 +1071,7 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"version", 0, GROUP_ABOUT, NULL, NULL, "Print the version and the build information.", NULL, .store = store_switch,
      .others = "V", FIELD(report.version)},
-    {"help", 'h', GROUP_ABOUT, NULL, NULL, "Print all of this help; -h prints the most common options.",
+    {"help", 'h', GROUP_ABOUT, NULL, NULL, "Print the complete help; -h prints only the most common options.",
      "`lambent help TOPIC` explains a subject, a command or an option.", .store = store_switch, .others = "? usage",
      FIELD(report.help), .letter_field = offsetof(struct options, report.brief_help)},
 };

@@ -44,7 +44,7 @@ static const struct light_field rows[] = {
                .summary = "exponent of the cosine of the angle from the cone's axis"},
      .cone = HARD_CONE},
     {.field = {ANGLE(inner_rad, "inner"), .max = 90, .light_types = BIT(SPOT),
-               .summary = "half angle of full brightness; needs outer, excludes cutoff and exponent"},
+               .summary = "half angle of full brightness; requires outer, and excludes cutoff and exponent"},
      .cone = SOFT_CONE},
     {.field = {ANGLE(outer_rad, "outer"), .max = 90, .light_types = BIT(SPOT),
                .summary = "half angle beyond which the light is zero, as in glTF; larger than inner"},

@@ -47,14 +47,14 @@ WORDS(occlusion_words,
       {"off", LAM_OCCLUSION_OFF, "no occlusion"},
       {"screen", LAM_OCCLUSION_SCREEN, "computed from the depths of visible surfaces around each pixel"},
       {"rays", LAM_OCCLUSION_RAYS, "traces rays from each point: slower, includes hidden surfaces; only on the CPU"})
-WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto` and selects `screen`"},
+WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `--ao` is `auto` and selects `screen`"},
       {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on with the studio's lights or environment light"},
       {"off", LAM_SPECULAR_AA_OFF, "the exact equations"},
-      {"on", LAM_SPECULAR_AA_ON, "rougher by the variance of the normals within each pixel"})
-WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "model files in the studio's light"},
-      {"off", LAM_BRIGHTEN_OFF, "the light is as bright as for every model"})
+      {"on", LAM_SPECULAR_AA_ON, "the variance of the normals within each pixel increases the roughness"})
+WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "on for model files in the studio's light"},
+      {"off", LAM_BRIGHTEN_OFF, "all models receive the same light"})
 WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
       {"shadow", LAM_GROUND_SHADOW,
        "a transparent plane that shows only shadows and occlusion, as black with an alpha"},
@@ -62,11 +62,11 @@ WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
        "a checkerboard; the side of a square is 1, 2 or 5 times a power of ten in the model's units"},
       {"color", LAM_GROUND_COLOR, NULL})
 WORDS(edges_words, {"crease", LAM_EDGES_CREASE, "edges at which two faces meet at an angle"},
-      {"boundary", LAM_EDGES_BOUNDARY, "edges at which a surface ends"},
+      {"boundary", LAM_EDGES_BOUNDARY, "edges that belong to only one face"},
       {"silhouette", LAM_EDGES_SILHOUETTE, "edges between front and back faces"})
-WORDS(hidden_lines_words, {"remove", LAM_HIDDEN_LINES_REMOVE, "omit them"},
-      {"dash", LAM_HIDDEN_LINES_DASH, "draw them dashed"},
-      {"show", LAM_HIDDEN_LINES_SHOW, "draw them as if no surface hid them"})
+WORDS(hidden_lines_words, {"remove", LAM_HIDDEN_LINES_REMOVE, "omit the edges"},
+      {"dash", LAM_HIDDEN_LINES_DASH, "draw dashed lines"},
+      {"show", LAM_HIDDEN_LINES_SHOW, "draw the edges as if no surface hid them"})
 WORDS(surfaces_words, {"on", 0, "draw surfaces"}, {"off", 1, "draw only lines and points"})
 WORDS(terminator_words, {"on", 0, "shadow rays start on the curved surface defined by the normals"},
       {"off", 1,
@@ -102,14 +102,15 @@ static const lam_setting rows[] = {
     {"single_scattering", MEMBER(FLAG, single_scattering),
      .summary = "Omit multiple scattering between microfacets (GGX)."},
     {"gl1", MEMBER(FLAG, gl1),
-     .summary = "Light as in OpenGL 1: clamp colours, limit shininess to 128, attenuate ambient light."},
+     .summary = "Compute lighting as in OpenGL 1: clamp colours, limit shininess to 128, attenuate ambient light."},
     {"shadows", MEMBER(FLAG, shadows), .summary = "Cast shadows."},
     {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator), WORDS_OF(terminator_words),
      .summary = "Start shadow rays on the curved surface defined by the normals: on or off."},
     {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 112, .expected = "0 to 256",
      .summary = "Shadow rays to a light with a radius from each point in its penumbra."},
     {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
-     .summary = "A ground at the model's lowest point: shadow, checker, a colour or off; without a value, shadow."},
+     .summary =
+         "A ground plane at the model's lowest point: shadow, checker, a colour or off; without a value, shadow."},
     {"ground_color", MEMBER(RGB, ground_color),
      .summary = "The ground's colour, or the colour of its bright squares. Default: black; with checker 0.6."},
     {"anisotropy", MEMBER(WHOLE, anisotropy), .min = 1, .max = 16, .standard = 1, .expected = "0 to 16",
@@ -123,7 +124,7 @@ static const lam_setting rows[] = {
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",
      .summary = "Darken small valleys and lighten ridges: auto, off or on."},
     {"specular_aa", MEMBER(WORD, specular_aa), WORDS_OF(specular_aa_words), .expected = "lam_specular_aa",
-     .summary = "Smooth the glitter of bumpy physical materials: auto, off or on."},
+     .summary = "Reduce glitter on bumpy physical materials: auto, off or on."},
     {"brighten", MEMBER(WORD, brighten), WORDS_OF(brighten_words), .expected = "lam_brighten",
      .summary = "Light dark models with a brighter studio: auto or off."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
@@ -133,7 +134,7 @@ static const lam_setting rows[] = {
      .summary = "Rays of ambient occlusion (`rays`) from each lit point; more rays reduce noise."},
     {"light_cutoff", MEMBER(NUMBER, light_cutoff), .max = 1, .standard = 0.5 / 255, .zero_is_negative = true,
      .expected = "at most 1",
-     .summary = "The largest error from skipping weak lights; 0 evaluates every light everywhere."},
+     .summary = "The maximum error caused by skipping weak lights; 0 evaluates every light everywhere."},
     {"line_width", MEMBER(NUMBER, line_width), .min = 0.01, .max = 1000, .standard = 1.5,
      .expected = "pixels from 0 to 1000", .summary = "The width of lines in the model file."},
     {"point_size", MEMBER(NUMBER, point_size), .min = 0.01, .max = 1000, .expected = "pixels from 0 to 1000",
@@ -146,13 +147,13 @@ static const lam_setting rows[] = {
     {"edges", MEMBER(WORDS, edges), WORDS_OF(edges_words), .expected = "edges or hidden_lines",
      .summary = "Draw feature edges as lines: all, none, or some of crease,boundary,silhouette."},
     {"edge_angle", MEMBER(ANGLE, edge_angle_rad), .min = 0.001, .max = 180, .standard = 40, .expected = "0° to 180°",
-     .summary = "An edge is a crease if its faces meet at more than this angle."},
+     .summary = "An edge is a crease if its two faces meet at more than this angle."},
     {"edge_width", MEMBER(NUMBER, edge_width), .min = 0.01, .max = 1000, .standard = 1.5,
      .expected = "pixels from 0 to 1000", .summary = "The width of feature edges."},
     {"edge_color", MEMBER(RGBA, edge_color),
      .summary = "The colour of feature edges: by default black; white over a dark background if surfaces are off."},
     {"hidden_lines", MEMBER(WORD, hidden_lines), WORDS_OF(hidden_lines_words), .expected = "edges or hidden_lines",
-     .summary = "Edges behind surfaces: remove, dash or show."},
+     .summary = "How to draw edges behind surfaces: remove, dash or show."},
     {"surfaces", MEMBER(NOT_FLAG, no_surfaces), WORDS_OF(surfaces_words),
      .summary = "Draw surfaces: on, or off for lines only."},
 };

@@ -36,7 +36,7 @@ static struct reference_scene visible_scene(const struct run *r, int index)
     return s;
 }
 
-// Returns whether the shaders cannot distinguish a scene from one of `scenes`: shaders without a name for a strength
+// Returns whether a scene looks the same to these shaders as one of `scenes`: shaders without a name for a strength
 // draw every term in every scene.
 static bool is_repeated(const struct run *r, int index, unsigned scenes)
 {
@@ -78,8 +78,8 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
     return true;
 }
 
-// Gets the given contract, or the contract that has the shaders' names; NULL if there is none. Returns false and fills
-// `error` on failure.
+// Gets the given contract, or the contract that has the shaders' names; `*out` is NULL if there is none. Returns false
+// and fills `error` on failure.
 static bool choose_contract(struct run *r, const struct contract **out, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -205,7 +205,7 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
 }
 
 #define BIT(semantic) ((uint64_t)1 << (semantic))
-// Names that do not concern lighting.
+// The roles of names that do not concern lighting.
 static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTIC_PROJECTION) |
                                           BIT(SEMANTIC_MODEL_VIEW_PROJECTION) | BIT(SEMANTIC_NORMAL_MATRIX) |
                                           BIT(SEMANTIC_MODEL) | BIT(SEMANTIC_VIEW) | BIT(SEMANTIC_VIEW_PROJECTION) |
@@ -299,8 +299,8 @@ static bool try_inferred(struct run *r, const struct contract *contract, enum fi
     return true;
 }
 
-// Infers the roles of the inputs from their use, in each possible space. It accepts the first interpretation for which
-// the shaders are correct, or else one that a single mistake explains.
+// Infers the roles of the inputs from their use, in each possible space. It accepts the first interpretation under
+// which the shaders are correct, or else one in which a single mistake explains the difference.
 static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
 {
     const lam_check_params *p = r->params;

@@ -1,5 +1,5 @@
 // check_describe.c: describes in one sentence a difference that no known mistake explains, and finds the line of a
-// mistake that is only visible in the text.
+// mistake that only the source text shows.
 #include "check_run.h"
 
 #include <string.h>

@@ -1,11 +1,11 @@
-// check_fit.c: compares a shader that has its own strengths and colours with sums of an ambient, a diffuse and a
-// specular term.
+// check_fit.c: compares a shader with its own strengths and colours to sums of an ambient, a diffuse and a specular
+// term.
 //
 // The fault shader draws each term of a scene in a separate channel (shader_interface_scene). An interpretation
-// consists of a highlight, an exponent, and forms or a fault. The factors of its terms, which are the same
-// in every scene, are found by least squares. The shader passes if some interpretation of a correct shader explains
-// every scene, and differs if one with a single known mistake does. Otherwise there is no verdict: a shader that the
-// check does not understand may be correct.
+// consists of a highlight, an exponent, and forms or a fault. The factors of its terms, which are the same in every
+// scene, are found by least squares. The shader passes if an interpretation without a mistake explains every scene. It
+// differs if an interpretation with a single known mistake does. Otherwise there is no verdict: a shader that the check
+// does not understand may be correct.
 #include "interpretations.h"
 
 #include <stdio.h>
@@ -246,7 +246,7 @@ static int by_mean(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Lists the interpretations with which faults are tried: they differ from the nearest one only in the highlight and its
+// Lists the interpretations to combine with faults: they differ from the closest one only in the highlight and its
 // forms. If the text contains reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct interpretation *interpretations, int count,
                         const struct interpretation *best)

@@ -1,5 +1,4 @@
-// check_write.c: writes a contract as a file for readers: one entry per line, with its meaning and possible
-// corrections.
+// check_write.c: writes a contract as a readable file: one entry per line, with its meaning and possible corrections.
 #include <lambent/check.h>
 
 #include <jansson.h>

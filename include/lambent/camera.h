@@ -49,7 +49,8 @@ typedef struct lam_view {
     double fovy_rad;   // full vertical field of view, radians, in (0, π); 0: 30°
     bool orthographic; // true: parallel projection; `fovy_rad` is ignored
     double zoom;       // > 0; 2 shows the model twice as large; 0: 1
-    // Fraction of the picture's tighter side that the projected vertices fill, in (0, 1]. 0: 0.92.
+    // Fraction of the picture's width or height (whichever is tighter) that the projected vertices fill, in (0, 1]. 0:
+    // 0.92.
     double fill;
     LAM_RESERVED(8);
 } lam_view;
@@ -125,8 +126,8 @@ LAM_API void lam_orbit_turn(lam_orbit *orbit, double right_rad, double up_rad);
 // −dx / height to the right and dy / height up.
 LAM_API void lam_orbit_pan(lam_orbit *orbit, double right, double up);
 
-// Shows the target `factor` times as large, > 0: the eye comes nearer, or an orthographic camera shows less. Other
-// factors are ignored.
+// Shows the target `factor` times as large, > 0: moves the eye closer, or narrows the view of an orthographic camera.
+// Other factors are ignored.
 LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 
 // Parses a camera from text: pairs key=value, separated by commas, of
@@ -135,8 +136,8 @@ LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 //   up=x/y/z      default: the scene's up axis
 //   fovy=degrees  default: 30; or ortho=height, half the height of an orthographic view in model units
 //   near=d,far=d  default: fitted to the scene
-// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. False: LAM_BAD_ARGUMENT,
-// and the sentence says what was found and what was expected.
+// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. False: Fails with
+// LAM_BAD_ARGUMENT; the sentence says what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
 // Returns the keys of lam_camera_parse, from 0, or NULL if the index is out of range.

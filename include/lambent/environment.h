@@ -75,7 +75,7 @@ LAM_API int lam_environment_size(const lam_environment *environment);
 // stores (docs/lighting/environment.md).
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
-// Makes the texture `environment_light` of exported shaders (lambent/shader.h), which lights physical materials: an
+// Makes the texture `environment_light` of exported shaders (lambent/shader.h), which lights physical materials: a
 // LAM_RGBA32F picture 1024 texels wide, which the caller frees with lam_image_free. It contains the prefiltered levels
 // 1 to 11 and the irradiance divided by pi. Each of them is six faces in the order of lam_cube_face with a border of
 // one texel, stored row by row as one sequence of texels. docs/lighting/environment.md lists sizes and roughnesses.

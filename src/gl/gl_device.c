@@ -153,7 +153,7 @@ static int add_draw_calls(struct gl_frame *f, const struct frame_draw_range *lis
     return call_count < count ? count : 0;
 }
 
-// Sets up the buffers and programs of one draw's calls.
+// Sets up the buffers and programs of a draw's calls.
 static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list, int count, lam_error *error)
 {
     const struct frame *frame = f->frame;
@@ -240,7 +240,7 @@ static bool check_errors(struct gl_frame *f, lam_error *error)
     return !f->device->context.debug || gl_messages_clean(&f->device->context, "drawing", error);
 }
 
-// Draws the picture in parts no larger than the driver's targets.
+// Draws the picture in parts no larger than the driver's largest targets.
 static bool draw_parts(struct gl_frame *f, lam_error *error)
 {
     lam_frame_report *report = &f->device->base.report;

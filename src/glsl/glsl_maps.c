@@ -16,7 +16,7 @@
 
 static bool is_drawn(int map) { return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION; }
 
-// If light is evaluated at vertices or once per triangle, these maps are applied at each fragment.
+// If light is evaluated at vertices or once per triangle, these maps are still applied at each fragment.
 static bool follows_lighting(int map)
 {
     return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION;

@@ -15,14 +15,14 @@
 
 enum { EDITS_MAX = 2 };
 
-// `before` occurs exactly once in the two texts of a shader to which the mistake applies. "@lights@" is the number of
-// lights.
+// `before` occurs exactly once in the two source files of a shader to which the mistake applies. "@lights@" is the
+// number of lights.
 struct edit {
     const char *before, *after;
 };
 
-// Adjacent rows with the same id are forms of one mistake; the first applicable form is used. The first has the
-// sentences. Forms for the C function of the application stage are last.
+// Adjacent rows with the same id are forms of one mistake; the first applicable form is used. The first row contains
+// the sentences. Forms for the C function of the application stage are last.
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];

@@ -137,7 +137,7 @@ static __attribute__((noinline)) void trace(struct light_rays *r, const struct r
             passed[c][layers->list[i].lane] *= layers->list[i].passed[c];
 }
 
-// Computes two unit vectors perpendicular to d and to each other.
+// Computes two unit vectors that are perpendicular to d and to each other.
 static void across(const double d[3], double u[3], double v[3])
 {
     double length = __builtin_sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// The most operations for all implicit surfaces of a file together, which take a few seconds.
+// The maximum number of operations for all implicit surfaces of a file together; they take a few seconds.
 enum { FORMULA_OPERATIONS = 200000000 };
 
 // --- recognising scene files

@@ -26,7 +26,7 @@
 
 struct parser {
     struct formula *formula;
-    const char *what; // the noun in error messages: "formula"
+    const char *what; // the noun for the text in error messages: "formula"
     const char *text, *at, *end;
     int depth;
     lam_error *error;

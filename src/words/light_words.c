@@ -39,7 +39,7 @@ struct parser {
     double w; // the fourth number of the position
 };
 
-// Returns the index of the first row of a key, or −1 if it is not a field.
+// Returns the index of the first row of a key, or −1 if the key is not a field.
 static int field_index(const char *key)
 {
     for (int i = 0; lam_light_field(i); i++)

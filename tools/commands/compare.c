@@ -105,7 +105,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     }
     if (!options->picture.background)
         options->picture.background = SHEET_BACKGROUND;
-    // Sheets compare methods of local lighting, so global effects appear only on request.
+    // Sheets compare methods of local lighting, so global effects are drawn only on request.
     if (!option_given(options, "ao"))
         options->draw.occlusion = LAM_OCCLUSION_OFF;
     options->shader.lecture_device = c->sheet.mistakes;

@@ -87,8 +87,8 @@ static bool check(struct convert *c, lam_error *error)
     return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and the output are the same file", c->output);
 }
 
-// Returns whether a path is one of the model's companion files, such as "part.mtl" and "part-0.png". Unless the model
-// existed before, existing companion files of others are kept.
+// Returns whether a path is one of the model's companion files, such as "part.mtl" and "part-0.png". Companion files
+// that belong to other models are kept, unless the model existed before.
 static bool is_beside(const char *output, const char *path)
 {
     size_t stem = strlen(output) - strlen(ending(output)) - 1;
@@ -116,7 +116,7 @@ static bool check_beside(const struct convert *c, const char *path, lam_error *e
                path, c->output);
 }
 
-// *is_new: the file was written, and was not there before.
+// Sets *is_new to whether the file was written and did not exist before.
 static bool save_one(const char *path, const lam_bytes *bytes, bool *is_new, lam_error *error)
 {
     struct stat found;
@@ -125,7 +125,8 @@ static bool save_one(const char *path, const lam_bytes *bytes, bool *is_new, lam
     return ok;
 }
 
-// Writes the files beside the model first: it refers to them. If the model cannot be written, new files beside it are removed.
+// Writes the companion files first, because the model refers to them. If the model cannot be written, removes the new
+// companion files.
 static bool write_files(struct convert *c, lam_error *error)
 {
     int count = 0;
@@ -145,7 +146,7 @@ static bool write_files(struct convert *c, lam_error *error)
                 ok = ok && save_one(path, &bytes, &is_new[i], error);
             free(path);
         }
-    for (int i = 1; !ok && i < count; i++) // files beside a model that is not there
+    for (int i = 1; !ok && i < count; i++) // removes companion files of a model that was not written
         if (is_new[i]) {
             char *path = path_of(c, i);
             writer_remove(path ? path : "");

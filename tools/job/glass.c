@@ -1,4 +1,4 @@
-// glass.c: notes about glass: it is tinted over a transparent background, or the drawing method does not show it.
+// glass.c: adds notes about glass: its tint is only correct over white, or the drawing method does not show it.
 #include "job_steps.h"
 
 static bool is_grey(float r, float g, float b) { return r == g && g == b; }

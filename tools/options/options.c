@@ -191,7 +191,7 @@ static size_t field_size(const struct option *option)
         return sizeof(double);
     if (option->store == store_text || option->store == store_color)
         return sizeof(const char *);
-    return option->store == store_size ? 2 * sizeof(int) : sizeof(int); // a float is as long
+    return option->store == store_size ? 2 * sizeof(int) : sizeof(int); // works for floats too: they have the same size
 }
 
 void options_drop_settings(struct options *options)

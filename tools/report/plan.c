@@ -32,7 +32,7 @@ void each_given_option(const struct options *options, option_visit *visit, void 
     for (const struct option *option = option_table; option->name; option++) {
         size_t row = (size_t)(option - option_table);
         const struct texts *texts = texts_of(option, options);
-        bool replaced = option->group == GROUP_SETTINGS; // by what the file says
+        bool replaced = option->group == GROUP_SETTINGS; // replaced by the values in the settings file
         if ((!options->given[row] && !options->by_config[row]) || replaced)
             continue;
         for (int i = 0; texts && i < texts->count; i++)

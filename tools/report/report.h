@@ -16,8 +16,8 @@ void report_table(const struct job *job);
 // (then nothing else is written there). Returns NULL if there is no report.
 FILE *report_stream(const struct options *options);
 
-// Reports a failure that has no job, such as a wrong command line or a missing device, also as JSON if requested.
-// Returns the exit code.
+// Reports a failure that does not belong to a job, such as a wrong command line or a missing device; also as JSON if
+// requested. Returns the exit code.
 int report_failure(const lam_error *error, const struct options *options);
 
 // Prints one line in the format of docs/report.schema.json. If `job` is NULL, `error` concerns the command line.

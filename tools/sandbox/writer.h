@@ -46,7 +46,8 @@ void writer_end(void);
 // file. Any thread may call it. `durable` is as in lam_save_params. Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
 
-// Removes a file that the rule has as WRITER_REMOVES, or a new one of WRITER_ANY that this run wrote. It is no error if that fails.
+// Removes a file for which the rule returns WRITER_REMOVES, or a new file that this run wrote under WRITER_ANY. A
+// failure is ignored.
 void writer_remove(const char *path);
 
 #endif

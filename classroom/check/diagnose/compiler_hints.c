@@ -93,7 +93,7 @@ static const struct {
     {"fma", 400, 320, "write a * b + c"},
 };
 
-// Without a version line, a precision statement means WebGL.
+// Without a version line, a precision statement implies WebGL.
 static bool is_es(const struct declarations *d)
 {
     return strcmp(d->profile, "es") == 0 || d->version == 100 || (!d->version && declarations_uses(d, "precision"));

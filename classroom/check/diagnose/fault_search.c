@@ -103,7 +103,7 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
             continue;
         if (!candidate_try(t, &c, no_limit, error))
             return false;
-        // Of faults with equal pictures, the first in the table is used.
+        // If several faults have equal pictures, the first in the table is used.
         if (c.fits && c.mean <= max_ratio_explained * s->before &&
             (!best->fits || c.mean < 0.5 * best->mean - same_mean))
             *best = c;
@@ -150,7 +150,7 @@ static bool try_forms(struct state *t, struct candidate *best, lam_error *error)
 
 // --- the result
 
-// Finds the faults that draw the same pictures if they replace member `i` of a complete explanation.
+// Finds the faults that draw the same pictures as member `i` of a complete explanation.
 static bool find_also(struct state *t, const struct candidate *best, int i, struct found_fault *found, lam_error *error)
 {
     for (int m = 0; m < fault_count && found->also_count < MAX_ALSO; m++) {

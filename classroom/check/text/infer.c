@@ -11,7 +11,7 @@
 #include "number.h"
 
 enum { MAX_CHAIN = 8, MAX_DEPTH = 8, MAX_SPACES = 4 };
-// The time grows with their product; real shaders are far below these limits.
+// The time grows with the product of these numbers; real shaders are far below the limits.
 enum { MAX_WORDS = 30000, MAX_DECLARED = 500, MAX_STEPS = 100000 };
 
 struct inference {
@@ -22,7 +22,7 @@ struct inference {
     bool has_model, has_model_view, has_eye, has_light, has_normal_matrix;
     json_t *attributes, *uniforms, *undeclared;
     const char *space, *light_space; // eye, world, object
-    bool guessed;                    // a role was found by exclusion
+    bool guessed;                    // a role was guessed by elimination
     bool engine;                     // an engine sets the values of its names
     bool all;                        // inputs with unknown roles get the role `zero`
     char *reason;
@@ -62,7 +62,7 @@ static const char *last_part(const char *name)
     return dot ? dot + 1 : name;
 }
 
-// Removes parts without meaning from a name: u_, a leading u before a capital, Matrix, Mat.
+// Removes meaningless parts from a name: u_, a leading u before a capital, Matrix, Mat.
 static void core_of(const char *name, char out[64])
 {
     size_t length = 0;
@@ -84,7 +84,7 @@ static const struct declaration *uniform_of(const struct declarations *d, const 
     return declarations_find(d, DECLARED_UNIFORM, name);
 }
 
-// Returns the word after `name =` in the last assignment before word `before`, or −1 if there is none.
+// Returns the index of the word after `name =` in the last assignment before word `before`, or −1 if there is none.
 static int assignment_of(const struct declarations *d, const char *name, int before)
 {
     for (int i = before - 2; i >= 0; i--)
@@ -241,7 +241,7 @@ static bool reads_w(const struct inference *f, const char *name)
     return false;
 }
 
-// Returns whether `-name` occurs, so that it is a direction away from the light.
+// Returns whether `-name` occurs, which means that it is a direction away from the light.
 static bool is_negated(const struct inference *f, const char *name)
 {
     const struct declarations *sides[] = {f->vertex, f->fragment};
@@ -360,7 +360,7 @@ static bool find_role(struct inference *f, const struct declaration *item)
     }
     if (json_object_get(f->uniforms, item->name))
         return true;
-    if (!used || strcmp(item->type, "uint") == 0) { // but a driver may know it
+    if (!used || strcmp(item->type, "uint") == 0) { // a driver may still recognise the attribute
         give(f->uniforms, item->name, "zero", strcmp(item->type, "uint") == 0 ? "int" : item->type, NULL);
         return true;
     }
@@ -481,7 +481,7 @@ static int find_spaces(const struct inference *f, const char *out[MAX_SPACES][2]
     int count = 0;
     const bool built_in = !f->chain_count;
 #define SPACES(lit, light) (out[count][0] = (lit), out[count++][1] = (light))
-    if (f->has_eye && (f->has_model || f->engine)) { // in eye space the eye is at 0, so nobody passes its position
+    if (f->has_eye && (f->has_model || f->engine)) { // in eye space the eye is at 0, so no input passes its position
         SPACES("world", "world");
         SPACES("world", "object");
     } else if (f->has_eye) {

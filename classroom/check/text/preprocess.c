@@ -221,8 +221,8 @@ static void substitute(struct preprocessor *p, const struct macro *m, const stru
     }
 }
 
-// The name of a number, such as LIGHT_SPOT, is kept unless it is the size of an array, because it is more meaningful
-// than the number.
+// The name of a number, such as LIGHT_SPOT, is kept because it is more meaningful than the number, unless it is the
+// size of an array.
 static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 {
     const struct declarations *d = p->d;

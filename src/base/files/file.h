@@ -40,7 +40,7 @@ bool file_check_regular(const char *path, lam_error *error);
 // itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
-// A large file that any thread may read in parts.
+// A large file whose parts any thread may read.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
 struct file_parts {
     int file;
@@ -71,7 +71,7 @@ bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
                 lam_error *error);
 
-// Writes a file by a given method, for tests. FILE_NAMED is the method for file systems without unnamed files.
+// Writes a file by the given method, for tests. FILE_NAMED is the method for file systems without unnamed files.
 enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // FILE_DURABLE is a flag
 bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);

@@ -164,7 +164,7 @@ static void fill_light(const struct bound_rows *w, int i, const struct frame_lig
     w->inverse_range[i] = light->inverse_range;
 }
 
-// Adds a light that reaches nothing, because its cone excludes every direction.
+// Adds a light that reaches no point, because its cone excludes every direction.
 static void fill_padding(const struct bound_rows *w, int i)
 {
     static const struct frame_light nothing = {.attenuation = {1, 0, 0}};

@@ -1,4 +1,4 @@
-// jpeg.c: JPEG's row in the table of formats; reads with libjpeg-turbo and its accurate integer transform,
+// jpeg.c: defines JPEG's row in the table of formats; reads with libjpeg-turbo and its accurate integer transform,
 // bit-identical on every processor.
 #include "codec.h"
 #include "fail.h"

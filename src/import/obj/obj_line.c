@@ -18,7 +18,7 @@ size_t obj_line_number(struct obj *obj, const uint8_t *at)
     return lines;
 }
 
-// The expected text if pass two finds more elements than pass one counted.
+// The text that messages expect if pass two finds more elements than pass one counted.
 static const char changed[] = "the text of a moment ago: the file has changed while it was read";
 
 // Fills the reader's error: "found 'x', expected …". Returns NULL.

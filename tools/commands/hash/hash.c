@@ -24,7 +24,7 @@
 
 // --- the command line
 
-// Makes the folder of --pictures before anything is drawn: without it every picture would fail.
+// Makes the folder of --pictures before drawing starts, because without the folder every picture would fail.
 static bool make_pictures_folder(const struct options *o, lam_error *error)
 {
     const char *folder = o->hash.pictures;
@@ -168,7 +168,7 @@ struct result {
     size_t counts[STATE_COUNT];
 };
 
-// Writes the names in one state, as a JSON list or as one line each.
+// Prints the names in one state, as a JSON list or one per line.
 static void tell_state(const struct hash_run *run, json_t *const *records, enum state state, struct json *json,
                        struct result *result)
 {
@@ -199,7 +199,7 @@ static void tell_state(const struct hash_run *run, json_t *const *records, enum 
         json_close(json, ']');
 }
 
-// Fills `now` with the drawn models. Failed models get the hash 0, since they are not missing.
+// Fills `now` with the hashes of the drawn models. A failed model gets the hash 0, because it is not missing.
 static bool take_hashes(struct hash_run *run, json_t *const *records, lam_error *error)
 {
     run->now = (struct hash_file){.entries = calloc(run->plan.count + 1, sizeof *run->now.entries)};
@@ -299,7 +299,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
         if (written)
             printf("written to %s%s%s\n", run->path, rows ? "; old and new pictures: " : "", rows ? run->sheet : "");
     }
-    if (ok && writes && blocked && json.file != stderr) // where nothing else is printed
+    if (ok && writes && blocked && json.file != stderr) // a hint is useful only without other output
         say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok leaves them out\n",
                   run->path, failed);
     if (!ok)
@@ -313,7 +313,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
 
 // --- the run
 
-// First reports a different version or different options, since they may explain changes.
+// Reports a different version or different options first, since they may explain changes.
 static bool say_head(const struct hash_run *run, lam_error *error)
 {
     char *now = hash_options_text(run->options, run->path);

@@ -41,7 +41,7 @@ static json_t *parse(const char *line, size_t size, lam_error *error)
     json_t *root = json_loadb(line, size, JSON_REJECT_DUPLICATES, &reason);
     if (!root) {
         complain(error, LAM_BAD_ARGUMENT, "expected JSON: %.160s (byte %d)", reason.text, reason.position);
-        for (char *c = error->text; *c; c++) // it may repeat bytes of the line
+        for (char *c = error->text; *c; c++) // the message may repeat bytes of the line
             *c = (unsigned char)*c < 0x7F ? *c : '?';
     } else if (!json_is_object(root)) {
         complain(error, LAM_BAD_ARGUMENT, "expected a job, an object of JSON, found %s", kind_of(root));
@@ -141,7 +141,7 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
     return batch_plan_add(&job->plan, model ? model : name ? name : "model", NULL, error);
 }
 
-// Reads the target of the pictures: a name for the options. Pictures in an answer have names too, for their format.
+// Reads the output option: the name for the pictures. Pictures in an answer have names too, which select their format.
 static bool read_output(struct batch_job *job, const json_t *root, lam_error *error)
 {
     const char *output, *format;

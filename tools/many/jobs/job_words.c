@@ -123,7 +123,8 @@ void job_words_free(char **words, int count)
 
 // --- from words to options
 
-// Returns whether an option concerns only the picture: limits, processors and written files are set for the worker.
+// Returns whether an option concerns only the picture: the worker's own options set limits, processors and output
+// files.
 static bool fits(const struct option *option)
 {
     static const char *const others[] = {"output", "save-scene", "durable"};

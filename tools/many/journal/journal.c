@@ -395,7 +395,7 @@ void journal_begin(struct journal *j, int slot, int process, const char *model)
     else
         length = 0;
     host_name(text.host);
-    // If writing fails, resuming a killed run does not draw its models first.
+    // If writing fails and the run is killed, --resume does not draw its models first.
     if (pwrite(j->running, &text, offsetof(struct slot, model) + length + 1, (off_t)slot * SLOT) < 0)
         return;
 }
@@ -411,7 +411,7 @@ void journal_each_running(const struct journal *j,
     }
 }
 
-// Writes the line that ends a run. If that fails, the run looks as if it was killed at its very end.
+// Writes the line that ends a run. If that fails, the run looks as if it had been killed at its very end.
 static void end_run(struct journal *j)
 {
     lam_error error;
@@ -429,7 +429,7 @@ void journal_close(struct journal *j, bool done, bool interrupted)
         end_run(j);
     if (j->file >= 0)
         close(j->file);
-    if (j->was_running && (j->begun ? !interrupted : !j->was_slots)) // locked by this run, and of no use to a later one
+    if (j->was_running && (j->begun ? !interrupted : !j->was_slots)) // locked by this run, and useless to a later run
         writer_remove(j->running_path);
     if (j->running >= 0)
         close(j->running);

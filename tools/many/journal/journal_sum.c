@@ -108,7 +108,7 @@ static void begin_run(struct journal_part *part, const json_t *record)
     part->pictures = (size_t)json_integer_value(json_object_get(record, "pictures"));
     part->shard = (struct batch_shard){0};
     if (shard)
-        batch_shard_of(shard, &part->shard, &error); // journals are not written by hand
+        batch_shard_of(shard, &part->shard, &error); // cannot fail: only Lambent writes journals
     part->ended = false;
 }
 

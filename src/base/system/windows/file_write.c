@@ -14,7 +14,7 @@
 
 enum { PIECE = 1 << 20 };
 
-// False with errno; ECANCELED: the call must end.
+// Returns false and sets errno on failure; ECANCELED means that the call must end.
 static bool write_all(int file, const uint8_t *at, size_t left, struct call_control *call)
 {
     while (left) {
@@ -31,7 +31,7 @@ static bool write_all(int file, const uint8_t *at, size_t left, struct call_cont
     return true;
 }
 
-// Writes to `name`, a new file or a device, which is removed if that fails and it `is_new`.
+// Writes to `name`, a new file or a device; if writing fails and the file `is_new`, removes it.
 static bool write_to(const char *name, bool is_new, const void *data, size_t size, bool durable,
                      struct call_control *call)
 {

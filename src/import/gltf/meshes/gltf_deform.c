@@ -56,7 +56,7 @@ struct morph_target {
 };
 
 // Adds one attribute of a target to an array, which becomes the mesh's own with the first addition. `width` and
-// `base_width` are the numbers of values for each vertex in the target and in the mesh.
+// `base_width` are the numbers of values per vertex in the target and in the mesh.
 static bool add_target(const struct morph_target *t, const char *name, int width, int base_width, const float **values,
                        bool *own)
 {

@@ -161,7 +161,7 @@ const struct contract_varying *contract_varying(const struct contract *contract,
 // Returns the contract's name most similar to an unknown one, or NULL if none is similar.
 const char *contract_nearest(const struct contract *contract, const char *name);
 
-// Returns the name that the shaders use for a semantic: their own, else the contract's, else NULL. A name may stand for
+// Returns the name that the shaders use for a semantic: their own, else the contract's, else NULL. A name may mean
 // the product of a material's colour and the light's.
 const char *contract_name_used(const struct contract *contract, enum uniform_semantic semantic,
                                const struct declarations *vertex, const struct declarations *fragment);

@@ -124,8 +124,7 @@ static bool prepare(struct run *r, const struct contract *contract, unsigned *sc
                                                                     : r->interface.contract->reflection;
     if (r->interface.physical && p->reflection != LAM_REFLECTION_AUTO)
         return fail(error, LAM_BAD_ARGUMENT,
-                    "check: the shader has metalness and roughness, whose highlight is not a matter of choice; leave "
-                    "--highlight out");
+                    "check: the shader has metalness and roughness, which determine its highlight; omit --highlight");
     if (p->reflection != LAM_REFLECTION_AUTO && r->reflection != LAM_REFLECTION_PHONG &&
         r->reflection != LAM_REFLECTION_BLINN_PHONG)
         return fail(error, LAM_BAD_ARGUMENT, "check: unknown highlight, expected phong or blinn-phong");
@@ -137,8 +136,8 @@ static bool prepare(struct run *r, const struct contract *contract, unsigned *sc
         r->report->made_vertex = true;
         if (unknown[0])
             return fail(error, LAM_BAD_ARGUMENT,
-                        "no vertex shader is given, and the contract %s does not say which values %s should have; give "
-                        "the vertex shader with --vertex",
+                        "no vertex shader is given, and the contract %s does not define values for %s; name the vertex "
+                        "shader with --vertex",
                         r->interface.contract->name, unknown);
     }
     return choose_scenes(r, scenes, error);
@@ -313,8 +312,8 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     bool ok = p->vertex != NULL, done = false;
     if (!ok)
         return fail_unknown(r,
-                            "the names fit no known contract, and a fragment shader without its vertex shader does not "
-                            "show the role of its inputs",
+                            "the names match no known contract, and without its vertex shader the roles of a fragment "
+                            "shader's inputs are unknown",
                             error);
     ok = (engine ? prefix_add(engine, p->vertex, p->fragment, &texts, error)
                  : (texts = (struct complete_texts){.vertex = p->vertex, .fragment = p->fragment}, true)) &&

@@ -190,9 +190,9 @@ static bool is_searchable(struct run *r, bool writes)
                  (model == LAM_REFLECTION_GGX && !r->interface.multiple_scattering));
     if (!known)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "no mistakes are looked for in this shader of `lambent shader`: they are known for Lambert's, "
-                        "Phong's and Blinn-Phong's models, and for GGX with --single-scattering; not with --gl1 or "
-                        "--viewer infinite");
+                        "lambent does not search for mistakes in this shader of `lambent shader`: it knows mistakes of "
+                        "Lambert's, Phong's and Blinn-Phong's models, and of GGX with --single-scattering, but not "
+                        "with --gl1 or --viewer infinite");
     for (int i = 0; i < r->scene_count; i++) {
         clear += check_missing_share(&r->scenes[i], false) / r->scene_count;
         r->scenes[i].spoilt = check_missing_share(&r->scenes[i], true) > 0.25;
@@ -200,7 +200,7 @@ static bool is_searchable(struct run *r, bool writes)
     }
     if (writes && clear > 0.02)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
+                        "%.0f %% of the model is not drawn: the shader discards it, or gl_Position moves it elsewhere",
                         clear * 100);
     return writes && known && clear < 0.9 && usable > 0;
 }

@@ -235,7 +235,7 @@ static void hint_forms(struct run *r, const struct interpretation *g)
                         g->forms[i]->explanation);
     if (g->set.constant > 0)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "the exponent of the highlight is taken from the text: %g", (double)g->set.constant);
+                        "lambent takes the exponent of the highlight from the text: %g", (double)g->set.constant);
 }
 
 // --- the fit
@@ -345,7 +345,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     bool plain = !best.fits && best.mean > min_mean && interpretations_are_plain(r);
     if (!best.fits && !plain) {
         snprintf(reason, capacity,
-                 "its pictures are no sum of an ambient, a diffuse and a specular term that the check knows");
+                 "the check cannot explain its pictures as the sum of an ambient, a diffuse and a specular term");
         return true;
     }
     bool explained = best.fault_count > 0;
@@ -362,7 +362,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     else if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
         *outcome = FIT_UNKNOWN; // the full pictures do not confirm it
     if (*outcome == FIT_UNKNOWN)
-        snprintf(reason, capacity, "its pictures are close to a correct shader's, but not equal");
+        snprintf(reason, capacity, "its pictures resemble a correct shader's pictures, but are not equal to them");
     else if (explained)
         report_faults(r, &best, before);
     if (*outcome == FIT_DIFFERS)

@@ -323,18 +323,19 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
     struct gl_previous_context previous;
     struct gl_saved_state state;
     if (frame->settings.reference)
-        return fail(error, LAM_UNSUPPORTED,
-                    "OpenGL: reference is %d, and this device has the split sum alone; the CPU device sums directions",
-                    frame->settings.reference);
+        return fail(
+            error, LAM_UNSUPPORTED,
+            "OpenGL: reference is %d, but this device supports only the split sum; the CPU device sums directions",
+            frame->settings.reference);
     if (frame->refracts)
         return fail(
             error, LAM_UNSUPPORTED,
             "OpenGL: the scene has rough or thick glass (transmission with a roughness or a thickness above 0), "
-            "which the CPU device alone draws");
+            "which only the CPU device draws");
     if (frame->settings.occlusion == LAM_OCCLUSION_RAYS)
         return fail(
             error, LAM_UNSUPPORTED,
-            "OpenGL: ambient occlusion is 'rays', and this device has 'screen' alone; the CPU device traces rays");
+            "OpenGL: ambient occlusion is 'rays', but this device supports only 'screen'; the CPU device traces rays");
     if (!gl_context_enter(&device->context, &previous, error))
         return false;
     struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};

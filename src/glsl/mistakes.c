@@ -35,7 +35,7 @@ struct mistake {
 #define BLINN        "the reflection model blinn-phong"
 #define PHONG        "the reflection model phong"
 #define FALLOFF      "a light with attenuation"
-#define PLACE        "a light at a place: point or spot"
+#define PLACE        "a light with a position: point or spot"
 #define MATT         "a reflection model with max(n.l, 0)"
 #define SEVERAL      "more than one light"
 #define NORMAL       "normal_matrix * normal"
@@ -55,12 +55,12 @@ static const struct mistake mistakes[] = {
      PER_FRAGMENT,
      {{"normalize(eye_normal); // interpolation made it shorter", "eye_normal;"}}},
     {"normal-by-model-view",
-     "Nothing is wrong until an object is stretched: then its shading leans, as if the light stood elsewhere.",
+     "The shading is correct until an object is stretched: then it leans, as if the light were elsewhere.",
      NULL,
      {{NORMAL, "mat3(model_view) * normal"}}},
     {"normal-by-model-view", NULL, NULL, {{C_NORMAL, "transform(draw->model_view, vector(normal), 0.0)"}}},
     {"normal-object-space",
-     "The light turns with the object: the same side of the model stays lit from wherever one looks.",
+     "The light turns with the object: the same side of the model stays lit from every view.",
      NULL,
      {{NORMAL, "normal"}}},
     {"normal-object-space", NULL, NULL, {{C_NORMAL, "vector(normal)"}}},
@@ -79,9 +79,9 @@ static const struct mistake mistakes[] = {
      {{"normalize(" NORMAL ")", "-normalize(" NORMAL ")"}}},
     {"normal-inward", NULL, NULL, {{"normalize(" C_NORMAL ")", "scale(-1.0, normalize(" C_NORMAL "))"}}},
     {"no-flip",
-     "The inside of open objects stays dark, or has the light of the outside.",
+     "The inside of open objects stays dark, or is lit like the outside.",
      "an object that is lit on both sides, in the fragment shader",
-     {{"    if (!gl_FrontFacing)\n        N = -N;                     // the back is lit as well\n", ""}}},
+     {{"    if (!gl_FrontFacing)\n        N = -N;                     // the back is lit too\n", ""}}},
     {"no-flip", NULL, NULL, {{", scale(-1.0, N)", ", N"}}},
     // --- spaces
     {"clip-space-vertex",
@@ -94,14 +94,14 @@ static const struct mistake mistakes[] = {
      {{"eye_position = (model_view * vec4(position, 1.0)).xyz", "eye_position = position"}}},
     {"point-in-object-space", NULL, NULL, {{"vec3 P = " C_POINT, "vec3 P = vector(position)"}}},
     {"eye-backwards",
-     "The highlight sits at the rim, or is gone.",
+     "The highlight is at the rim, or missing.",
      BLINN,
      {{"normalize(-P);         // from the point to the eye", "normalize(P);"}},
      "normalize(L + V)"},
     {"eye-backwards", NULL, NULL, {{C_EYE, "normalize(P);"}}, "add(L, V)"},
     {"viewer-infinite",
-     "Each highlight is a little off, most at the border of the picture.",
-     A_HIGHLIGHT " and a viewer at a place",
+     "Each highlight is slightly displaced, mostly at the border of the picture.",
+     A_HIGHLIGHT " and a viewer with a position",
      {{"normalize(-P);         // from the point to the eye", "vec3(0.0, 0.0, 1.0);"}}},
     {"viewer-infinite", NULL, NULL, {{C_EYE, "{0.0, 0.0, 1.0};"}}},
     // --- the light's direction
@@ -137,17 +137,17 @@ static const struct mistake mistakes[] = {
      "lights[i].position.xyz"},
     {"half-of-raw-light", NULL, NULL, {{C_HALF, "normalize(add(way, V))"}}, "lights[i].position"},
     {"half-not-unit",
-     "The highlight is a burnt white spot, many times too large.",
+     "The highlight is a saturated white spot, many times too large.",
      BLINN,
      {{"normalize(L + V)", "L + V"}}},
     {"half-not-unit", NULL, NULL, {{C_HALF, "add(L, V)"}}},
     {"half-is-mean",
-     "The highlight is dim or gone, most of all where light and eye are far apart.",
+     "The highlight is dim or missing, especially where the directions to light and eye differ most.",
      BLINN,
      {{"normalize(L + V)", "(L + V) / 2.0"}}},
     {"half-is-mean", NULL, NULL, {{C_HALF, "scale(0.5, add(L, V))"}}},
     {"no-gate",
-     "The highlight shines through: it is seen where the surface faces away from the light.",
+     "The highlight shines through: it is visible on surfaces that face away from the light.",
      A_HIGHLIGHT,
      {{" S = dot(N, L) > 0.0 ? pow", " S = pow"}, {"shininess) : 0.0;", "shininess);"}}},
     {"no-gate", NULL, NULL, {{" S = faces * pow", " S = pow"}}},
@@ -163,7 +163,7 @@ static const struct mistake mistakes[] = {
      {{"max(dot(R, V), 0.0)", "max(dot(N, normalize(L + V)), 0.0)"}},
      "reflect(-L, N)"},
     {"blinn-phong-lobe", NULL, NULL, {{"vec3 R = " C_MIRROR, "vec3 H = " C_HALF}, {"dot(R, V)", "dot(N, H)"}}},
-    {"reflect-sign", "The highlight is gone, or sits on the far side.", PHONG, {{"reflect(-L, N)", "reflect(L, N)"}}},
+    {"reflect-sign", "The highlight is missing, or on the far side.", PHONG, {{"reflect(-L, N)", "reflect(L, N)"}}},
     {"reflect-sign", NULL, NULL, {{C_MIRROR, "subtract(L, scale(2.0 * dot(N, L), N))"}}},
     {"shininess-times-4",
      "The highlight is half as wide as it should be.",
@@ -193,7 +193,7 @@ static const struct mistake mistakes[] = {
     {"specular-in-diffuse-colour", NULL, NULL, {{"specular_product[i].rgb", "diffuse_product[i].rgb"}}},
     {"specular-in-diffuse-colour", NULL, NULL, {{"times(ks, lights[i].specular)", "times(kd, lights[i].specular)"}}},
     {"kd-ks-swapped",
-     "The body has the highlight's colour, and the highlight the body's.",
+     "The surface has the highlight's colour, and the highlight has the surface's colour.",
      A_HIGHLIGHT,
      {{"kd * lights[i].diffuse.rgb", "ks * lights[i].diffuse.rgb"},
       {"ks * lights[i].specular.rgb", "kd * lights[i].specular.rgb"}}},
@@ -209,7 +209,7 @@ static const struct mistake mistakes[] = {
       {"times(ks, lights[i].specular)", "times(kd, lights[i].specular)"}}},
     // --- Lambert
     {"no-clamp",
-     "The unlit side is black: there the diffuse term takes ambient and other light away.",
+     "The unlit side is black: there the diffuse term subtracts ambient and other light.",
      MATT,
      {{"max(dot(N, L), 0.0); // Lambert", "dot(N, L); // Lambert"}}},
     {"no-clamp", NULL, NULL, {{"scale(max(dot(N, L), 0.0), times(kd", "scale(dot(N, L), times(kd"}}},
@@ -231,7 +231,7 @@ static const struct mistake mistakes[] = {
     {"specular-not-attenuated", NULL, NULL, {{C_SUM, "add(scale(attenuation, diffuse), specular)"}}},
     {"specular-not-attenuated", NULL, NULL, {{C_SPOT_SUM, "scale(spot, add(scale(attenuation, diffuse), specular))"}}},
     {"diffuse-not-attenuated",
-     "The body stays bright, however far the light is; only highlights fade.",
+     "The surface stays bright, however far the light is; only highlights fade.",
      FALLOFF " and a highlight",
      {{SUM, "(diffuse + attenuation * specular)"}}},
     {"diffuse-not-attenuated", NULL, NULL, {{C_SUM, "add(diffuse, scale(attenuation, specular))"}}},
@@ -257,7 +257,7 @@ static const struct mistake mistakes[] = {
      NULL,
      ONE_LIGHT},
     {"attenuation-swapped",
-     "Light fades too slowly or too fast: b and c have changed places.",
+     "Light fades too slowly or too fast: b and c are swapped.",
      FALLOFF,
      {{"a.y * d + a.z * d * d", "a.z * d + a.y * d * d"}}},
     {"attenuation-inverted",
@@ -265,7 +265,7 @@ static const struct mistake mistakes[] = {
      FALLOFF,
      {{"1.0 / (a.x + a.y * d + a.z * d * d)", "a.x + a.y * d + a.z * d * d"}}},
     {"distance-of-unit-vector",
-     "Light does not fade: the distance is taken of L, whose length is 1.",
+     "Light does not fade: the distance is the length of L, which is 1.",
      FALLOFF,
      {{"length(way);", "length(L);"}}},
     // --- spotlights
@@ -301,11 +301,11 @@ static const struct mistake mistakes[] = {
      NULL,
      MORE_LIGHTS},
     {"first-light-only",
-     "All lights but the first have no effect.",
+     "All lights except the first have no effect.",
      SEVERAL,
      {{"i < @lights@; i++) {\n        vec3 way", "i < 1; i++) {\n        vec3 way"}}},
     {"last-light-only",
-     "All lights but the last have no effect.",
+     "All lights except the last have no effect.",
      SEVERAL,
      {{"color += ", "color = material.emission.rgb + ambient + "}},
      "material.emission.rgb + ambient;",
@@ -454,6 +454,7 @@ bool mistake_apply(const struct glsl_choices *c, char **texts, int count, lam_er
             return true;
         }
     }
-    return fail(error, LAM_UNSUPPORTED, "mistake '%s': the shader does not have what it spoils; expected %s",
-                mistakes[first].id, mistakes[first].needs ? mistakes[first].needs : "lighting in a shader");
+    return fail(error, LAM_UNSUPPORTED,
+                "mistake '%s': the shader lacks the code that this mistake changes; expected %s", mistakes[first].id,
+                mistakes[first].needs ? mistakes[first].needs : "lighting in a shader");
 }

@@ -79,8 +79,8 @@ static bool fail_nothing_selected(const struct build *m, int object, lam_error *
     if (object < 0)
         return fail(error, LAM_UNSUPPORTED,
                     strokes ? "the model has only lines and points, which have no shader: they are drawn as rectangles "
-                              "that are made anew for each camera; expected a model with triangles"
-                            : "the model has no triangles, so there is nothing that a shader could draw");
+                              "that depend on the camera; expected a model with triangles"
+                            : "the model has no triangles that a shader could draw");
     if (strokes)
         return fail(error, LAM_UNSUPPORTED,
                     "object %d has only lines and points, which have no shader; expected an object with triangles",

@@ -217,12 +217,10 @@ static bool check_stage(struct scene_reader *r)
     }
     if (by_vertex && s->draw.shading == LAM_SHADING_PHONG)
         return fail_place(r, KEY_OF(NULL, "stage"),
-                          "Phong shading has the stage fragment; application and vertex go with flat "
-                          "and gouraud");
+                          "Phong shading needs the stage fragment; application and vertex work with flat and gouraud");
     if (s->draw.stage == LAM_STAGE_FRAGMENT && s->draw.shading == LAM_SHADING_GOURAUD)
         return fail_place(r, KEY_OF(NULL, "stage"),
-                          "Gouraud shading has the stages application and vertex; fragment goes with "
-                          "flat and phong");
+                          "Gouraud shading needs the stage application or vertex; fragment works with flat and phong");
     return true;
 }
 

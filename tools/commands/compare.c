@@ -193,8 +193,8 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     bool ok = shader && !shader->application;
     if (shader && !ok)
         complain(error, LAM_BAD_ARGUMENT,
-                 "options '--stage application' and '--across mistake': shaders draw the sheet, and they compute no "
-                 "light in this stage; expected '--stage vertex' or '--stage fragment'");
+                 "options '--stage application' and '--across mistake': shaders draw the sheet, but in this stage they "
+                 "compute no light; expected '--stage vertex' or '--stage fragment'");
     lam_shader_free(shader);
     lam_scene_free(job.scene);
     options_free(&options);

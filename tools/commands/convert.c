@@ -77,7 +77,7 @@ static bool check(struct convert *c, lam_error *error)
                         "convert needs a file name whose extension selects the format, found '-'");
     if (c->options->convert.thumbnail && strcasecmp(ending(c->output), "glb") != 0)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--thumbnail' goes with an output that ends in .glb, found %.200s", c->output);
+                        "option '--thumbnail' requires an output with the extension .glb, found %.200s", c->output);
     if (c->options->convert.thumbnail && strcmp(c->model, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--thumbnail' reads the model twice, so it cannot read '-'");
     if (!(c->format = find_format(c->output, error)) || !output_check(c->output, "", OUTPUT_NAMED, error))

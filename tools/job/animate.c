@@ -54,7 +54,7 @@ bool animation_check(const struct options *o, lam_error *error)
                only_with(o, "turntable-light", "--turntable", error);
     if (o->animation.turntable && o->animation.frames)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--frames' is for --sweep alone: --turntable has its own number");
+                        "option '--frames' applies only to --sweep: --turntable sets its own number");
     if (o->batch.view_count > 1 || o->batch.size_count > 1)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs one %s; found several", animation_option(o),
                         o->batch.view_count > 1 ? "--view" : "--size");

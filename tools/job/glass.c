@@ -29,9 +29,8 @@ void job_note_glass(struct job *job, const lam_draw_params *draw)
         return;
     for (int i = 0; i < lam_scene_material_count(job->scene); i++)
         if (colors_light(lam_scene_material(job->scene, i))) {
-            lam_scene_add_warning(job->scene,
-                                  "the transparent picture of coloured glass is right over white; for another "
-                                  "colour behind it, add --background COLOUR");
+            lam_scene_add_warning(job->scene, "the transparent picture of coloured glass is correct over white; for "
+                                              "another colour behind it, add --background COLOUR");
             return;
         }
 }

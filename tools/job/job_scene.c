@@ -43,7 +43,7 @@ static void warn_of_own_colors(lam_scene *scene)
 {
     for (int i = 0; i < lam_scene_mesh_count(scene); i++)
         if (lam_scene_mesh(scene, i)->colors) {
-            lam_scene_add_warning(scene, "option '--color': the model has colours of its own, which multiply this one");
+            lam_scene_add_warning(scene, "option '--color': the model's own colours multiply this colour");
             return;
         }
 }

@@ -201,7 +201,7 @@ static void cancel(struct batch_jobs *jobs, json_t *id, uint64_t line)
     if (waits) {
         answer_cancelled(jobs, waits, "cancelled");
     } else if (!drawn) {
-        complain(&error, LAM_BAD_ARGUMENT, "key 'cancel': no job of this id waits or is drawn");
+        complain(&error, LAM_BAD_ARGUMENT, "key 'cancel': no job with this id is waiting or being drawn");
         refuse(jobs, NULL, line, "ignored", &error);
     }
 }
@@ -219,7 +219,7 @@ static void hold(struct batch_jobs *jobs, struct batch_job *job, uint64_t line)
         count(jobs, NULL, (size_t)job->plan.view_count);
         return;
     }
-    complain(&error, LAM_BAD_ARGUMENT, "key 'id': a job of this id waits or is drawn");
+    complain(&error, LAM_BAD_ARGUMENT, "key 'id': another job with this id is waiting or being drawn");
     count(jobs, &error, 1);
     refuse(jobs, NULL, line, "refused", &error);
     batch_job_free(job);

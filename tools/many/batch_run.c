@@ -342,7 +342,7 @@ static void name_poison(const struct batch *b)
         if (!failed || picture->attempts < 2 || count++ >= NAMES)
             continue;
         lam_error text;
-        complain(&text, LAM_LIMIT, "%.400s: failed %d times, and is not tried again",
+        complain(&text, LAM_LIMIT, "%.400s: failed %d times and is not retried",
                  b->plan->models[i / (size_t)b->plan->view_count].path, picture->attempts);
         say_error(text.text);
     }

@@ -89,8 +89,8 @@ static bool set_back(const struct material_option *option, const char *name, int
     int front = front_of(scene, &object);
     if (front == -2 && !option->named)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--%s': the front of '%.100s' has several materials, so fields without a key cannot be "
-                        "the front's; begin with a material's name: %s gold,…",
+                        "option '--%s': the front of '%.100s' has several materials, so missing keys cannot be copied "
+                        "from it; begin with a material's name: %s gold,…",
                         name, object.name ? object.name : "the model", name);
     object.back_material = add_changed(option, front == -2 ? -1 : front, scene, error);
     return object.back_material >= 0 && lam_scene_set_object(scene, index, &object, error);

@@ -20,7 +20,7 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
         option->target = at;
         if (!*at)
             return complain(error, LAM_BAD_ARGUMENT,
-                            "nothing follows '@', expected the name of an object, part or material");
+                            "found nothing after '@', expected the name of an object, part or material");
     }
     lam_material unused = lam_material_default();
     if (!lam_material_parse(option->text, mode, &unused, error))

@@ -30,7 +30,7 @@ static bool check(const struct job *job, char **page, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT, "%s: a page needs a model with a name; standard input has none",
                         job->output);
     if (o->picture.show && strcmp(o->picture.show, "all") == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' makes several pictures, and a page shows one");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' draws several pictures, but a page shows one");
     *page = page_file_find(error);
     return *page && output_check(job->output, job->model, output_given(o->picture.output), error);
 }

@@ -60,7 +60,7 @@ void report_plan(FILE *out, const struct job *job)
     fprintf(out, "%s\n", strcmp(job->model, "-") == 0 ? "standard input" : job->model);
     char items[MODEL_COUNTS_SIZE];
     fprintf(out, "  model     %s, %s\n", *format ? format : "shape", model_counts_text(&job->model_counts, items));
-    fprintf(out, "  picture   %s, %s, %dx%d, %d samples a pixel%s\n",
+    fprintf(out, "  picture   %s, %s, %dx%d, %d samples per pixel%s\n",
             strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->format, o->picture.width,
             o->picture.height, planned_samples(o), plan_replaces(job) ? "; replaces the file" : "");
     if (job->frames.count)

@@ -272,7 +272,8 @@ static bool find_vector(struct inference *f, const struct declaration *item)
     unsigned uses = paint ? 0 : uses_of(f->vertex, name) | uses_of(f->fragment, name);
     bool geometric = uses != 0;
     if (!paint && uses && has(last, "half"))
-        return cannot(f, "the half vector '%s' (%s) is of a distant viewer, and the check has none", name, item->type);
+        return cannot(f, "the half vector '%s' (%s) belongs to a distant viewer, which the check does not support",
+                      name, item->type);
     if (!paint && has(last, "eye cam view") && !light && !has(last, "dir")) {
         f->has_eye = true;
         give(f->uniforms, name, "eye_position", item->type, f->space);
@@ -343,7 +344,7 @@ static bool find_number(struct inference *f, const struct declaration *item)
     else if (has(last, "metal rough atten range radius falloff gamma expos near far"))
         role = NULL;
     if (!role)
-        return cannot(f, "the check does not know what '%s' (%s) is for", name, item->type);
+        return cannot(f, "the check does not know the purpose of '%s' (%s)", name, item->type);
     give(f->uniforms, name, role, item->type, NULL);
     return true;
 }
@@ -522,7 +523,7 @@ static bool infer(struct inference *f, int guess)
     bool fixed = declarations_uses(f->vertex, "ftransform") || declarations_uses(f->vertex, "gl_Vertex");
     if (f->vertex->word_count > MAX_WORDS || f->fragment->word_count > MAX_WORDS || f->vertex->count > MAX_DECLARED ||
         f->fragment->count > MAX_DECLARED)
-        return cannot(f, "the %s are longer than the check reads%s", "texts", "");
+        return cannot(f, "the %s are longer than the limit of the check%s", "texts", "");
     for (int i = 0; i + 1 < f->vertex->word_count; i++)
         if (is(f->vertex, i, "gl_Position") && is(f->vertex, i + 1, "="))
             follow(f, i + 2, MAX_DEPTH);
@@ -579,7 +580,7 @@ char *contract_infer(const struct declarations *vertex, const struct declaration
     if (infer(&f, guess)) {
         json_t *root =
             json_pack("{s:i, s:s, s:s, s:s, s:s, s:O, s:O, s:O}", "contract", 1, "name", "inferred", "title",
-                      f.guessed ? "inferred from the shaders, in part by exclusion" : "inferred from the shaders",
+                      f.guessed ? "inferred from the shaders, partly by elimination" : "inferred from the shaders",
                       "space", f.space, "strengths", "any", "attributes", f.attributes, "uniforms", f.uniforms,
                       "undeclared", f.undeclared);
         json_object_set_new(root, "constants",

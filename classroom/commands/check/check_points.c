@@ -9,7 +9,7 @@ const char *check_verdict_text(lam_check_verdict verdict)
     case LAM_CHECK_DIFFERS:
         return "differs from the reference";
     case LAM_CHECK_REFUSED:
-        return "is refused: it does not compile or link";
+        return "does not compile or link";
     case LAM_CHECK_ENDLESS:
         return "does not end: it exceeded its time";
     case LAM_CHECK_CRASHES:

@@ -60,8 +60,8 @@ static bool take(struct obj *obj, const char *name, const uint8_t *at, enum atte
     if (*attempt == LEFT_OUT && !libraries->left_out) {
         libraries->left_out = libraries->missing = true;
         scene_warn(obj->scene,
-                   "%s:%zu: names more than %d material files; no more are read, and their materials are drawn in "
-                   "neutral grey",
+                   "%s:%zu: names more than %d material files; the others are ignored, and their materials are drawn "
+                   "in neutral grey",
                    obj->source->name, obj_line_number(obj, at), OBJ_LIBRARIES_MAX);
     }
     return true;

@@ -140,7 +140,7 @@ static bool declare(struct threemf_xml *xml, const char *prefix, const char *uri
     struct xml_parser *parser = xml->parser;
     size_t length = strlen(prefix) + 1, begin = parser->prefixes.count;
     if (parser->declarations.count == SPACES_MAX)
-        return threemf_xml_fail(xml, "found more than %d name spaces", SPACES_MAX);
+        return threemf_xml_fail(xml, "found more than %d namespaces", SPACES_MAX);
     struct declaration *row = threemf_add(xml->file, &parser->declarations, sizeof *row);
     if (!row || !threemf_reserve(xml->file, &parser->prefixes, 1, begin + length))
         return false;

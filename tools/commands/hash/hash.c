@@ -52,7 +52,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT,
                         "hash: expected either -o FILE, to write hashes, or --check FILE, to compare them");
     if (o->hash.update && !o->hash.check)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--update' goes with --check FILE, whose hashes it renews");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--update' requires --check FILE, whose hashes it replaces");
     if (o->hash.check && strcmp(o->hash.check, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--check' reads a file, found '-'");
     if (o->picture.output && !output_is_named(o->picture.output))
@@ -64,10 +64,11 @@ static bool check(int operands, const struct options *o, lam_error *error)
                         "standard input");
     if (o->work.device != DEVICE_AUTO && o->work.device != DEVICE_CPU)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--device': hashes are of the pictures of the CPU device, which are the same on every "
-                        "machine");
+                        "option '--device': only pictures of the CPU device are hashed, because they are identical on "
+                        "every machine");
     if (o->picture.show && strcmp(o->picture.show, "all") == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' draws several pictures, and a hash is of one");
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--show all' draws several pictures, but each hash is for one picture");
     return job_check_options(o, error) && make_pictures_folder(o, error);
 }
 
@@ -300,8 +301,8 @@ static int finish(void *user, json_t *const *records, size_t failed)
             printf("written to %s%s%s\n", run->path, rows ? "; old and new pictures: " : "", rows ? run->sheet : "");
     }
     if (ok && writes && blocked && json.file != stderr) // a hint is useful only without other output
-        say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok leaves them out\n",
-                  run->path, failed);
+        say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok omits them\n", run->path,
+                  failed);
     if (!ok)
         return report_failure(&error, o);
     bool differs = result.counts[STATE_CHANGED] + result.counts[STATE_MISSING] + result.counts[STATE_NEW];
@@ -321,8 +322,8 @@ static bool say_head(const struct hash_run *run, lam_error *error)
         return complain(error, LAM_LIMIT, "out of memory");
     bool says = !run->options->report.quiet;
     if (says && strcmp(run->then.version, lam_version()) != 0)
-        say_plain("lambent: %s is of version %s, and this is %s: pictures may differ for that reason\n", run->path,
-                  run->then.version, lam_version());
+        say_plain("lambent: %s was written by version %s, and this is %s: pictures may differ for that reason\n",
+                  run->path, run->then.version, lam_version());
     if (says && strcmp(run->then.options, now) != 0)
         say_plain("lambent: %s was made with the options '%s', and these are '%s': pictures differ for that reason\n",
                   run->path, run->then.options, now);

@@ -216,11 +216,10 @@ static bool check_options(const char *path, const char *then, const char *option
     if (!same)
         batch_options_difference(then, now, difference);
     free(now);
-    return same ||
-           complain(error, LAM_BAD_ARGUMENT,
-                    "option '--resume': the journal %.100s is of other options: %.300s; without --resume all is "
-                    "drawn anew",
-                    path, difference);
+    return same || complain(error, LAM_BAD_ARGUMENT,
+                            "option '--resume': the journal %.100s was written with other options: %.300s; without "
+                            "--resume, lambent draws everything again",
+                            path, difference);
 }
 
 // Continues an existing journal.

@@ -230,8 +230,8 @@ bool batch_shard_check_folder(const char *path, const struct batch_shard *shard,
         int count = ours ? batch_shard_count_of(found) : 0;
         if (count && count != shard->count)
             ok = complain(error, LAM_BAD_ARGUMENT,
-                          "option '--shard': %.200s%.200s is of a run with %d shards, and this run has %d; continue "
-                          "with %d, or move the journals away",
+                          "option '--shard': %.200s%.200s belongs to a run with %d shards, and this run has %d; "
+                          "continue with %d, or move the journals away",
                           slash ? folder : "", found, count, shard->count, count);
     }
     if (list)

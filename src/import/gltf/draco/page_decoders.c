@@ -30,7 +30,7 @@ static int decode(const uint8_t *bytes, size_t size, struct draco_memory *memory
 {
     uint32_t out[3] = {0};
     (void)memory;
-    strcpy(reason, "the decoder gave up");
+    strcpy(reason, "the decoder failed");
     int result = web_draco_decode(bytes, size, out, reason);
     *mesh = (void *)(uintptr_t)out[0];
     *vertices = out[1];
@@ -40,7 +40,7 @@ static int decode(const uint8_t *bytes, size_t size, struct draco_memory *memory
 
 static int attribute(const void *mesh, uint32_t id, int component, int width, void *out, char reason[DRACO_REASON_SIZE])
 {
-    strcpy(reason, "the decoder gave up");
+    strcpy(reason, "the decoder failed");
     return web_draco_attribute((uint32_t)(uintptr_t)mesh, id, component, width, out, reason);
 }
 

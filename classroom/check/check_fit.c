@@ -29,7 +29,7 @@ struct fit {
     struct fault_shader *shader; // draws the strided pictures
     int stride, size;
     uint32_t *from[MAX_SCENES],
-        *to[MAX_SCENES]; // indices of the pixels: in the shader's pictures, and in the ones drawn here
+        *to[MAX_SCENES]; // pixel indices in the shader's pictures and in those drawn here
     size_t count[MAX_SCENES];
     float *basis[MAX_SCENES], *pixels;
 };

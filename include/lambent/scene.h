@@ -348,8 +348,8 @@ LAM_API lam_up lam_scene_up(const lam_scene *scene);
 LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
 
 // Gets a sphere around the triangles of an object, in the object's own space, or (`object` −1) of the whole scene, in
-// world space. Its centre is the centre of their box, and its radius the largest distance of a vertex from there.
-// Returns false and all zero if there are no triangles or no such object.
+// world space. Its centre is the centre of their box, and its radius the largest distance from that centre to a vertex.
+// Returns false and stores zeros if there are no triangles or no such object.
 LAM_API bool lam_scene_sphere(const lam_scene *scene, int object, lam_vec3 *centre, double *radius);
 
 // Moves all objects: the transform of each object becomes `transform` × its own. Lights stay, except in the frames of

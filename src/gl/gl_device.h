@@ -24,7 +24,7 @@
 #include "vertex_colors.h"
 
 enum {
-    PART_SIZE_MAX = 2048, // largest width and height in pixels of a part that is drawn at once
+    PART_SIZE_MAX = 2048, // the largest width and height in pixels of a part that is drawn in one pass
 };
 
 enum texture_unit {
@@ -398,7 +398,7 @@ bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
 // --- gl_surfaces.c Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
-// has `most` texels. Sets *same to whether the texels are the ones that were packed last, with the same hierarchy.
+// has `most` texels. Sets *same to whether the texels are those that were packed last, with the same hierarchy.
 // Fails with LAM_LIMIT.
 bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
 // Writes the counted texels into zeroed memory.

@@ -112,8 +112,8 @@ enum fault_maps {
     MAPS_TANGENTS = 2048,         // tangents are an attribute
     MAPS_SIGN = 4096,             // the tangents include the sign of the bitangent
     MAPS_DERIVATIVES = 8192,      // dFdx occurs in the fragment shader
-    MAPS_UP = 16384,              // v goes up if u goes right
-    MAPS_DOWN = 32768,            // v goes down if u goes right
+    MAPS_UP = 16384,              // v increases upwards if u increases to the right
+    MAPS_DOWN = 32768,            // v increases downwards if u increases to the right
     MAPS_NO_BASE = 65536,         // the shader reads no map of the base colour
     MAPS_OCCLUSION_READ = 131072, // an occlusion map, with or without an ambient term
     MAPS_NO_OCCLUSION = 262144,   // no occlusion map

@@ -17,7 +17,7 @@
 
 // Mean differences: the rounding error of an exact explanation in one scene, and the difference between equal pictures.
 static const double max_exact_scene = 1e-4, same_mean = 1e-5;
-// The smallest change of a scene's mean difference, by one fault alone, that counts as a change.
+// The smallest change in a scene's mean difference that counts when one fault is applied alone.
 static const double min_change = 1e-6;
 
 // --- one fault
@@ -76,7 +76,7 @@ static bool measure_outcome(struct state *t, struct outcome *o, bool all, lam_er
     return true;
 }
 
-// Tries each fault of the table alone, as long as it explains each scene. `best` is the best one that explains
+// Tries each fault of the table alone, until it fails to explain a scene. `best` is the best one that explains
 // everything.
 static bool try_each(struct state *t, struct candidate *best, lam_error *error)
 {

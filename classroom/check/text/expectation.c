@@ -71,7 +71,7 @@ static int diffuse_choices(const struct shader_interface *r, unsigned terms, uns
     int count = 0;
     if (!terms || terms & LAM_CHECK_TERM_DIFFUSE)
         out[count++] = complete;
-    // The light's colour alone may be used for a highlight.
+    // The light's colour may be used only for the highlight.
     if (terms ? !count : !declared || (!surface && !declares(r, SEMANTIC_LIGHT_SPECULAR)))
         out[count++] = EXPECT_NO_DIFFUSE;
     return count;

@@ -311,7 +311,7 @@ static void add_light_name(struct shader_interface *r, const struct declarations
     group->count = count > group->count ? count : group->count;
     if (is_used(d, item->name))
         group->kinds |= kind_of(n->semantic, r->contract->any_strengths ? n->type : item->type);
-    // A direction alone makes the light directional; with a position it is the axis of a spot.
+    // A light with only a direction is directional; if it also has a position, the direction is the axis of a spot.
     bool direction = n->semantic == SEMANTIC_LIGHT_DIRECTION || n->semantic == SEMANTIC_LIGHT_TRAVEL;
     if (direction && is_used(d, item->name))
         group->has_direction = true;

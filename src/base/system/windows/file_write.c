@@ -1,5 +1,4 @@
-// file_write.c: writes whole files on Windows, so that a reader sees either the old file or the new one. The bytes go to a file
-// beside it, which then gets its name.
+// file_write.c: writes whole files on Windows, so that a reader sees either the old file or the new one. The bytes are written to a temporary file in the same folder, which is then renamed.
 #include "file.h"
 
 #include "fail.h"

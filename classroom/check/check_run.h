@@ -1,5 +1,5 @@
-// check_run.h: the state of one check, from its parameters to its report. check.c prepares and draws, check_compare.c
-// compares.
+// check_run.h: the state of one check, from its parameters to its report. check.c prepares the check and draws the
+// pictures; check_compare.c compares them.
 #ifndef CHECK_RUN_H
 #define CHECK_RUN_H
 

@@ -41,8 +41,8 @@ LAM_API lam_environment *lam_environment_make(const struct lam_image *const face
 //                              . -Y  .  .                               . -Y  .
 //                                                                       . -Z  .   (-Z turned by 180°)
 //   2:1  equirectangular: direction −z in the middle, +x to the right of it, +y at the top
-// An equirectangular picture is sampled once, bilinearly, into faces of width/π pixels on a side, rounded up: about one
-// pixel for each of the picture's in the middle of a face.
+// An equirectangular picture is sampled once, bilinearly, into faces of width/π pixels on a side, rounded up, so that
+// in the middle of a face one pixel corresponds to about one pixel of the picture.
 LAM_API lam_environment *lam_environment_from_image(const struct lam_image *image, lam_color_mode color,
                                                     lam_error *error);
 

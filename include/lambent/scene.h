@@ -137,7 +137,7 @@ LAM_API void lam_scene_free(lam_scene *scene); // NULL is allowed
 
 // Add to a scene. Arrays and strings are copied. Each call returns the index of the added element, or −1 on failure:
 // LAM_BAD_ARGUMENT (an index out of range, a number out of range or not finite), LAM_LIMIT. A mesh without normals gets
-// smooth ones, with creases at 40°.
+// smooth normals, with creases at 40°.
 LAM_API int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 LAM_API int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error);
 LAM_API int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error);

@@ -342,8 +342,9 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 // clang-format on
 
 // The table of the reflection models: the dispatch in C and in GLSL, the words of the command line and of scene files,
-// reports, explanations and tests are made from it. A new model is an enumerator in lambent/material.h, a function
-// above and a row here; a number of its own is a member of lam_material and a row of LOBE_PARAMETERS. The columns:
+// reports, explanations and tests are made from it. A new model needs an enumerator in lambent/material.h, a function
+// above and a row here; a parameter of its own needs a member of lam_material and a row of LOBE_PARAMETERS. The
+// columns:
 //     the enumerator without LAM_REFLECTION_
 //     the call: `s` is the surface, `l` the direction to the light, `m` the material's lobe_parameters
 //     properties: LOBE_HIGHLIGHT   S is not 0: the lobe returns the base of a power

@@ -111,7 +111,7 @@ static int by_number(const void *a, const void *b)
     return (x->number > y->number) - (x->number < y->number);
 }
 
-// Returns the number of channels of the passing light: one unless something tints it.
+// Returns the number of channels of the transmitted light: one unless something tints it.
 static int passed_channels(const struct frame *frame) { return frame->tints_rays ? 3 : 1; }
 
 // Computes the share of the light that passes along LANES rays, for each of passed_channels.

@@ -79,8 +79,8 @@ static struct uniform_value cone(const struct reference_light *light)
     return (struct uniform_value){{cosine, light->exponent, cosine, 1e5f}};
 }
 
-// Published shaders with metalness and roughness divide by pi. Lambent's lights include pi: a white surface that faces
-// a light of 1 is 1.
+// Published shaders with metalness and roughness divide by pi. Lambent's light intensities include pi: a white surface
+// that faces a light of intensity 1 has the value 1.
 static float light_scale(const struct reference_scene *s) { return s->is_radiance ? (float)PI : 1; }
 
 // Returns the inverse transpose of the matrix from the model's space.

@@ -179,7 +179,7 @@ struct argument {
 };
 
 // Parses the arguments after a function-like macro's name. Returns the number of tokens up to the closing bracket, or 0
-// if it is not called.
+// if no opening bracket follows the name.
 static int read_arguments(const struct token *t, int count, struct argument arguments[MAX_PARAMETERS], int *found)
 {
     int depth = 0;

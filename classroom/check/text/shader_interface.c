@@ -93,8 +93,8 @@ static bool is_material(enum uniform_semantic semantic)
            (is_map(semantic) && semantic != SEMANTIC_BASE_COLOR_MAP);
 }
 
-// Returns whether a shader computes lighting: it declares a uniform of a material or light. A shader that only declares
-// the colour of the surface may multiply it with light from the vertex shader; for printed shaders this also applies to
+// Returns whether a shader computes lighting: it declares a uniform of a material or light. A shader that declares only
+// the colour of the surface may multiply it by light from the vertex shader; for printed shaders this also applies to
 // any map.
 static bool is_lit(const struct shader_interface *r, const struct declarations *d)
 {

@@ -189,7 +189,7 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
 }
 
 // Draws a curve's line in the legend. If the curve falls below 1/255 outside the axis, the plot has no dot for it, and
-// the legend states the point.
+// the legend gives the value.
 static const char *legend_of(const struct plot *plot, const struct curve *curve, char text[LEGEND_SIZE])
 {
     snprintf(text, LEGEND_SIZE, "%s", curve->label);

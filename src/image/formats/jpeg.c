@@ -83,9 +83,9 @@ static bool charge_coefficients(struct reader *reader, lam_error *error)
     return reader->charged || call_memory_error(call, bytes, error);
 }
 
-// Converts cyan, magenta, yellow and black inks of one row to RGBA, without a colour profile: the product of the light
-// that an ink and black transmit. 255 means no ink in files with Adobe's marker, a convention of Photoshop that every
-// program follows; otherwise 0 does.
+// Converts one row of cyan, magenta, yellow and black ink values to RGBA, without a colour profile: each channel is the
+// product of the light that its ink and the black ink transmit. 255 means no ink in files with Adobe's marker, a
+// convention of Photoshop that every program follows; otherwise 0 does.
 static void mix_inks(uint8_t *row, size_t width, bool inverted)
 {
     const unsigned flip = inverted ? 0 : 255;

@@ -117,9 +117,9 @@ LAM_API lam_orbit lam_orbit_of(const lam_camera *camera, const lam_scene *scene)
 // Returns the camera of an orbit; the planes are fitted to the scene when it is drawn.
 LAM_API lam_camera lam_orbit_camera(const lam_orbit *orbit);
 
-// Turns the eye about the target, radians, to the right and up. The elevation stops at −π/2 and π/2. To turn the model
-// with the mouse, a drag by dx, dy pixels (dy down) in a picture of `height` pixels is about −π dx / height to the
-// right and π dy / height up. Numbers that are not finite are ignored, here and below.
+// Rotates the eye about the target to the right and up, by angles in radians. The elevation stops at −π/2 and π/2. To
+// turn the model with the mouse, a drag by dx, dy pixels (dy down) in a picture of `height` pixels is about −π dx /
+// height to the right and π dy / height up. Numbers that are not finite are ignored, here and below.
 LAM_API void lam_orbit_turn(lam_orbit *orbit, double right_rad, double up_rad);
 
 // Moves eye and target in the plane of the picture, in heights of the picture at the target's distance: a drag by dx, dy pixels is

@@ -297,7 +297,8 @@ typedef struct lam_draw_params {
     // an encoded channel by less than this fraction of its range; at most 1. 0: ½/255, so that no byte differs by more
     // than 1. Below 0: every light is evaluated everywhere, as the OpenGL device always does.
     float light_cutoff;
-    // The most texture probes along the longer axis of a pixel's footprint, 1..16, for textures seen at a slant. 0: 1.
+    // The largest number of texture probes along the longer axis of a pixel's footprint, 1..16, for textures seen at a
+    // slant. 0: 1.
     int anisotropy;
     lam_output output; // the content of the frame
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the index of the light in lam_draw_lights.

@@ -398,8 +398,8 @@ LAM_API bool lam_scene_set_environment(lam_scene *scene, const lam_environment *
 // Returns the environment, or NULL if there is none.
 LAM_API const lam_environment *lam_scene_environment(const lam_scene *scene);
 
-// Sets the material of parts that name none; initially it is lam_material_default(). Returns false as
-// lam_scene_add_material.
+// Sets the material of parts that name none; initially it is lam_material_default(). Returns false for the same reasons
+// as lam_scene_add_material.
 LAM_API bool lam_scene_set_default_material(lam_scene *scene, const lam_material *material, lam_error *error);
 LAM_API const lam_material *lam_scene_default_material(const lam_scene *scene);
 

@@ -113,7 +113,7 @@ if (lights_here) {
             }
         }
         if (has_environment) {
-            vec3 mirrored = environment_matrix * reflect(-V, N); // the way that the eye sees in a mirror
+            vec3 mirrored = environment_matrix * reflect(-V, N); // the reflected line of sight
             color = color + REFLECTIVITY * TEXTURE_CUBE(environment, mirrored).rgb;
         }
         return color;

@@ -60,7 +60,7 @@ LANE_FN num log2_of(num x)
     return b.exponent + (1.5f * b.rest + log2_remainder(b.rest));
 }
 
-// Computes 2^y within 2.5e-7 relative. It is 0 below −126 and for NaN; y above 127.5 counts as 127.5.
+// Computes 2^y with a relative error of at most 2.5e-7. It is 0 below −126 and for NaN; y above 127.5 counts as 127.5.
 LANE_FN num exp2_of(num y)
 {
     num x = min_of(y, num_of(127.5f));

@@ -1,4 +1,4 @@
-// codec.h: the interface of a picture format. A new format is a file with a struct codec, and its name in CODECS.
+// codec.h: the interface of a picture format. A new format needs a file with a struct codec, and its name in CODECS.
 #ifndef CODEC_H
 #define CODEC_H
 

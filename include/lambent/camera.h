@@ -136,8 +136,7 @@ LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 //   up=x/y/z      default: the scene's up axis
 //   fovy=degrees  default: 30; or ortho=height, half the height of an orthographic view in model units
 //   near=d,far=d  default: fitted to the scene
-// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. False: Fails with
-// LAM_BAD_ARGUMENT; the sentence says what was found and what was expected.
+// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. Fails with LAM_BAD_ARGUMENT; the error states what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
 // Returns the keys of lam_camera_parse, from 0, or NULL if the index is out of range.

@@ -413,7 +413,7 @@ LANE_FN lobe_sample lobe_of(surface s, vec3 l, lobe_parameters m, int model)
     }
 }
 
-// Its properties; Returns 0 for LAM_REFLECTION_NONE.
+// Returns the properties of a model's lobe, or 0 for LAM_REFLECTION_NONE.
 static inline int lobe_properties(int model)
 {
     switch (model) {

@@ -29,7 +29,7 @@ struct patches {
     int u_steps, v_steps; // segments of one patch
 };
 
-// Cubic Bernstein polynomials and their derivatives, exact at 0 and 1.
+// Computes the cubic Bernstein polynomials and their derivatives, exact at 0 and 1.
 static void bernstein(double t, double b[4], double d[4])
 {
     double s = 1 - t;

@@ -52,7 +52,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
     return job_check_options(o, error);
 }
 
-// --dry-run: prints the picture's path for each model.
+// Prints the picture's path for each model (--dry-run).
 static bool print_mapping(const struct batch_plan *plan, lam_error *error)
 {
     for (size_t i = 0; i < plan->count; i++)

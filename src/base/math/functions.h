@@ -121,7 +121,7 @@ LANE_FN num unit_power(num base, num exponent)
     return unit_power_of(unit_power_logarithm(base, unit_parts_of(base), exponent));
 }
 
-// Like unit_power, for any base ≥ 0. Results above 2^127.5 become about 2^127.5.
+// Works like unit_power, for any base ≥ 0. Results above 2^127.5 become about 2^127.5.
 LANE_FN num power(num base, num exponent)
 {
     struct two_parts y = scaled_log2(binary_parts_of(base), min_of(exponent, num_of(1.0e30f)));

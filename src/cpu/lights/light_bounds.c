@@ -60,7 +60,7 @@ static void make_keys(const struct frame *frame, struct sort_key *keys)
     }
 }
 
-// A stable radix sort by key, 11 bits at a time from the lowest.
+// Sorts by key with a stable radix sort, 11 bits at a time from the lowest.
 static void sort_keys(struct sort_key *keys, struct sort_key *other, int count)
 {
     for (int shift = 0; shift < 3 * PASS_BITS; shift += PASS_BITS) {

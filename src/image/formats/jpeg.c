@@ -142,7 +142,7 @@ static bool fail_jump(const struct reader *reader, lam_error *error)
     return fail(error, LAM_CANNOT_READ, "%s: JPEG: %s", reader->file->name, reader->message);
 }
 
-// The function that libjpeg returns to by longjmp; none of its own variables change meanwhile.
+// Calls setjmp, so that libjpeg returns here by longjmp; none of its local variables change between the two calls.
 static bool decode_or_jump(struct reader *reader, lam_image *image, lam_error *error)
 {
     return setjmp(reader->out) == 0 ? decode(reader, image, error) : fail_jump(reader, error);

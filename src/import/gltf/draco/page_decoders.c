@@ -18,10 +18,10 @@ int web_draco_attribute(uint32_t mesh, uint32_t id, int component, int width, vo
     IMPORT(web_draco_attribute);
 void web_draco_triangles(uint32_t mesh, uint32_t *out) IMPORT(web_draco_triangles);
 void web_draco_free(uint32_t mesh) IMPORT(web_draco_free);
-// `kind`: `kind` is 0 for vertices, 1 for triangles, 2 for a sequence of indices. Returns 0 or an error number.
+// `kind` is 0 for vertices, 1 for triangles, 2 for a sequence of indices. Returns 0 or an error number.
 int web_meshopt_decode(int kind, void *out, size_t count, size_t stride, const uint8_t *bytes, size_t size)
     IMPORT(web_meshopt_decode);
-// `kind`: `kind` is 0 for octahedral, 1 for quaternions, 2 for exponential.
+// `kind` is 0 for octahedral, 1 for quaternions, 2 for exponential.
 void web_meshopt_filter(int kind, void *data, size_t count, size_t stride) IMPORT(web_meshopt_filter);
 
 // The other module does not count memory; the browser limits it.

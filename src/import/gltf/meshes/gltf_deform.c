@@ -101,7 +101,7 @@ struct owned {
     bool positions, normals, tangents, texcoords[2];
 };
 
-// The sets that the mesh has.
+// Morphs the sets of texture coordinates that the mesh has.
 static bool morph_texcoords(const struct morph_target *target, lam_mesh *mesh, struct owned *own)
 {
     bool ok = true;

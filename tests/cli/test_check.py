@@ -677,7 +677,7 @@ class Contracts(CheckTest):
     def own(self, old_names):
         """Oregon's contract with other names, as my.json, and its correct shaders with the same."""
         words = self.shader("oregon")
-        text = (ROOT / "src" / "check" / "contracts" / "oregon.json").read_text()
+        text = (ROOT / "classroom" / "check" / "contracts" / "oregon.json").read_text()
         for path, name in ((self.folder / "s.frag", "s.frag"), (self.folder / "s.vert", "s.vert")):
             shader = path.read_text()
             for old, new in old_names.items():

@@ -84,7 +84,7 @@ class Grades(CheckTest):
     GATE = [("frag", "dot(n, l) <= 0.0", "false")]
 
     def weighted(self, weights):
-        contract = json.loads((SHADERS.parent.parent / "src" / "check" / "contracts" / "pittsburgh.json").read_text())
+        contract = json.loads((SHADERS.parent.parent / "classroom" / "check" / "contracts" / "pittsburgh.json").read_text())
         (self.folder / "my.json").write_text(json.dumps({**contract, "weights": weights}))
         return ("--contract", "my.json", "--scenes", "all,gate,coarse")
 

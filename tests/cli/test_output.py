@@ -191,7 +191,7 @@ class Patterns(Case):
         for pattern, says in (("{name}.png", "found '{name}' in the name, expected one of {stem}, {ext}, {dir}, {view}, {size};"),
                               ("{frame}.png", "found '{frame}'"), ("{stem.png", "'{stem.png' in the name, an unmatched brace"),
                               ("stem}.png", "'}.png' in the name, an unmatched brace"), ("{}.png", "found '{}'"),
-                              ("{a{b}}.png", "a brace without")):
+                              ("{a{b}}.png", "an unmatched brace")):
             self.bad(1, "cube.obj", "-o", pattern, says=[says, "option '--output'"])
         self.bad(1, "a/cube.stl", "b/deep/cube.stl", "-o", "{stem}.png",
                  says=["'a/cube.stl' and 'b/deep/cube.stl' would both be written to 'cube.png'", "{dir}"])

@@ -17,7 +17,7 @@ typedef struct lam_font lam_font;
 
 // Opens a font file: TrueType, OpenType or any other format of FreeType. If `path` is NULL, it opens the file that the
 // environment variable LAMBENT_FONT names, else the first of lam_font_path() that exists; the static program of `make
-// static` opens its embedded font. Returns NULL on failure: Fails with LAM_UNSUPPORTED (no FreeType or no font; the
+// static` opens its embedded font. Returns NULL on failure: LAM_UNSUPPORTED (no FreeType or no font; the
 // sentence names the Debian packages), LAM_CANNOT_READ (not a font) or LAM_LIMIT.
 LAM_API lam_font *lam_font_open(const char *path, lam_error *error);
 LAM_API void lam_font_free(lam_font *font); // NULL is allowed

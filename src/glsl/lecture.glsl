@@ -136,7 +136,7 @@ void main()
             vec3 N = normalize(eye_normal); // interpolation made it shorter
             if (two_sided) {
                 if (!gl_FrontFacing)
-                    N = -N;                     // the back is lit as well
+                    N = -N;                     // the back is lit too
             }
             vec4 light = vec4(lit(ARGUMENTS), OPACITY);
         } else {
@@ -177,7 +177,7 @@ void main()
             }
             front_light = vec4(lit(ARGUMENTS), OPACITY);
             if (two_sided) {
-                N = -N; // the back is lit as well; the fragment shader chooses
+                N = -N; // the back is lit too; the fragment shader chooses
                 back_light = vec4(lit(ARGUMENTS), OPACITY);
             }
         }

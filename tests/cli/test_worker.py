@@ -273,7 +273,7 @@ class Refusals(Jobs):
                               "journal": "x", "jobs": "-", "files-from": "in/cube.obj", "resume": True, "isolate": True, "report": "x.html", "json": True,
                               "verbose": True, "dry-run": True, "help": True, "version": True, "save-scene": "out/x.json", "output": "out/x.png",
                               "font": "in/cube.obj", "repeat": 3, "gl-device": "1", "durable": True}.items():
-            self.refuse({"id": 1, "model": "teapot", "options": {option: value}}, f"option '--{option}' is not a job's", 1)
+            self.refuse({"id": 1, "model": "teapot", "options": {option: value}}, f"option '--{option}' is not allowed in a job", 1)
         self.assertEqual(sorted(os.listdir(self.folder / "out")), [])
 
     def test_paths(self):

@@ -21,14 +21,18 @@ typedef struct lam_export_params {
     const lam_camera *camera;
     // A preview picture to store in the file (8 bits; only GLB: asset.thumbnail of the draft of glTF 2.1). NULL: none.
     const lam_image *thumbnail;
-    LAM_RESERVED(5);
+    // Limits of memory and time, and the flag that cancels the export; memory includes the files. Files that the scene was read from limit the
+    // memory too (expansion_limit). NULL: no limits.
+    const lam_control *control;
+    LAM_RESERVED(4);
 } lam_export_params;
 
 // Makes the files of a model from a scene: its meshes, objects and materials with their textures, and its lights and
 // cameras, as far as the format supports them. Coordinates are rotated to the up axis of the format. `format` is a name
 // from lam_export_format. `params` may be NULL. The caller frees the result with lam_export_free. Returns NULL on
 // failure: LAM_BAD_ARGUMENT (the scene contains nothing that the format supports; a thumbnail in a format without
-// thumbnails), LAM_UNSUPPORTED (unknown format, or a required library is not installed), LAM_LIMIT.
+// thumbnails), LAM_UNSUPPORTED (unknown format, or a required library is not installed), LAM_LIMIT,
+// LAM_CANCELLED.
 LAM_API lam_export *lam_scene_export(const lam_scene *scene, const char *format, const lam_export_params *params,
                                      lam_error *error);
 LAM_API void lam_export_free(lam_export *result); // NULL is allowed

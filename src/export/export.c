@@ -36,11 +36,8 @@ static bool finish(struct exporting *e, const char *ending)
 {
     struct lam_export *out = e->out;
     lam_bytes bytes = {e->text.bytes, e->text.length};
-    if (e->text.failed) {
-        if (e->error)
-            *e->error = e->text.error;
+    if (!export_text_is_whole(e, &e->text))
         return false;
-    }
     e->text.bytes = NULL;
     char dotted[16];
     snprintf(dotted, sizeof dotted, ".%s", ending);
@@ -71,11 +68,14 @@ lam_export *lam_scene_export(const lam_scene *scene, const char *format, const l
         fail(error, LAM_BAD_ARGUMENT, "lam_scene_export: found a thumbnail, and .%s has none; expected .glb", format);
         return NULL;
     }
+    struct call_control call;
+    call_start(&call, params->control);
+    call_add_input(&call, scene->input_bytes);
     struct arena arena;
-    arena_start(&arena, NULL);
+    arena_start(&arena, &call);
     struct lam_export *out = arena_alloc_zeroed(&arena, sizeof *out);
     if (!out) {
-        fail_memory(error, sizeof *out);
+        call_memory_error(&call, sizeof *out, error);
         return NULL;
     }
     out->arena = arena;
@@ -86,8 +86,12 @@ lam_export *lam_scene_export(const lam_scene *scene, const char *format, const l
                           .out = out,
                           .from = lam_scene_up(scene),
                           .to = exporter->up,
+                          .text.call = &call,
+                          .call = &call,
                           .error = error};
-    bool ok = (!exporter->flat || export_flatten(&e)) && exporter->write(&e) && finish(&e, format);
+    bool ok = export_is_whole(&e) && (!exporter->flat || export_flatten(&e)) && exporter->write(&e) &&
+              export_is_whole(&e) && finish(&e, format);
+    out->arena.call = NULL; // it ends here
     free(e.text.bytes);
     if (ok)
         return out;

@@ -36,7 +36,9 @@ struct exporting {
     // For flat formats: everything of one kind as one mesh in world space, whose parts refer to their materials. Empty
     // if there is nothing of that kind.
     lam_mesh flat[EXPORT_KINDS];
-    struct text text; // the model's file
+    struct text text;          // the model's file
+    struct call_control *call; // NULL: none
+    bool stopped;              // the call must end, and the result is incomplete
     lam_error *error;
 };
 
@@ -68,6 +70,18 @@ const char *export_add_file(struct exporting *e, const char *ending, bool beside
 
 // Reports that memory has run out. Returns false.
 bool export_no_memory(struct exporting *e, size_t bytes);
+
+// Memory for a moment, charged to the call.
+void *export_memory(struct exporting *e, size_t bytes);
+void export_memory_free(struct exporting *e, void *memory, size_t bytes);
+
+// The condition of long loops: asks at each 64 ki items whether the call may continue.
+bool export_asks(struct exporting *e);
+static inline bool export_continues(struct exporting *e, size_t item) { return item % 65536 || export_asks(e); }
+
+// Return false, with the error, if a loop was left early, or the text is incomplete.
+bool export_is_whole(struct exporting *e);
+bool export_text_is_whole(struct exporting *e, const struct text *text);
 
 // flatten.c: builds e->flat from the scene.
 bool export_flatten(struct exporting *e);

@@ -5,9 +5,44 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-bool export_no_memory(struct exporting *e, size_t bytes) { return fail_memory(e->error, bytes); }
+// --- the call
+
+bool export_no_memory(struct exporting *e, size_t bytes) { return call_memory_error(e->call, bytes, e->error); }
+
+void *export_memory(struct exporting *e, size_t bytes)
+{
+    if (e->call && !call_charge(e->call, bytes))
+        return NULL;
+    void *memory = malloc(bytes ? bytes : 1);
+    if (!memory && e->call)
+        call_refund(e->call, bytes);
+    return memory;
+}
+
+void export_memory_free(struct exporting *e, void *memory, size_t bytes)
+{
+    if (memory && e->call)
+        call_refund(e->call, bytes);
+    free(memory);
+}
+
+bool export_asks(struct exporting *e)
+{
+    e->stopped |= !call_should_continue(e->call);
+    return !e->stopped;
+}
+
+bool export_is_whole(struct exporting *e) { return export_asks(e) || call_error(e->call, e->error); }
+
+bool export_text_is_whole(struct exporting *e, const struct text *text)
+{
+    if (text->failed && e->error)
+        *e->error = text->error;
+    return !text->failed;
+}
 
 // --- losses
 
@@ -91,7 +126,8 @@ const char *export_add_file(struct exporting *e, const char *ending, bool beside
         make_nameable(file.name);
     if (file.name)
         strcat(file.name, ending);
-    if (file.name && append(e->out, &e->out->files, &file, sizeof file))
+    bool charged = !beside || !e->call || call_charge(e->call, bytes.size); // the model's own text is charged already
+    if (charged && file.name && append(e->out, &e->out->files, &file, sizeof file))
         return file.name;
     lam_bytes_free(&bytes);
     export_no_memory(e, length);

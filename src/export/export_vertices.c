@@ -42,14 +42,15 @@ bool export_share_vertices(struct exporting *e, const lam_mesh *mesh, struct exp
     size_t corners = mesh_corners(mesh), slots = 64;
     while (slots < 2 * corners)
         slots *= 2;
-    uint32_t *firsts = arena_array(e->arena, corners + 1, sizeof *firsts), *table = malloc(slots * sizeof *table),
+    uint32_t *firsts = arena_array(e->arena, corners + 1, sizeof *firsts),
+             *table = export_memory(e, slots * sizeof *table),
              *numbers = arena_array(e->arena, corners + 1, sizeof *numbers), count = 0;
     if (!firsts || !table || !numbers) {
-        free(table);
+        export_memory_free(e, table, slots * sizeof *table);
         return export_no_memory(e, corners * 8 + slots * 4);
     }
     memset(table, 0xff, slots * sizeof *table);
-    for (size_t c = 0; c < corners; c++) {
+    for (size_t c = 0; c < corners && export_continues(e, c); c++) {
         struct corner corner = corner_of(mesh, c);
         size_t slot = slot_of(&corner, slots);
         for (; table[slot] != UINT32_MAX; slot = (slot + 1) & (slots - 1)) {
@@ -63,9 +64,9 @@ bool export_share_vertices(struct exporting *e, const lam_mesh *mesh, struct exp
         }
         numbers[c] = table[slot];
     }
-    free(table);
+    export_memory_free(e, table, slots * sizeof *table);
     *out = (struct export_vertices){count, firsts, numbers};
-    return true;
+    return export_is_whole(e);
 }
 
 // --- colours
@@ -151,6 +152,6 @@ bool export_texture(struct exporting *e, const lam_texture *texture, lam_bytes *
                        .height = level->height,
                        .pixels = (void *)(uintptr_t)texture->bytes,
                        .format = texture->channels == 3 ? LAM_RGB8 : LAM_RGBA8};
-    lam_save_params params = {.raw = texture->values == LAM_TEXTURE_NUMBERS};
-    return lam_image_encode(&image, "png", &params, png, e->error);
+    lam_save_params params = {.raw = texture->values == LAM_TEXTURE_NUMBERS, .control = e->params->control};
+    return export_is_whole(e) && lam_image_encode(&image, "png", &params, png, e->error);
 }

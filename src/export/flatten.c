@@ -73,7 +73,7 @@ static void put_positions(struct flat *f, const lam_mesh *m, const lam_mat4 *tra
         return;
     }
     export_lose(f->e, "transforms of objects are applied to their coordinates, which are rounded to floats");
-    for (size_t i = 0; i < m->vertex_count; i++) {
+    for (size_t i = 0; i < m->vertex_count && export_continues(f->e, i); i++) {
         const float *p = m->positions + 3 * i;
         lam_vec3 world = mat4_point(
             transform, v3((double)p[0] + m->origin[0], (double)p[1] + m->origin[1], (double)p[2] + m->origin[2]));
@@ -92,7 +92,7 @@ static void put_normals(struct flat *f, const lam_mesh *m, const lam_mat4 *trans
         memcpy(to, m->normals, 3 * (size_t)m->normal_count * sizeof *to);
         return;
     }
-    for (size_t i = 0; i < m->normal_count; i++) {
+    for (size_t i = 0; i < m->normal_count && export_continues(f->e, i); i++) {
         const float *n = m->normals + 3 * i;
         double v[3];
         for (int k = 0; k < 3; k++)
@@ -113,7 +113,7 @@ static size_t source_corner(const struct flat *f, size_t corner, bool mirrored)
 
 static void put_corners(struct flat *f, const lam_mesh *m, bool mirrored)
 {
-    for (size_t i = 0; i < mesh_corners(m); i++) {
+    for (size_t i = 0; i < mesh_corners(m) && export_continues(f->e, i); i++) {
         size_t c = source_corner(f, i, mirrored), to = f->corners + i;
         f->index[to] = (uint32_t)f->vertices + export_element(NULL, m, c);
         // Meshes without normals use the element after the last one.
@@ -144,7 +144,7 @@ static void put_object(struct flat *f, const lam_mesh *m, const lam_object *obje
         put_normals(f, m, &object->transform);
     if (m->texcoords)
         memcpy(f->texcoord + 2 * f->texcoords, m->texcoords, 2 * (size_t)m->texcoord_count * sizeof(float));
-    for (size_t i = 0; m->colors && i < m->color_count; i++)
+    for (size_t i = 0; m->colors && i < m->color_count && export_continues(f->e, i); i++)
         export_color(m, i, f->color + 4 * (f->colors + i));
     put_parts(f, m, object);
     put_corners(f, m, mat4_determinant3(&object->transform) < 0);
@@ -159,7 +159,7 @@ static void put_object(struct flat *f, const lam_mesh *m, const lam_object *obje
 static void put_missing(struct flat *f, size_t corners)
 {
     bool normals = false, texcoords = false;
-    for (size_t i = 0; i < corners; i++) {
+    for (size_t i = 0; i < corners && export_continues(f->e, i); i++) {
         normals |= f->normal_index[i] == UINT32_MAX;
         texcoords |= f->texcoord_index[i] == UINT32_MAX;
         if (f->normal_index[i] == UINT32_MAX)
@@ -207,16 +207,18 @@ static bool flatten(struct exporting *e, enum export_kind kind)
         return fail(e->error, LAM_LIMIT, "the scene has %zu vertices, more than a flat model file can number",
                     size.vertices);
     f = size;
-    if (!make_arrays(&f))
+    if (!export_is_whole(e) || !make_arrays(&f))
         return false;
     f.vertices = f.normals = f.texcoords = f.colors = f.corners = f.parts = 0;
-    for (int i = 0; i < s->objects.count; i++) {
+    for (int i = 0; i < s->objects.count && export_asks(e); i++) {
         const lam_object *object = scene_object(s, i);
         const lam_mesh *m = scene_mesh(s, object->mesh);
         if (kind_of(m) == kind && mesh_items(m) && scene_shows(s, i))
             put_object(&f, m, object, origin);
     }
     put_missing(&f, f.corners);
+    if (!export_is_whole(e))
+        return false;
     *out = (lam_mesh){.origin = {origin[0], origin[1], origin[2]},
                       .positions = f.position,
                       .vertex_count = (uint32_t)f.vertices,

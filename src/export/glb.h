@@ -53,6 +53,9 @@ json_t *glb_extension(struct glb *glb, json_t *object, const char *name);
 // Appends bytes to the buffer, aligned to four, as a view. Returns the index of the view. `target` is its target, or 0.
 int glb_add_view(struct glb *glb, const void *bytes, size_t size, int target);
 
+// Fills the error with the reason why the file is incomplete, and returns false.
+bool glb_error(struct glb *glb);
+
 bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size_t size);
 
 // Returns the index of the file's mesh for an object, or −1 if memory runs out.

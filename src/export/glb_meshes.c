@@ -46,16 +46,16 @@ static int add_floats(struct glb *glb, const struct vertices *v, const float *it
     size_t size = (size_t)v->count * (size_t)width;
     float *copy = NULL;
     if (!v->as_they_are) {
-        copy = malloc((size + 1) * sizeof *copy);
+        copy = export_memory(glb->e, (size + 1) * sizeof *copy);
         glb->failed |= !copy;
-        for (uint32_t i = 0; copy && i < v->count; i++)
+        for (uint32_t i = 0; copy && i < v->count && export_continues(glb->e, i); i++)
             for (int k = 0; k < width; k++)
                 copy[(size_t)i * (size_t)width + (size_t)k] =
                     items[(size_t)element(v, own, i) * (size_t)width + (size_t)k];
         items = copy;
     }
     int view = items ? glb_add_view(glb, items, size * sizeof *items, ARRAY_BUFFER) : 0;
-    free(copy);
+    export_memory_free(glb->e, copy, (size + 1) * sizeof *copy);
     return add_accessor(glb, view, FLOAT, types[width], v->count);
 }
 
@@ -63,7 +63,7 @@ static int add_floats(struct glb *glb, const struct vertices *v, const float *it
 static void set_bounds(struct glb *glb, const struct vertices *v, int accessor)
 {
     float low[3] = {0}, high[3] = {0};
-    for (uint32_t i = 0; i < v->count; i++)
+    for (uint32_t i = 0; i < v->count && export_continues(glb->e, i); i++)
         for (int k = 0; k < 3; k++) {
             float x = v->mesh->positions[3 * (size_t)element(v, NULL, i) + (size_t)k];
             low[k] = i == 0 || x < low[k] ? x : low[k];
@@ -87,9 +87,9 @@ static int add_colors(struct glb *glb, const struct vertices *v)
         return -1;
     bool bytes = m->colors_format == LAM_COLORS_LINEAR8;
     size_t size = bytes ? 4 : 16;
-    char *items = malloc(((size_t)v->count + 1) * size);
+    char *items = export_memory(glb->e, ((size_t)v->count + 1) * size);
     glb->failed |= !items;
-    for (uint32_t i = 0; items && i < v->count; i++) {
+    for (uint32_t i = 0; items && i < v->count && export_continues(glb->e, i); i++) {
         size_t at = color_of(v, i);
         if (bytes)
             for (int k = 0; k < 4; k++)
@@ -98,7 +98,7 @@ static int add_colors(struct glb *glb, const struct vertices *v)
             export_color(m, at, (float *)(void *)items + 4 * (size_t)i);
     }
     int view = items ? glb_add_view(glb, items, v->count * size, ARRAY_BUFFER) : 0;
-    free(items);
+    export_memory_free(glb->e, items, ((size_t)v->count + 1) * size);
     int accessor = add_accessor(glb, view, bytes ? UNSIGNED_BYTE : FLOAT, "VEC4", v->count);
     if (bytes)
         glb_set(glb, json_array_get(glb->accessors, (size_t)accessor), "normalized", json_true());
@@ -112,18 +112,18 @@ static void add_indices(struct glb *glb, const struct vertices *v, struct glb_ar
 {
     const lam_mesh *m = v->mesh;
     size_t size = corners_of_item(m), corners = mesh_corners(m);
-    uint32_t *numbers = malloc((corners + 1) * sizeof *numbers);
+    uint32_t *numbers = export_memory(glb->e, (corners + 1) * sizeof *numbers);
     glb->failed |= !numbers;
-    for (size_t c = 0; numbers && c < corners; c++)
+    for (size_t c = 0; numbers && c < corners && export_continues(glb->e, c); c++)
         numbers[c] = v->as_they_are ? export_element(NULL, m, c) : v->shared.numbers[c];
     arrays->first_indices = (int)json_array_size(glb->accessors);
-    for (uint32_t i = 0; numbers && i < (m->parts ? m->part_count : 1); i++) {
+    for (uint32_t i = 0; numbers && i < (m->parts ? m->part_count : 1) && !glb->bytes.failed; i++) {
         size_t first = m->parts ? m->parts[i].first_triangle * size : 0,
                count = m->parts ? m->parts[i].triangle_count * size : corners;
         int view = glb_add_view(glb, numbers + first, count * sizeof *numbers, ELEMENT_ARRAY_BUFFER);
         add_accessor(glb, view, UNSIGNED_INT, "SCALAR", count);
     }
-    free(numbers);
+    export_memory_free(glb->e, numbers, (corners + 1) * sizeof *numbers);
 }
 
 // Writes the arrays of a mesh, unless they are already written.
@@ -188,7 +188,7 @@ int glb_mesh_of(struct glb *glb, const lam_object *object)
     if (!write_arrays(glb, object->mesh) || !glb_append(glb, &glb->own, &own, sizeof own))
         return -1;
     json_t *mesh = json_object(), *primitives = json_array();
-    for (uint32_t i = 0; i < (m->parts ? m->part_count : 1); i++) {
+    for (uint32_t i = 0; i < (m->parts ? m->part_count : 1) && export_asks(glb->e); i++) {
         if (m->parts && !m->parts[i].triangle_count)
             continue;
         int material = object->material >= 0 ? object->material : m->parts ? m->parts[i].material : -1;

@@ -189,9 +189,12 @@ static void add_camera(struct glb *glb, const lam_camera *c, const char *name)
 bool glb_nodes(struct glb *glb)
 {
     const struct lam_scene *s = glb->e->scene;
-    for (int i = 0; i < s->objects.count; i++)
+    for (int i = 0; i < s->objects.count; i++) {
         if (scene_shows(s, i) && !add_object(glb, scene_object(s, i)))
             return false;
+        if (glb->failed || glb->bytes.failed || !export_is_whole(glb->e))
+            return glb_error(glb);
+    }
     for (int i = 0; i < s->lights.count; i++)
         add_light(glb, (const lam_light *)s->lights.items + i);
     if (glb->e->params->camera)

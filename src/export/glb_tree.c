@@ -3,14 +3,18 @@
 
 #include <string.h>
 
+enum { VALUE = 64 }; // bytes of memory for a value of JSON, about
+
+static bool charge(struct glb *glb) { return !glb->e->call || call_charge(glb->e->call, VALUE); }
+
 void glb_set(struct glb *glb, json_t *object, const char *key, json_t *value)
 {
-    glb->failed |= json_object_set_new(object, key, value) != 0;
+    glb->failed |= json_object_set_new(object, key, value) != 0 || !charge(glb);
 }
 
 int glb_add(struct glb *glb, json_t *list, json_t *value)
 {
-    glb->failed |= json_array_append_new(list, value) != 0;
+    glb->failed |= json_array_append_new(list, value) != 0 || !charge(glb);
     return (int)json_array_size(list) - 1;
 }
 
@@ -59,6 +63,12 @@ int glb_add_view(struct glb *glb, const void *bytes, size_t size, int target)
         glb_set(glb, view, "target", json_integer(target));
     text_add_part(&glb->bytes, bytes, size);
     return glb_add(glb, glb->views, view);
+}
+
+bool glb_error(struct glb *glb)
+{
+    return export_is_whole(glb->e) && export_text_is_whole(glb->e, &glb->bytes) &&
+           export_no_memory(glb->e, glb->bytes.length);
 }
 
 bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size_t size)

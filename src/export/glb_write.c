@@ -47,10 +47,11 @@ static void set_list(struct glb *glb, json_t *object, const char *key, json_t *l
 static bool add_thumbnail(struct glb *glb)
 {
     const lam_image *picture = glb->e->params->thumbnail;
+    lam_save_params params = {.control = glb->e->params->control};
     lam_bytes png;
     if (!picture)
         return true;
-    if (!lam_image_encode(picture, "png", NULL, &png, glb->e->error))
+    if (!lam_image_encode(picture, "png", &params, &png, glb->e->error))
         return false;
     int view = glb_add_view(glb, png.data, png.size, 0);
     lam_bytes_free(&png);
@@ -101,33 +102,41 @@ static void add_chunk(struct text *text, const char *kind, const char *bytes, si
         text_add_part(text, &padding, 1);
 }
 
+static int put_json(const char *bytes, size_t size, void *user)
+{
+    struct text *text = user;
+    text_add_part(text, bytes, size);
+    return text->failed ? -1 : 0;
+}
+
 static bool finish(struct glb *glb)
 {
     struct exporting *e = glb->e;
+    struct text json = {.call = e->call};
     while (glb->bytes.length % 4 && !glb->bytes.failed)
         text_add_part(&glb->bytes, "\0", 1);
     fill_root(glb);
-    char *json = glb->failed ? NULL : json_dumps(glb->root, JSON_COMPACT | JSON_REAL_PRECISION(17));
-    if (!json || glb->bytes.failed) {
-        free(json);
-        return export_no_memory(e, glb->bytes.length);
+    if (glb->failed || glb->bytes.failed ||
+        json_dump_callback(glb->root, put_json, &json, JSON_COMPACT | JSON_REAL_PRECISION(17)) != 0) {
+        free(json.bytes);
+        return export_text_is_whole(e, &json) && glb_error(glb);
     }
-    size_t length = strlen(json), whole = 28 + (length + 3) / 4 * 4 + glb->bytes.length;
+    size_t whole = 28 + (json.length + 3) / 4 * 4 + glb->bytes.length;
     bool fits = whole <= UINT32_MAX;
     if (fits) {
         text_add_part(&e->text, "glTF\2\0\0\0", 8);
         export_word(&e->text, (uint32_t)whole);
-        add_chunk(&e->text, "JSON", json, length, ' ');
+        add_chunk(&e->text, "JSON", json.bytes, json.length, ' ');
         add_chunk(&e->text, "BIN\0", glb->bytes.bytes, glb->bytes.length, 0);
     }
-    free(json);
+    free(json.bytes);
     return fits || fail(e->error, LAM_LIMIT, "%s: the file would have %zu bytes, and GLB has at most %lu", e->name,
                         whole, (unsigned long)UINT32_MAX);
 }
 
 static bool write(struct exporting *e)
 {
-    struct glb glb = {.e = e};
+    struct glb glb = {.e = e, .bytes.call = e->call};
     bool ok = start(&glb) && glb_nodes(&glb);
     if (ok && !json_array_size(glb.meshes))
         ok = fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, lines or points", e->name);

@@ -42,12 +42,7 @@ bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error 
     e.flat[EXPORT_TRIANGLES].parts = NULL;
     e.flat[EXPORT_TRIANGLES].second_texcoords = NULL;
     e.flat[EXPORT_TRIANGLES].tangents = NULL;
-    bool ok = format->write(&e);
-    if (ok && e.text.failed) {
-        ok = false;
-        if (error)
-            *error = e.text.error;
-    }
+    bool ok = format->write(&e) && export_text_is_whole(&e, &e.text);
     ok = ok && file_write(path, e.text.bytes, e.text.length, false, NULL, error);
     free(e.text.bytes);
     arena_free(&arena);

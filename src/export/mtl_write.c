@@ -226,16 +226,16 @@ bool mtl_write(struct exporting *e, struct mtl_names *out)
     int count = find_used(e, used, &out->flips);
     if (count == used[materials]) // only the default material is used
         return true;
-    struct text text = {0};
+    struct text text = {.call = e->call};
     bool ok = true;
     for (int i = 0; ok && i <= materials; i++)
         if (used[i])
-            ok = ((names[i] = i < materials ? name_of(e, names, i) : "lambent-default") || export_no_memory(e, 160)) &&
+            ok = export_is_whole(e) &&
+                 ((names[i] = i < materials ? name_of(e, names, i) : "lambent-default") || export_no_memory(e, 160)) &&
                  put_material(e, &text, export_material(e, i), names[i], pictures, out->flips);
-    if (ok && text.failed && e->error)
-        *e->error = text.error;
+    ok = ok && export_text_is_whole(e, &text);
     lam_bytes bytes = {text.bytes, text.length};
-    if (!ok || text.failed) {
+    if (!ok) {
         lam_bytes_free(&bytes);
         return false;
     }

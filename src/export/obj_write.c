@@ -28,7 +28,7 @@ static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
     if (!elements)
         return export_no_memory(e, (size_t)m->vertex_count * sizeof *elements);
     memset(elements, 0xff, (size_t)m->vertex_count * sizeof *elements);
-    for (size_t c = 0; c < mesh_corners(m); c++) {
+    for (size_t c = 0; c < mesh_corners(m) && export_continues(e, c); c++) {
         uint32_t *own = &elements[export_element(NULL, m, c)], element = export_color_element(m, c);
         const float *colors = m->colors, *other = colors + 4 * (size_t)*own;
         if (*own == UINT32_MAX)
@@ -42,7 +42,7 @@ static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
             export_lose(e, "the opacity of vertices is omitted: OBJ does not support it");
     }
     *out = elements;
-    return true;
+    return export_is_whole(e);
 }
 
 static void put_position(struct exporting *e, const lam_mesh *m, uint32_t vertex, const uint32_t *colors)
@@ -57,13 +57,13 @@ static void put_position(struct exporting *e, const lam_mesh *m, uint32_t vertex
 static void put_arrays(struct exporting *e, const lam_mesh *m, const uint32_t *colors, bool flips)
 {
     struct text *text = &e->text;
-    for (uint32_t i = 0; i < m->vertex_count; i++)
+    for (uint32_t i = 0; i < m->vertex_count && !text->failed; i++)
         put_position(e, m, i, colors);
-    for (uint32_t i = 0; m->texcoords && i < m->texcoord_count; i++) {
+    for (uint32_t i = 0; m->texcoords && i < m->texcoord_count && !text->failed; i++) {
         double s = (double)m->texcoords[2 * (size_t)i], t = (double)m->texcoords[2 * (size_t)i + 1];
         export_line(text, "vt", (double[2]){s, flips ? 1 - t : t}, 2);
     }
-    for (uint32_t i = 0; m->normals && i < m->normal_count; i++)
+    for (uint32_t i = 0; m->normals && i < m->normal_count && !text->failed; i++)
         put_vector(text, "vn", export_normal(e, m, i));
 }
 
@@ -81,7 +81,7 @@ static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *pa
     static const char *const words[] = {"p", "l", "f"};
     size_t begin = (size_t)part->first_triangle * (size_t)size,
            end = begin + (size_t)part->triangle_count * (size_t)size;
-    for (size_t c = begin; c < end; c++) {
+    for (size_t c = begin; c < end && !e->text.failed; c++) {
         if (c % (size_t)size == 0)
             text_add(&e->text, words[size - 1]);
         if (size == 3)

@@ -53,9 +53,9 @@ static bool write(struct exporting *e)
         text_print(text, "element face %lu\nproperty list uchar int vertex_indices\n",
                    (unsigned long)m->triangle_count);
     text_add(text, "end_header\n");
-    for (size_t i = 0; i < vertices.count; i++)
+    for (size_t i = 0; i < vertices.count && !text->failed; i++)
         put_vertex(e, m, vertices.corners[i]);
-    for (size_t c = 0; !points && c < mesh_corners(m); c++) {
+    for (size_t c = 0; !points && c < mesh_corners(m) && !text->failed; c++) {
         if (c % 3 == 0)
             text_add_part(text, "\3", 1);
         export_word(text, vertices.numbers[c]);

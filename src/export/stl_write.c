@@ -19,7 +19,7 @@ static bool write(struct exporting *e)
              strncmp(name, "solid", 5) == 0 ? "mesh" : name); // text files begin with "solid"
     text_add_part(text, head, 80);
     export_word(text, m->triangle_count);
-    for (size_t t = 0; t < m->triangle_count; t++) {
+    for (size_t t = 0; t < m->triangle_count && !text->failed; t++) {
         lam_vec3 p[3];
         for (size_t k = 0; k < 3; k++)
             p[k] = export_position(e, m, export_element(NULL, m, 3 * t + k));

@@ -19,7 +19,7 @@
     each(zip_source_buffer_create) each(zip_source_buffer) each(zip_source_free) each(zip_source_keep)                 \
         each(zip_source_open) each(zip_source_read) each(zip_source_close) each(zip_open_from_source)                  \
             each(zip_file_add) each(zip_file_set_dostime) each(zip_close) each(zip_discard) each(zip_error_init)       \
-                each(zip_error_fini)
+                each(zip_error_fini) each(zip_register_cancel_callback_with_state)
 
 struct library {
     void *handle;
@@ -101,7 +101,7 @@ static void add_mesh(struct exporting *e, struct text *text, const lam_mesh *m, 
 {
     static const char *const axes[] = {"<vertex x=\"", "\" y=\"", "\" z=\""};
     text_add(text, "<object id=\"2\" type=\"model\"><mesh><vertices>\n");
-    for (uint32_t i = 0; i < m->vertex_count; i++) {
+    for (uint32_t i = 0; i < m->vertex_count && !text->failed; i++) {
         lam_vec3 p = export_position(e, m, i);
         const double numbers_of[3] = {p.x, p.y, p.z};
         for (int k = 0; k < 3; k++) {
@@ -115,7 +115,8 @@ static void add_mesh(struct exporting *e, struct text *text, const lam_mesh *m, 
         const lam_part *part = &m->parts[i];
         int index = part->material >= 0 && part->material < e->scene->materials.count ? part->material
                                                                                       : e->scene->materials.count;
-        for (size_t t = part->first_triangle; t < (size_t)part->first_triangle + part->triangle_count; t++)
+        for (size_t t = part->first_triangle; t < (size_t)part->first_triangle + part->triangle_count && !text->failed;
+             t++)
             text_print(text, "<triangle v1=\"%lu\" v2=\"%lu\" v3=\"%lu\" pid=\"1\" p1=\"%d\"/>\n",
                        export_element(NULL, m, 3 * t) + 0UL, export_element(NULL, m, 3 * t + 1) + 0UL,
                        export_element(NULL, m, 3 * t + 2) + 0UL, numbers[index]);
@@ -137,9 +138,7 @@ static bool make_model(struct exporting *e, struct text *text)
     add_materials(e, text, m, numbers);
     add_mesh(e, text, m, numbers);
     text_add(text, "</resources>\n<build><item objectid=\"2\"/></build>\n</model>\n");
-    if (text->failed && e->error)
-        *e->error = text->error;
-    return !text->failed;
+    return export_text_is_whole(e, text);
 }
 
 // --- the archive
@@ -177,6 +176,12 @@ static bool read_back(const struct library *zip, zip_source_t *source, struct te
     return got == 0 && !text->failed;
 }
 
+static int must_end(zip_t *archive, void *user)
+{
+    (void)archive;
+    return !export_asks(user);
+}
+
 static bool pack(struct exporting *e, const struct library *zip, const struct text *model)
 {
     zip_error_t reason;
@@ -188,6 +193,7 @@ static bool pack(struct exporting *e, const struct library *zip, const struct te
     bool ok = archive != NULL;
     if (ok)
         zip->zip_source_keep(source);
+    ok = ok && zip->zip_register_cancel_callback_with_state(archive, must_end, NULL, e) == 0;
     ok = ok && add_entry(zip, archive, "[Content_Types].xml", types, sizeof types - 1) &&
          add_entry(zip, archive, "_rels/.rels", relations, sizeof relations - 1) &&
          add_entry(zip, archive, "3D/3dmodel.model", model->bytes, model->length);
@@ -198,7 +204,8 @@ static bool pack(struct exporting *e, const struct library *zip, const struct te
     if (archive)
         zip->zip_source_free(source);
     zip->zip_error_fini(&reason);
-    return ok || fail(e->error, LAM_LIMIT, "%s: libzip cannot pack the model: out of memory", e->name);
+    return ok || (export_is_whole(e) && export_text_is_whole(e, &e->text) &&
+                  fail(e->error, LAM_LIMIT, "%s: libzip cannot pack the model: out of memory", e->name));
 }
 
 static void lose(struct exporting *e)
@@ -219,7 +226,7 @@ static void lose(struct exporting *e)
 static bool write(struct exporting *e)
 {
     struct library zip;
-    struct text model = {0};
+    struct text model = {.call = e->call};
     if (!e->flat[EXPORT_TRIANGLES].triangle_count)
         return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, and 3MF supports nothing else", e->name);
     if (!open_library(e, &zip))

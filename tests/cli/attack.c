@@ -309,7 +309,7 @@ static void ask_writer(const char *mode, const char *thread)
                 uint32_t action, path_size;
                 uint64_t bytes;
             } head = {0, (uint32_t)length + 1, 4};
-            for (; head.action <= 2; head.action++) {
+            for (; head.action <= 3; head.action++) {
                 struct {
                     int code;
                     char text[508];

@@ -164,6 +164,29 @@ class Attack(Case):
             for name in more:
                 (self.place / name).unlink()
 
+    def test_convert(self):
+        """Beside an OBJ file its MTL file and numbered pictures can be made, beside other models nothing. Older files and links stay."""
+        self.attack("convert", "cube.obj", "out.glb", "-q", more={"out.glb"}, ATTACK_WRITE="victim:new.png:out.mtl:out-0.png:cube.mtl:out.obj")
+        names = "victim:out-front.png:out-12345.png:out-.png:o_t.mtl:out.png:out-0.jpg:deeper/out-0.png"
+        self.attack("convert", "cube.obj", "out.obj", "-q", more={"out.glb", "out.obj"}, ATTACK_WRITE=names)
+        (self.place / "mine-1.png").write_bytes(b"a photograph")
+        os.symlink("victim", self.place / "out-1.png")
+        self.attack("convert", "cube.obj", "mine.obj", "-q", more={"out.glb", "out.obj", "mine.obj", "mine-1.png", "out-1.png"}, ATTACK_WRITE="mine-1.png")
+        self.attack("convert", "cube.obj", "out.obj", "-q", more={"out.glb", "out.obj", "mine.obj", "mine-1.png", "out-1.png"}, ATTACK_WRITE="out-1.png")
+        self.assertEqual((self.place / "mine-1.png").read_bytes(), b"a photograph")
+
+    def test_hash(self):
+        """Of the folder of --pictures new files and Lambent's can be written, and through no link."""
+        os.makedirs(self.place / "pics")
+        (self.folder / "elsewhere").mkdir()
+        os.symlink("../../elsewhere", self.place / "pics" / "deeper")
+        (self.place / "pics" / "mine.png").write_bytes(b"a photograph")
+        paths = "victim:new.png:pics/mine.png:pics/deeper/a.png:pics/../a.png:pics/a.txt:p-changes.png:a.hash"
+        more = {"p.hash", "pics/mine.png", "pics/cube.obj.png"}
+        self.attack("hash", "cube.obj", "-s", 16, "-o", "p.hash", "--pictures", "pics", more=more, ATTACK_WRITE=paths)
+        self.attack("hash", "--check", "p.hash", more=more, ATTACK_WRITE=paths + ":p.hash:pics/cube.obj.png")
+        self.assertEqual(os.listdir(self.folder / "elsewhere"), [])
+
     def test_batch(self):
         """Of the output folder's files those that the batch makes can be changed, and no other."""
         out = self.place / "out"

@@ -3,8 +3,10 @@ import json
 import os
 import resource
 import shutil
+import signal
 import struct
 import subprocess
+import time
 import zipfile
 
 from harness import PROGRAM, ROOT, Case, covered, read_png
@@ -225,6 +227,43 @@ end_header
         self.given |= self.new_files()
         self.bad(1, "convert", "cube.obj", "x.obj", "--thumbnail", says=".glb")
 
+    # --- limits
+
+    def bomb(self, objects):
+        """A small GLB file with many objects of 100 triangles each (EXT_mesh_gpu_instancing)."""
+        data = struct.pack("<9f4I", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 2, 1, 2)
+        sparse = {"count": 2, "indices": {"bufferView": 1, "componentType": 5125}, "values": {"bufferView": 2}}
+        root = {"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_mesh_gpu_instancing"], "scene": 0, "scenes": [{"nodes": [0]}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                              {"componentType": 5125, "count": 300, "type": "SCALAR", "sparse": sparse},
+                              {"componentType": 5126, "count": objects, "type": "VEC3"}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}], "buffers": [{"byteLength": len(data)}],
+                "nodes": [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}}}],
+                "bufferViews": [{"buffer": 0, "byteOffset": a, "byteLength": n} for a, n in ((0, 36), (36, 8), (44, 8))]}
+        text = json.dumps(root).encode()
+        text += b" " * (-len(text) % 4)
+        (self.folder / "bomb.glb").write_bytes(struct.pack("<4s4I", b"glTF", 2, 28 + len(text) + len(data), len(text), 0x4E4F534A) + text +
+                                               struct.pack("<2I", len(data), 0x004E4942) + data)
+        self.given.add("bomb.glb")
+
+    def test_limits(self):
+        """The export obeys the limits of memory and time, and ends soon after a signal."""
+        self.bomb(90000)
+        many = ["--expansion-limit", "100000000"]
+        for ending in ("obj", "ply", "stl", "3mf"):
+            output = f"o.{ending}"
+            self.bad(4, "convert", "bomb.glb", output, says="--expansion-limit")
+            self.bad(4, "convert", "bomb.glb", output, "--memory-limit", "300MB", *many, says="--memory-limit")
+            self.bad(4, "convert", "bomb.glb", output, "--memory-limit", "none", "--time-limit", 0.5, *many, says="time limit")
+        self.bad(4, "convert", "bomb.glb", "o.glb", "--memory-limit", "60MB", says="--memory-limit")
+        process = subprocess.Popen([PROGRAM, "convert", "bomb.glb", "o.obj", "-q", "--memory-limit", "none", *many], cwd=self.folder)
+        time.sleep(0.6)
+        begin = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), -signal.SIGINT)
+        self.assertLess(time.monotonic() - begin, 2)
+        self.assertEqual(self.new_files(), set())
+
     # --- files
 
     def test_files_beside(self):
@@ -239,6 +278,38 @@ end_header
         self.good("convert", SPOT, "sub/a b.c.obj", "-q")
         self.assertEqual(sorted(os.listdir(self.folder / "sub")), ["a b.c-0.png", "a b.c.mtl", "a b.c.obj"])
         self.assertEqual(self.picture("sub/a b.c.obj", "--show", "coverage"), self.picture(SPOT, "--show", "coverage"))
+
+    def test_links_beside(self):
+        """A link with the name of a file beside the model is not followed, whether the model is there or not, with the sandbox and without."""
+        (self.folder / "precious").write_text("of the user")
+        self.given.update(("precious", "ship.obj", "ship.mtl", "ship-0.png"))
+        for name in ("ship.mtl", "ship-0.png"):
+            for target in ("precious", "missing"):
+                for sandbox in ("auto", "off"):
+                    (self.folder / "ship.obj").write_text("older")
+                    os.symlink(target, self.folder / name)
+                    self.bad(5, "convert", SPOT, "ship.obj", "--sandbox", sandbox, says=(name, "is a link"))
+                    self.assertEqual(((self.folder / "precious").read_text(), (self.folder / "ship.obj").read_text()), ("of the user", "older"))
+                    self.assertFalse((self.folder / "missing").exists())
+                    os.remove(self.folder / name)
+        (self.folder / "ship.obj").unlink()
+        os.symlink("real.obj", self.folder / "ship.obj")  # a link that the user names is followed
+        (self.folder / "real.obj").write_text("older")
+        self.good("convert", SPOT, "ship.obj", "-q")
+        self.assertTrue((self.folder / "ship.obj").is_symlink() and (self.folder / "real.obj").stat().st_size > 1000)
+
+    def test_all_files_or_none(self):
+        """If one file of the model cannot be written, the older files of all of them stay."""
+        old = {}
+        self.good("convert", "cube.obj", "o.obj", "-q")
+        for name in ("o.obj", "o.mtl"):
+            old[name] = (self.folder / name).read_bytes()
+        self.given.update(("o.obj", "o.mtl"))
+        for sandbox in ("auto", "off"):  # the picture fits, and the model does not
+            command = [PROGRAM, "convert", "-q", SPOT, "o.obj", "--sandbox", sandbox]
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (120000, 120000)))
+            self.assertEqual((done.returncode, {name: (self.folder / name).read_bytes() for name in old}), (5, old), done.stderr)
+            self.assertEqual(sorted(self.new_files()), [])
 
     def test_names_that_files_cannot_have(self):
         """OBJ and MTL name files without quotes: files beside the model get names that can be read back."""

@@ -1,9 +1,11 @@
 # test_hash.py: the command `hash`: files of hashes, what they say about models that change, their sheets; hostile files and names.
 import json
 import os
+import resource
 import shutil
+import subprocess
 
-from harness import Case, read_png
+from harness import PROGRAM, Case, read_png
 from test_batch import xxh64
 
 
@@ -51,7 +53,7 @@ class Hash(Case):
         self.check("m", "--check", "deep/er/q.hash", "-s", 64, code=6)  # names are relative to the file
         self.good("hash", "m", "-o", "deep/er/q.hash", "-s", 64)
         self.assertIn("../../m/a.stl", "".join(self.lines("deep/er/q.hash")))
-        self.assertEqual(self.check("--check", "deep/er/q.hash", "-s", 64, code=0), ["2 equal"])
+        self.assertEqual(self.check("--check", "deep/er/q.hash", "-s", 64, "--allow-path", "m", code=0), ["2 equal"])
 
     def test_files_of_options(self):
         """An environment and a look are named relative to the file of hashes, from whichever folder it is checked."""
@@ -61,18 +63,18 @@ class Hash(Case):
         options = ["--environment", "sky/a b.png", "--look", "sky/own.look", "--reflectivity", "0.5", "-s", 32]
         self.good("hash", "m", "-o", "sky/p.hash", *options)
         self.assertEqual(self.lines("sky/p.hash")[2], "options --size 32 --look own.look --environment 'a b.png' --reflectivity 0.5")
-        self.assertEqual(self.check("--check", "sky/p.hash", code=0), ["2 equal"])
-        self.assertEqual(self.check("--check", self.folder / "sky/p.hash", code=0), ["2 equal"])
+        self.assertEqual(self.check("--check", "sky/p.hash", "--allow-path", "m", code=0), ["2 equal"])
+        self.assertEqual(self.check("m", "--check", self.folder / "sky/p.hash", code=0), ["2 equal"])
         self.assertEqual(self.check("m", "--check", "sky/p.hash", *options, code=0), ["2 equal"])
         os.makedirs(self.folder / "deep" / "er")
         for face in "abcdef":
             self.good("teapot", "-s", "16", "-o", f"sky/{face}.png", "-q")
         self.good("hash", "m", "-o", "deep/er/q.hash", "--environment", ",".join(f"sky/{face}.png" for face in "abcdef"), "-s", 32)
         self.assertIn(",".join(f"../../sky/{face}.png" for face in "abcdef"), self.lines("deep/er/q.hash")[2])
-        self.assertEqual(self.check("--check", "deep/er/q.hash", code=0), ["2 equal"])
+        self.assertEqual(self.check("m", "--check", "deep/er/q.hash", "--allow-path", "sky", code=0), ["2 equal"])
         self.good("hash", "m", "-o", "deep/er/q.hash", "--environment", "studio", "--look", "catalog", "-s", 32)
         self.assertEqual(self.lines("deep/er/q.hash")[2], "options --size 32 --look catalog --environment studio")
-        self.assertEqual(self.check("--check", "deep/er/q.hash", code=0), ["2 equal"])
+        self.assertEqual(self.check("m", "--check", "deep/er/q.hash", code=0), ["2 equal"])
 
     def test_differences(self):
         self.write()
@@ -201,6 +203,85 @@ class Hash(Case):
             (self.folder / "b.hash").write_bytes(bad)
             self.bad(2, "hash", "m", "--check", "b.hash", says=says)
         self.bad(2, "hash", "m", "--check", "missing.hash", says="missing.hash")
+
+    def test_names_of_a_stranger(self):
+        """A file names models, looks and environments below its folder or in --allow-path, wherever links lead; the words of others are not shown."""
+        os.mkdir(self.folder / "repository")
+        os.mkdir(self.folder / "elsewhere")
+        (self.folder / "elsewhere" / "secret.look").write_text("token-1234 x\n")
+        self.good("teapot", "-s", 32, "-o", "elsewhere/sky.png", "-q")
+        shutil.copy(self.folder / "cube.stl", self.folder / "elsewhere")
+        (self.folder / "repository" / "own.look").write_text("environment elsewhere/sky.png\n")
+        (self.folder / "elsewhere" / "scene.json").write_text('{"lambent": 1, "objects": [{"file": "cube.stl"}]}')
+        (self.folder / "repository" / "scene.json").write_text('{"lambent": 1, "objects": [{"file": "../elsewhere/cube.stl"}]}')
+        os.symlink("../elsewhere/cube.stl", self.folder / "repository" / "link.stl")
+        self.given |= self.new_files()
+        version, options = self.good("--version").stdout.decode().split()[1], self.folder / "repository" / "p.hash"
+
+        def file(line, name):
+            options.write_text(f"lambent hashes 1\nversion {version}\noptions{line}\npixels:0123456789abcdef  {name}\n")
+
+        outside = "which is not below the folder of this file; --allow-path allows it"
+        look = self.folder / "elsewhere" / "secret.look"
+        for line in (" --look ../elsewhere/secret.look", f" --look {look}", f" --look={look}", " --look own.look", " --environment ../elsewhere/sky.png"):
+            file(line, "teapot")
+            done = self.bad(2, "hash", "--check", "repository/p.hash", says=":3: found ")
+            self.assertNotIn(b"1234", done.stderr)
+            self.assertTrue(outside.encode() in done.stderr or "=" in line, done.stderr)
+        for name in ("../elsewhere/cube.stl", str(self.folder / "elsewhere/cube.stl"), "link.stl", "../elsewhere/scene.json"):
+            file("", name)
+            self.bad(2, "hash", "--check", "repository/p.hash", says=outside)
+            self.check("--check", "repository/p.hash", "--allow-path", "elsewhere", code=6)
+        file("", "scene.json")  # which a file of hashes does not allow to read anywhere
+        done = self.run_program("hash", "--check", "repository/p.hash", "--sandbox", "off")
+        self.assertEqual(done.returncode, 7, done.stderr)
+        self.check("--check", "repository/p.hash", "--allow-path", "elsewhere", code=6)
+
+    def test_files_that_are_none(self):
+        """A pipe, a device and a huge file are refused at once; a list that memory does not suffice for is an error."""
+        os.mkfifo(self.folder / "pipe")
+        os.symlink("/dev/zero", self.folder / "zero")
+        with open(self.folder / "huge", "wb") as huge:
+            huge.truncate((64 << 20) + 1)
+        self.given.update(("pipe", "zero", "huge"))
+        for name, says in (("pipe", "not a regular file"), ("zero", "not a regular file"), ("m", "not a regular file"), ("huge", "has more than 64 MiB")):
+            self.bad(2, "hash", "--check", name, says=says)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+        done = subprocess.run([PROGRAM, "hash", "@/dev/zero", "-o", "-"], capture_output=True, preexec_fn=limit)
+        self.assertEqual((done.returncode, done.stdout), (4, b""), done.stderr)
+
+    def test_links(self):
+        """No link below the folder of --pictures is followed, and none with the name of the sheet."""
+        os.makedirs(self.folder / "pics")
+        os.mkdir(self.folder / "elsewhere")
+        os.symlink("../elsewhere", self.folder / "pics" / "m")
+        self.given.update(("pics", "elsewhere", "p.hash", "p-changes.png", "theirs.png"))
+        for sandbox in ("auto", "off"):
+            self.bad(7, "hash", "m/a.stl", "-s", 16, "-o", "p.hash", "--pictures", "pics", "--sandbox", sandbox, says="pics/m is a link")
+            self.assertEqual(os.listdir(self.folder / "elsewhere"), [])
+        self.write("-q")
+        self.grow()
+        self.good("teapot", "-s", 16, "-o", "theirs.png", "-q")
+        before = (self.folder / "theirs.png").read_bytes()
+        os.symlink("theirs.png", self.folder / "p-changes.png")
+        for sandbox in ("auto", "off"):
+            self.bad(5, "hash", "-s", 64, "--check", "p.hash", "--update", "--sandbox", sandbox, says="p-changes.png is a link")
+            self.assertEqual((self.folder / "theirs.png").read_bytes(), before)
+
+    def test_printed_names(self):
+        """A name is printed in one line, without characters that control a terminal or turn the text round."""
+        self.write("-q")
+        for name in ("a\n::error::x\t.stl", "b\x1b[2J\u009b\u202ey\\.stl"):
+            shutil.copy(self.folder / "cube.stl", self.folder / "m" / name)
+        printed = ["new      m/a\\n::error::x?.stl", "new      m/b?[2J??y\\\\.stl"]
+        self.assertEqual(self.check("m", "teapot", "-s", 64, "--check", "p.hash", code=6)[:2], printed)
+        os.mkdir(self.folder / "empty")
+        done = self.run_program("diff", "empty", "m", "-s", 16, "-o", "page.html")
+        lines = done.stdout.decode().splitlines()
+        self.assertEqual([lines[0], lines[2]], [line.replace("new  ", "added").replace("m/", "") for line in printed])
+        page = (self.folder / "page.html").read_text()
+        self.assertIn("Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\"", page)
+        self.assertFalse(set(page) & set("\x1b\u009b\u202e"))
 
     def test_command_line(self):
         for words, says in ((["m"], "expected either -o FILE"), (["m", "-o", "p", "--check", "p"], "expected either"), (["-o", "p.hash"], "no model"),

@@ -61,6 +61,18 @@ class PullRequests(Case):
         self.assertRegex(page, "<h1>models: [0-9a-f]{7,} and this branch</h1>")
         self.script("main", "models", "-s", "64", LAMBENT_FAIL="true", code=6)
 
+    def test_names_that_are_markup(self):
+        """Names stay within the block of the summary, each in one line."""
+        name = "a\n```\n::error::x ````.stl"
+        self.good("shape", "cone", "-o", "repository/models/new.stl", "-q")
+        os.rename(self.repository / "models" / "new.stl", self.repository / "models" / name)
+        self.commit("change")
+        out = self.script("main", "models", "-s", "16", GITHUB_STEP_SUMMARY=str(self.folder / "summary.md")).stdout
+        self.assertIn("added    a\\n```\\n::error::x ````.stl\n", out)
+        lines = (self.folder / "summary.md").read_text().splitlines()
+        self.assertEqual([i for i, line in enumerate(lines) if line.startswith("```")], [2, len(lines) - 1])
+        self.assertEqual((lines[2], lines[-1]), ("`````", "`````"))
+
     def test_since_the_branch_left(self):
         """What the base has changed since then does not count."""
         self.git("checkout", "--quiet", "main")

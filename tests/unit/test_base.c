@@ -264,6 +264,14 @@ static void test_limits(void **state)
     assert_true(call_check_file(&call, "f", 10, &error));
     assert_false(call_check_file(&call, "f", 11, &error));
     assert_string_equal(error.text, "f: 11 bytes, expected at most 10 (lam_control.file_limit_bytes)");
+    // The error about memory has the numbers of the request that was refused, whatever is read or freed afterwards.
+    call_start(&call, NULL);
+    call_add_input(&call, 1000);
+    assert_true(call_charge(&call, 400000000) && !call_charge(&call, 300000000));
+    call_refund(&call, 400000000);
+    call_add_input(&call, 200000);
+    assert_false(call_memory_error(&call, 10, &error));
+    assert_non_null(strstr(error.text, "700.0 MB of memory are needed, expected at most 502.0 MB"));
 }
 
 // Waits for the other thread, so that each takes one task, and stores the size of its thread's stack.

@@ -33,10 +33,12 @@ static enum writer_right rule(void *user, const char *path)
 {
     const char *name = strrchr(path, '/') + 1;
     assert_string_equal(user, "rule");
-    return strncmp(name, "any", 3) == 0    ? WRITER_ANY
-           : strncmp(name, "ours", 4) == 0 ? WRITER_NEW_OR_OURS
-           : strcmp(name, "log") == 0      ? WRITER_REMOVES
-                                           : WRITER_NONE;
+    return strncmp(name, "any", 3) == 0       ? WRITER_ANY
+           : strncmp(name, "ours", 4) == 0    ? WRITER_NEW_OR_OURS
+           : strncmp(name, "implied", 7) == 0 ? WRITER_ANY | WRITER_IMPLIED
+           : strncmp(name, "new", 3) == 0     ? WRITER_NEW | WRITER_IMPLIED
+           : strcmp(name, "log") == 0         ? WRITER_REMOVES
+                                              : WRITER_NONE;
 }
 
 static bool save(const char *name, const char *text, lam_error *error)
@@ -79,7 +81,7 @@ static int start(void **state)
     (void)state;
     lam_error error;
     memcpy(strrchr(folder, '-') + 1, "XXXXXX", 6);
-    return !mkdtemp(folder) || !writer_start(rule, "rule", 2, &error);
+    return !mkdtemp(folder) || !writer_start(rule, "rule", 2, 100 << 20, &error);
 }
 
 static int end(void **state)
@@ -129,6 +131,73 @@ static void test_rights(void **state)
     assert_int_equal(access(in_folder("log"), F_OK), -1);
     assert_int_equal(access(in_folder("other"), F_OK), 0);
     assert_int_equal(access(in_folder("any"), F_OK), 0);
+}
+
+// A name that the user did not give is written to a regular file or none, and through no link.
+static void test_implied(void **state)
+{
+    (void)state;
+    lam_error error;
+    put("precious", "of the user");
+    assert_int_equal(symlink("precious", in_folder("implied link")), 0);
+    assert_int_equal(symlink("missing", in_folder("implied end")), 0);
+    assert_int_equal(symlink("precious", in_folder("any link")), 0);
+    assert_false(save("implied link", "1", &error) || save("implied end", "1", &error));
+    assert_non_null(strstr(error.text, "is a link"));
+    assert_contains("precious", "of the user");
+    assert_int_equal(access(in_folder("missing"), F_OK), -1);
+    assert_true(save("implied", "2", &error) && save("implied", "3", &error) && save("new", "4", &error));
+    assert_false(save("new", "5", &error));
+    assert_contains("new", "4");
+    assert_true(save("any link", "6", &error)); // the user named the link
+    assert_contains("precious", "6");
+    // The path is checked before the contents arrive, and their size too.
+    size_t size = 101 << 20;
+    char *large = calloc(1, size);
+    assert_non_null(large);
+    assert_false(writer_save(in_folder("other"), &(lam_bytes){large, size}, false, &error));
+    assert_non_null(strstr(error.text, "this run may not write the file"));
+    assert_false(writer_save(in_folder("any"), &(lam_bytes){large, size}, false, &error));
+    assert_true(error.code == LAM_LIMIT && strstr(error.text, "--memory-limit"));
+    free(large);
+    assert_true(save("any", "7", &error));
+}
+
+static bool save_set(const char *second, lam_error *error)
+{
+    char first[300];
+    snprintf(first, sizeof first, "%s", in_folder("any first"));
+    static char one[] = "one", two[] = "two";
+    const struct writer_file files[] = {{first, {one, 3}, WRITER_ANY},
+                                        {in_folder(second), {two, 3}, WRITER_ANY | WRITER_IMPLIED}};
+    *error = (lam_error){0};
+    return writer_save_all(files, 2, error);
+}
+
+// Of a set all files are replaced or none, with the writer and without.
+static void test_set(void **state)
+{
+    (void)state;
+    lam_error error;
+    put("any first", "older");
+    assert_int_equal(chmod(in_folder("any first"), 0640), 0);
+    put("precious", "of the user");
+    assert_int_equal(symlink("precious", in_folder("implied link")), 0);
+    for (int pass = 0; pass < 2; pass++) {
+        assert_false(save_set("implied link", &error) || save_set("no/folder/implied", &error));
+        assert_contains("any first", "older");
+        assert_contains("precious", "of the user");
+        assert_int_equal(count_files(), 3);
+        assert_true(save_set("implied second", &error));
+        assert_contains("any first", "one");
+        assert_contains("implied second", "two");
+        struct stat about;
+        assert_true(stat(in_folder("any first"), &about) == 0 && (about.st_mode & 07777) == 0640);
+        assert_int_equal(count_files(), 4);
+        put("any first", "older");
+        assert_int_equal(unlink(in_folder("implied second")), 0);
+        writer_end();
+    }
 }
 
 enum { THREADS = 5, ROUNDS = 40 };
@@ -197,8 +266,8 @@ static void test_process_ends(void **state)
         pid_t child = fork();
         if (child == 0) {
             writer_leave();
-            bool ok =
-                writer_start(rule, "rule", 1, &error) && write(ready[1], &(pid_t){writer_process()}, sizeof(pid_t)) > 0;
+            bool ok = writer_start(rule, "rule", 1, 0, &error) &&
+                      write(ready[1], &(pid_t){writer_process()}, sizeof(pid_t)) > 0;
             for (int k = 0; ok && k < 1000; k++)
                 ok = writer_save(in_folder("any"), &(lam_bytes){text, LARGE}, false, &error);
             _exit(ok);
@@ -242,7 +311,8 @@ static void test_closed_streams(void **state)
         close(STDIN_FILENO);
         close(STDOUT_FILENO);
         close(STDERR_FILENO);
-        bool ok = writer_start(rule, "rule", 1, &error) && write(STDERR_FILENO, "a", 1) < 0 && save("any", "1", &error);
+        bool ok =
+            writer_start(rule, "rule", 1, 0, &error) && write(STDERR_FILENO, "a", 1) < 0 && save("any", "1", &error);
         writer_end();
         _exit(!ok);
     }
@@ -256,6 +326,8 @@ int main(void)
     umask(022);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_rights, start, end),
+        cmocka_unit_test_setup_teardown(test_implied, start, end),
+        cmocka_unit_test_setup_teardown(test_set, start, end),
         cmocka_unit_test_setup_teardown(test_threads, start, end),
         cmocka_unit_test_setup_teardown(test_writer_ends, start, end),
         cmocka_unit_test_setup_teardown(test_process_ends, start, end),

@@ -57,6 +57,30 @@ void say_plain(const char *format, ...)
     free(text);
 }
 
+size_t text_hidden(const char *text)
+{
+    const unsigned char *c = (const unsigned char *)text;
+    if (c[0] == 0xc2 && c[1] >= 0x80 && c[1] <= 0x9f) // U+0080 to U+009F
+        return 2;
+    bool order = c[0] == 0xe2 && ((c[1] == 0x80 && (c[2] == 0x8e || c[2] == 0x8f || (c[2] >= 0xaa && c[2] <= 0xae))) ||
+                                  (c[1] == 0x81 && c[2] >= 0xa6 && c[2] <= 0xa9));
+    return order ? 3 : (c[0] < ' ' && c[0] && c[0] != '\n' && c[0] != '\r' && c[0] != '\t') || c[0] == 0x7f;
+}
+
+void print_name(FILE *out, const char *name)
+{
+    for (; *name; name++) {
+        size_t hidden = text_hidden(name);
+        if (hidden || *name == '\t')
+            putc('?', out);
+        else if (*name == '\\' || *name == '\n' || *name == '\r')
+            fprintf(out, "\\%c", *name == '\n' ? 'n' : *name == '\r' ? 'r' : '\\');
+        else
+            putc(*name, out);
+        name += hidden ? hidden - 1 : 0;
+    }
+}
+
 bool complain(lam_error *error, lam_code code, const char *format, ...)
 {
     error->code = code;

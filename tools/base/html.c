@@ -3,10 +3,14 @@
 
 #include <string.h>
 
+#include "console.h"
+
 void html_text(FILE *file, const char *text)
 {
-    for (const char *c = text ? text : ""; *c; c++)
-        switch (*c) {
+    for (const char *c = text ? text : ""; *c; c++) {
+        size_t hidden = text_hidden(c);
+        c += hidden ? hidden - 1 : 0;
+        switch (hidden ? '?' : *c) {
         case '&':
             fputs("&amp;", file);
             break;
@@ -19,9 +23,13 @@ void html_text(FILE *file, const char *text)
         case '"':
             fputs("&quot;", file);
             break;
+        case '?':
+            putc('?', file);
+            break;
         default:
             putc(*c, file);
         }
+    }
 }
 
 void html_address(FILE *file, const char *path)

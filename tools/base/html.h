@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-// Writes a text, which may be inside quotes. Does nothing for NULL.
+// Writes a text, which may be inside quotes. Invisible characters (text_hidden) become "?". Does nothing for NULL.
 void html_text(FILE *file, const char *text);
 
 // Writes a path as an address: escapes every byte except letters, digits, slashes and a few punctuation marks.

@@ -13,6 +13,7 @@
 #include "interrupt.h"
 #include "job.h"
 #include "job_inputs.h"
+#include "job_steps.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"
@@ -87,23 +88,33 @@ static bool check(struct convert *c, lam_error *error)
     return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and the output are the same file", c->output);
 }
 
-// Returns whether a path is one of the model's companion files, such as "part.mtl" and "part-0.png". Companion files
-// that belong to other models are kept, unless the model existed before.
-static bool is_beside(const char *output, const char *path)
+// Returns whether the library writes a given letter of a name as `written`: it writes _ for letters that OBJ and MTL
+// files cannot name.
+static bool is_letter(char given, char written)
 {
-    size_t stem = strlen(output) - strlen(ending(output)) - 1;
-    const char *rest = path + stem;
-    bool same = strlen(path) > stem;
-    for (size_t i = 0; same && i < stem; i++) // the library writes _ for a letter that OBJ and MTL cannot name
-        same = path[i] == output[i] || (path[i] == '_' && output[i] != '/');
-    return same && !strchr(rest, '/') &&
-           (strcmp(rest, ".mtl") == 0 || (*rest == '-' && strcmp(ending(rest), "png") == 0));
+    return written == given ||
+           (written == '_' && ((signed char)given <= ' ' || given == '-' || given == '\\' || given == 0x7f));
 }
 
+// Returns whether the path may be a file beside an OBJ file, "part.mtl" or "part-0.png". The numbers are known after the model is read.
+static bool is_beside(const struct convert *c, const char *path)
+{
+    size_t stem = strlen(c->output) - strlen(ending(c->output)) - 1;
+    const char *rest = path + stem;
+    bool is = strcmp(c->format, "obj") == 0 && strlen(path) > stem;
+    for (size_t i = 0; is && i < stem; i++)
+        is = is_letter(c->output[i], path[i]);
+    size_t digits = is && *rest == '-' ? strspn(rest + 1, "0123456789") : 0;
+    return is && (strcmp(rest, ".mtl") == 0 || (digits && digits <= 4 && strcmp(rest + 1 + digits, ".png") == 0));
+}
+
+// If the model does not exist yet, its companion files are not replaced, because another program wrote them.
 static enum writer_right right_of(void *user, const char *path)
 {
     const struct convert *c = user;
-    return strcmp(path, c->output) == 0 || is_beside(c->output, path) ? WRITER_ANY : WRITER_NONE;
+    return strcmp(path, c->output) == 0 ? WRITER_ANY
+           : !is_beside(c, path)        ? WRITER_NONE
+                                        : (c->replaces ? WRITER_ANY : WRITER_NEW) | WRITER_IMPLIED;
 }
 
 static bool check_beside(const struct convert *c, const char *path, lam_error *error)
@@ -116,43 +127,25 @@ static bool check_beside(const struct convert *c, const char *path, lam_error *e
                path, c->output);
 }
 
-// Sets *is_new to whether the file was written and did not exist before.
-static bool save_one(const char *path, const lam_bytes *bytes, bool *is_new, lam_error *error)
-{
-    struct stat found;
-    bool there = lstat(path, &found) == 0, ok = writer_save(path, bytes, false, error);
-    *is_new = ok && !there;
-    return ok;
-}
-
-// Writes the companion files first, because the model refers to them. If the model cannot be written, removes the new
-// companion files.
+// Writes the model last, because it refers to its companion files.
 static bool write_files(struct convert *c, lam_error *error)
 {
-    int count = 0;
+    int count = 0, filled = 0;
     while (lam_export_file_name(c->result, count))
         count++;
-    bool *is_new = calloc((size_t)count + 1, sizeof *is_new);
-    bool ok = is_new || complain(error, LAM_LIMIT, "out of memory");
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = count - 1; ok && i >= 0; i--) {
-            char *path = path_of(c, i);
-            lam_bytes bytes = lam_export_file(c->result, i);
-            ok = path || complain(error, LAM_LIMIT, "out of memory");
-            if (pass == 0)
-                ok = ok && job_check_inputs(c->job.scene, path, false, error) &&
-                     (i == 0 || check_beside(c, path, error));
-            else
-                ok = ok && save_one(path, &bytes, &is_new[i], error);
-            free(path);
-        }
-    for (int i = 1; !ok && i < count; i++) // removes companion files of a model that was not written
-        if (is_new[i]) {
-            char *path = path_of(c, i);
-            writer_remove(path ? path : "");
-            free(path);
-        }
-    free(is_new);
+    struct writer_file *files = calloc((size_t)count + 1, sizeof *files);
+    bool ok = files || complain(error, LAM_LIMIT, "out of memory");
+    for (int i = count - 1; ok && i >= 0; i--) {
+        char *path = path_of(c, i);
+        ok = path || complain(error, LAM_LIMIT, "out of memory");
+        ok = ok && job_check_inputs(c->job.scene, path, false, error) && (i == 0 || check_beside(c, path, error));
+        if (path)
+            files[filled++] = (struct writer_file){path, lam_export_file(c->result, i), right_of(c, path)};
+    }
+    ok = ok && writer_save_all(files, count, error);
+    for (int i = 0; i < filled; i++)
+        free((char *)(uintptr_t)files[i].path);
+    free(files);
     return ok;
 }
 
@@ -176,7 +169,8 @@ static bool draw_thumbnail(const struct convert *c, struct progress *progress, l
 static bool convert(struct convert *c, struct progress *progress, lam_error *error)
 {
     lam_picture_settings settings;
-    lam_export_params params = {.name = file_name(c->output)};
+    lam_control control;
+    lam_export_params params = {.name = file_name(c->output), .control = &control};
     if (!job_load(&c->job, progress, error))
         return false;
     if (lam_scene_picture_settings(c->job.scene, &settings) && settings.present & LAM_SETTING_CAMERA)
@@ -185,7 +179,8 @@ static bool convert(struct convert *c, struct progress *progress, lam_error *err
     if (c->options->convert.thumbnail && !draw_thumbnail(c, progress, &thumbnail, error))
         return false;
     params.thumbnail = c->options->convert.thumbnail ? &thumbnail : NULL;
-    c->result = lam_scene_export(c->job.scene, c->format, &params, error);
+    c->result =
+        !job_control(&c->job, NULL, &control, error) ? NULL : lam_scene_export(c->job.scene, c->format, &params, error);
     lam_image_free(&thumbnail);
     return c->result && write_files(c, error);
 }

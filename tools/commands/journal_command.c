@@ -258,7 +258,7 @@ static enum writer_right right_of(void *user, const char *path)
 {
     const char *page = user;
     return strcmp(path, page) == 0               ? WRITER_ANY
-           : batch_page_is_thumbnail(page, path) ? WRITER_NEW_OR_OURS
+           : batch_page_is_thumbnail(page, path) ? WRITER_NEW_OR_OURS | WRITER_IMPLIED
                                                  : WRITER_NONE;
 }
 

@@ -10,6 +10,7 @@
 #include "batch_jobs.h"
 #include "batch_page.h"
 #include "console.h"
+#include "limit_options.h"
 #include "output.h"
 #include "page_file.h"
 #include "sandbox_start.h"
@@ -133,14 +134,14 @@ static enum writer_right right_of(void *user, const char *path)
         (o->picture.save_scene && strcmp(path, o->picture.save_scene) == 0))
         return WRITER_ANY;
     if (o->batch.report_page && batch_page_is_thumbnail(o->batch.report_page, path))
-        return WRITER_NEW_OR_OURS;
+        return WRITER_NEW_OR_OURS | WRITER_IMPLIED;
     if (b->jobs && w->whole) {
         bool named = lam_image_format_for(path, &format, NULL) || page_is_named(path);
         return named && job_roots_have(batch_jobs_roots(b->jobs), path, true, &error) ? WRITER_NEW_OR_OURS
                                                                                       : WRITER_NONE;
     }
     return !is_picture(w, path)                                                ? WRITER_NONE
-           : output_given(w->plan->options->picture.output) == OUTPUT_BY_MODEL ? WRITER_NEW_OR_OURS
+           : output_given(w->plan->options->picture.output) == OUTPUT_BY_MODEL ? WRITER_NEW_OR_OURS | WRITER_IMPLIED
                                                                                : WRITER_ANY;
 }
 
@@ -148,7 +149,8 @@ bool batch_reach_write(const struct batch *b, const struct batch_task *task, lam
 {
     struct writes writes = {b, task->plan, task->model, 1, task->model, false};
     bool writes_none = b->use ? !b->use->right : task->job && task->job->in_answer;
-    return writes_none || !sandbox_is_wanted(b->options) || writer_start(right_of, &writes, 1, error);
+    return writes_none || !sandbox_is_wanted(b->options) ||
+           writer_start(right_of, &writes, 1, limits_memory(b->options), error);
 }
 
 // --- the sandbox

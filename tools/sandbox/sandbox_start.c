@@ -161,21 +161,22 @@ static enum writer_right right_of(void *user, const char *path)
     for (int i = 0; i < paths->count; i++)
         if (strcmp(paths->items[i].path, path) == 0)
             right = paths->items[i].access & SANDBOX_REPLACE ? WRITER_ANY
-                    : paths->items[i].access & SANDBOX_MAKE  ? WRITER_NEW_OR_OURS
+                    : paths->items[i].access & SANDBOX_MAKE  ? WRITER_NEW_OR_OURS | WRITER_IMPLIED
                                                              : right;
     return right;
 }
 
 // Starts the writer with the current paths.
-static bool start_writer(struct sandbox_paths *paths, lam_error *error)
+static bool start_writer(const struct options *o, struct sandbox_paths *paths, lam_error *error)
 {
     bool writes = paths->may_write;
     for (int i = 0; i < paths->count; i++)
         writes |= (paths->items[i].access & (SANDBOX_MAKE | SANDBOX_REPLACE)) != 0;
     if (!writes || writer_is_there() || paths->failed)
         return true;
-    return paths->may_write ? writer_start(paths->may_write, paths->user, paths->writers, error)
-                            : writer_start(right_of, paths, 1, error);
+    writer_rule *rule = paths->may_write ? paths->may_write : right_of;
+    void *user = paths->may_write ? paths->user : paths;
+    return writer_start(rule, user, paths->may_write ? paths->writers : 1, limits_memory(o), error);
 }
 
 bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_error *error)
@@ -195,7 +196,7 @@ bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_err
         sandbox_add_options(paths, o);
         if (everything)
             sandbox_add(paths, "/", SANDBOX_READ);
-        ok = (!sandbox_is_wanted(o) || start_writer(paths, error)) && sandbox_enter(paths, &active, error) &&
+        ok = (!sandbox_is_wanted(o) || start_writer(o, paths, error)) && sandbox_enter(paths, &active, error) &&
              check_required(o, error);
         active.reads_everything = everything;
     }

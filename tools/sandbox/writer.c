@@ -10,13 +10,7 @@
 #include <unistd.h>
 
 #include "console.h"
-#include "output_folder.h"
-
-static bool save_here(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
-{
-    return output_make_folder(path, error) &&
-           (durable ? lam_bytes_save_durably(bytes, path, error) : lam_bytes_save(bytes, path, error));
-}
+#include "writer_files.h"
 
 #ifdef __linux__
 
@@ -37,12 +31,12 @@ static bool save_here(const char *path, const lam_bytes *bytes, bool durable, la
 
 enum { THREADS_MAX = 256, STACK = 256 << 10, OWN_MAX = 65536 };
 
-enum action { SAVE, SAVE_DURABLY, REMOVE };
+enum action { SAVE, SAVE_DURABLY, REMOVE, STAGE, COMMIT, DROP };
 
 struct request {
     uint32_t action;
     uint32_t path_size; // including the terminating zero
-    uint64_t size;      // the size of the contents
+    uint64_t size;      // the size of the contents; 0 unless it saves or stages
 };
 
 // Returns false if the other process has ended or on an error (errno).
@@ -90,6 +84,7 @@ struct own_file {
 static struct {
     writer_rule *rule;
     void *user;
+    uint64_t largest;             // the size of contents; 0: unlimited
     pthread_mutex_t lock;         // protects the rule and the list
     struct own_file own[OWN_MAX]; // the most recent files; older ones count as foreign
     size_t own_count;
@@ -131,27 +126,73 @@ static void note_own(const char *path)
     pthread_mutex_unlock(&writing.lock);
 }
 
-static bool act(const struct request *request, const char *path, const lam_bytes *bytes, lam_error *error)
+// Returns whether the run may write the file, before its contents are received.
+static bool may_write(const struct request *request, const char *path, enum writer_right right, lam_error *error)
 {
+    enum writer_right given = right & ~WRITER_IMPLIED;
     struct stat there;
+    if (given != WRITER_NEW && given != WRITER_NEW_OR_OURS && given != WRITER_ANY)
+        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: this run may not write the file", path);
+    if (!writer_files_check(path, right, error))
+        return false;
+    if (given == WRITER_NEW_OR_OURS && stat(path, &there) == 0 && !is_own(path))
+        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: already exists, and lambent did not write it",
+                        path);
+    return !writing.largest || request->size <= writing.largest ||
+           complain(error, LAM_LIMIT, "%.400s: the file has %llu bytes, expected at most %llu (--memory-limit)", path,
+                    (unsigned long long)request->size, (unsigned long long)writing.largest);
+}
+
+static bool save(enum action action, const char *path, const lam_bytes *bytes, enum writer_right right,
+                 lam_error *error)
+{
+    if (action == STAGE)
+        return writer_files_stage(path, bytes, error);
+    bool ok = writer_files_save(path, bytes, action == SAVE_DURABLY, error);
+    if (ok && (right & ~WRITER_IMPLIED) == WRITER_NEW_OR_OURS && !lam_image_is_from_lambent(path))
+        note_own(path);
+    return ok;
+}
+
+// Receives contents that are not wanted, so that the other side gets to the answer.
+static bool skip(int from, uint64_t size)
+{
+    char part[16 << 10];
+    for (; size; size -= size < sizeof part ? size : sizeof part)
+        if (!receive(from, part, size < sizeof part ? size : sizeof part))
+            return false;
+    return true;
+}
+
+// Receives the contents and acts. Returns false if the other side has ended.
+static bool act(int connection, const struct request *request, const char *path, lam_error *error)
+{
+    if (request->action == COMMIT || request->action == DROP) {
+        if (request->action == DROP)
+            writer_files_drop();
+        else
+            writer_files_commit(error);
+        return skip(connection, request->size);
+    }
     pthread_mutex_lock(&writing.lock);
     enum writer_right right = writing.rule(writing.user, path);
     pthread_mutex_unlock(&writing.lock);
-    if (request->action == REMOVE && (right == WRITER_REMOVES || (right == WRITER_ANY && is_of_run(path))))
-        return unlink(path) == 0;
-    if (request->action == REMOVE || (right != WRITER_NEW_OR_OURS && right != WRITER_ANY))
-        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: this run may not write the file", path);
-    bool exists = stat(path, &there) == 0;
-    if (exists && !S_ISREG(there.st_mode))
-        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: is not a regular file", path);
-    if (exists && right == WRITER_NEW_OR_OURS && !is_own(path))
-        return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: already exists, and lambent did not write it",
-                        path);
-    bool ok = save_here(path, bytes, request->action == SAVE_DURABLY, error);
-    if (ok && right == WRITER_NEW_OR_OURS && !lam_image_is_from_lambent(path))
-        note_own(path);
-    if (ok && right == WRITER_ANY && !exists)
-        note_own(path);
+    if (request->action == REMOVE) {
+        if (right != WRITER_REMOVES)
+            complain(error, LAM_CANNOT_WRITE, "%.400s: cannot remove: this run may not remove the file", path);
+        else
+            unlink(path);
+        return skip(connection, request->size);
+    }
+    if (!may_write(request, path, right, error))
+        return skip(connection, request->size);
+    void *data = malloc(request->size ? request->size : 1);
+    if (!data)
+        complain(error, LAM_LIMIT, "%.400s: cannot write: out of memory", path);
+    bool ok = data ? receive(connection, data, request->size) : skip(connection, request->size);
+    if (ok && data)
+        save((enum action)request->action, path, &(lam_bytes){data, request->size}, right, error);
+    free(data);
     return ok;
 }
 
@@ -162,16 +203,9 @@ static bool answer(int connection)
     char path[PATH_MAX];
     lam_error error = {0};
     if (!receive(connection, &request, sizeof request) || request.path_size > sizeof path || request.path_size < 2 ||
-        request.action > REMOVE || !receive(connection, path, request.path_size) || path[request.path_size - 1])
+        request.action > DROP || !receive(connection, path, request.path_size) || path[request.path_size - 1])
         return false;
-    void *data = malloc(request.size ? request.size : 1);
-    bool ok = data && receive(connection, data, request.size);
-    if (ok) {
-        act(&request, path, &(lam_bytes){data, request.size}, &error);
-        ok = send_all(connection, &(struct iovec){&error, sizeof error}, 1);
-    }
-    free(data);
-    return ok;
+    return act(connection, &request, path, &error) && send_all(connection, &(struct iovec){&error, sizeof error}, 1);
 }
 
 // Serves some connections until all of them are closed.
@@ -239,6 +273,7 @@ static _Noreturn void run(int *connections, int count)
     serve(connections, own);
     for (int i = own; i < count; i++)
         pthread_join(threads[i], NULL);
+    writer_files_drop(); // of a process that ended before it had all of them
     _exit(0);
 }
 
@@ -272,7 +307,7 @@ static bool make_pair(int *here, int *there)
     return false;
 }
 
-bool writer_start(writer_rule *rule, void *user, int count, lam_error *error)
+bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, lam_error *error)
 {
     int there[THREADS_MAX];
     int made = 0;
@@ -287,6 +322,7 @@ bool writer_start(writer_rule *rule, void *user, int count, lam_error *error)
         writer.count = 0;
         writing.rule = rule;
         writing.user = user;
+        writing.largest = largest;
         run(there, made);
     }
     for (int i = 0; i < made; i++)
@@ -375,8 +411,38 @@ bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_err
     // This process opens pipes and devices that the user names itself, because a writer that waits for a reader could
     // not be interrupted.
     if (!writer_is_there() || (stat(path, &there) == 0 && !S_ISREG(there.st_mode)))
-        return save_here(path, bytes, durable, error);
+        return writer_files_save(path, bytes, durable, error);
     return ask(durable ? SAVE_DURABLY : SAVE, path, bytes, error);
+}
+
+static bool stage(const struct writer_file *file, lam_error *error)
+{
+    if (writer_is_there())
+        return ask(STAGE, file->path, &file->bytes, error);
+    return writer_files_check(file->path, file->right, error) && writer_files_stage(file->path, &file->bytes, error);
+}
+
+bool writer_save_all(const struct writer_file *files, int count, lam_error *error)
+{
+    struct stat there;
+    sigset_t all, before;
+    bool ok = true;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before); // for the hidden files, if there is no writer
+    for (int i = 0; ok && i < count; i++)
+        if (!(files[i].right & WRITER_IMPLIED) && stat(files[i].path, &there) == 0 && !S_ISREG(there.st_mode))
+            ok = writer_files_save(files[i].path, &files[i].bytes, false, error);
+        else
+            ok = stage(&files[i], error);
+    lam_error ignored;
+    if (!writer_is_there() && ok)
+        ok = writer_files_commit(error);
+    else if (!writer_is_there())
+        writer_files_drop();
+    else
+        ok = ask(ok ? COMMIT : DROP, ".", &(lam_bytes){0}, ok ? error : &ignored) && ok;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return ok;
 }
 
 void writer_remove(const char *path)
@@ -390,9 +456,9 @@ void writer_remove(const char *path)
 
 #else
 
-bool writer_start(writer_rule *rule, void *user, int count, lam_error *error)
+bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, lam_error *error)
 {
-    (void)rule, (void)user, (void)count;
+    (void)rule, (void)user, (void)count, (void)largest;
     return complain(error, LAM_UNSUPPORTED, "this system cannot run the process that writes files");
 }
 
@@ -408,7 +474,19 @@ void writer_end(void) {}
 
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
 {
-    return save_here(path, bytes, durable, error);
+    return writer_files_save(path, bytes, durable, error);
+}
+
+bool writer_save_all(const struct writer_file *files, int count, lam_error *error)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < count; i++)
+        ok = writer_files_check(files[i].path, files[i].right, error) &&
+             writer_files_stage(files[i].path, &files[i].bytes, error);
+    if (ok)
+        return writer_files_commit(error);
+    writer_files_drop();
+    return false;
 }
 
 void writer_remove(const char *path) { unlink(path); }

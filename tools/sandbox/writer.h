@@ -11,19 +11,24 @@
 
 #include <lambent/image.h>
 
+// The rights to a file. WRITER_IMPLIED is a bit of the rights to write.
 enum writer_right {
     WRITER_NONE,
+    WRITER_NEW,         // a new file
     WRITER_NEW_OR_OURS, // a new file, or one written by this run or marked as Lambent's
     WRITER_ANY,         // replaces any existing file
     WRITER_REMOVES,     // the file may only be removed
+    // The user did not give the file's name; it follows from another name. The file must be regular or missing, and the
+    // writer follows no link.
+    WRITER_IMPLIED = 8,
 };
 
 // Returns the right to a path. Called in the writer, by one thread at a time.
 typedef enum writer_right writer_rule(void *user, const char *path);
 
-// Starts the writer with `count` connections for as many threads. Must be called before threads start. Fails with
-// LAM_LIMIT.
-bool writer_start(writer_rule *rule, void *user, int count, lam_error *error);
+// Starts the writer with `count` connections for as many threads. It writes files of at most `largest` bytes (0:
+// unlimited). Must be called before threads start. Fails with LAM_LIMIT.
+bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, lam_error *error);
 
 // Returns whether this process or its parent has started the writer.
 bool writer_is_there(void);
@@ -46,8 +51,22 @@ void writer_end(void);
 // file. Any thread may call it. `durable` is as in lam_save_params. Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
 
-// Removes a file for which the rule returns WRITER_REMOVES, or a new file that this run wrote under WRITER_ANY. A
-// failure is ignored.
+// A file of a set. `right` is checked without a writer; otherwise its rule decides.
+struct writer_file {
+    const char *path;
+    lam_bytes bytes;
+    enum writer_right right;
+};
+
+// Writes all of the files or none: all are complete before they get their names, in the given order. Their folders must
+// exist. After a signal or on a full disk the older files are unchanged. Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
+bool writer_save_all(const struct writer_file *files, int count, lam_error *error);
+
+// Returns whether the path contains no links after its first `named` bytes, which the user gave. Fails with
+// LAM_CANNOT_WRITE.
+bool writer_check_links(const char *path, size_t named, lam_error *error);
+
+// Removes a file whose right is WRITER_REMOVES. Failure is not reported.
 void writer_remove(const char *path);
 
 #endif

@@ -105,8 +105,11 @@ bool call_charge(struct call_control *call, size_t bytes)
 {
     if (call_charge_spare(call, bytes))
         return true;
-    uint64_t limit = call->control.memory_limit_bytes;
-    bool plain = limit && __atomic_load_n(&call->memory_used, __ATOMIC_RELAXED) + bytes > limit;
+    uint64_t limit = call->control.memory_limit_bytes, used = __atomic_load_n(&call->memory_used, __ATOMIC_RELAXED);
+    bool plain = limit && used + bytes > limit;
+    __atomic_store_n(&call->refused_used, used, __ATOMIC_RELAXED);
+    __atomic_store_n(&call->refused_bytes, bytes, __ATOMIC_RELAXED);
+    __atomic_store_n(&call->refused_limit, plain ? limit : expansion_bytes(call), __ATOMIC_RELAXED);
     __atomic_store_n(plain ? &call->over_memory : &call->over_expansion, 1, __ATOMIC_RELAXED);
     return false;
 }
@@ -122,13 +125,13 @@ bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error
         return fail(error, LAM_LIMIT,
                     "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed "
                     "(lam_control.memory_limit_bytes)",
-                    (double)call->control.memory_limit_bytes / 1e6, (double)call->memory_used / 1e6,
-                    (double)bytes / 1e6);
+                    (double)call->control.memory_limit_bytes / 1e6, (double)call->refused_used / 1e6,
+                    (double)call->refused_bytes / 1e6);
     if (call && __atomic_load_n(&call->over_expansion, __ATOMIC_RELAXED))
         return fail(error, LAM_LIMIT,
                     "%.1f MB of memory are needed, expected at most %.1f MB for files of %llu bytes "
                     "(lam_control.expansion_limit)",
-                    (double)(call->memory_used + bytes) / 1e6, (double)expansion_bytes(call) / 1e6,
+                    (double)(call->refused_used + call->refused_bytes) / 1e6, (double)call->refused_limit / 1e6,
                     (unsigned long long)call_input_bytes(call));
     return fail_memory(error, bytes);
 }

@@ -8,12 +8,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { ASK_EVERY = 256 << 10 }; // bytes
+
+// Returns false, with the text failed, if the call must end.
+static bool may_grow(struct text *text, size_t more)
+{
+    if (!text->call)
+        return true;
+    if (text->length - text->asked >= ASK_EVERY) {
+        text->asked = text->length;
+        text->failed = !call_should_continue(text->call) && !call_error(text->call, &text->error);
+    }
+    if (!text->failed && more && !call_charge(text->call, more))
+        text->failed = !call_memory_error(text->call, more, &text->error);
+    return !text->failed;
+}
+
 void text_add_part(struct text *text, const char *more, size_t length)
 {
-    if (text->failed)
+    bool grows = text->length + length + 1 > text->capacity;
+    size_t capacity = grows ? 2 * (text->length + length + 1) : text->capacity;
+    if (text->failed || !may_grow(text, capacity - text->capacity))
         return;
-    if (text->length + length + 1 > text->capacity) {
-        size_t capacity = 2 * (text->length + length + 1);
+    if (grows) {
         char *grown = realloc(text->bytes, capacity);
         if (!grown) {
             text->failed = true;

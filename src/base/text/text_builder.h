@@ -2,7 +2,7 @@
 #ifndef TEXT_BUILDER_H
 #define TEXT_BUILDER_H
 
-#include <lambent/base.h>
+#include "call_control.h"
 
 // A zeroed struct is empty. After a failure further additions do nothing, and `error` contains the reason. The owner
 // frees `bytes`.
@@ -11,6 +11,8 @@ struct text {
     size_t length, capacity;
     bool failed;
     lam_error error;
+    struct call_control *call; // charged for the bytes, and asked now and then whether to continue; NULL: none
+    size_t asked;              // the length at which it was asked last
 };
 
 void text_add(struct text *text, const char *more);

@@ -122,11 +122,13 @@ static void put_text(const struct model_diff *diff, json_t *const *records)
 {
     for (size_t i = 0; i < diff->plan.count; i++) {
         enum change change = diff_change_of(records[i]);
+        if (change == CHANGE_EQUAL)
+            continue;
+        printf("%-8s ", change_names[change]);
+        print_name(stdout, diff->pairs[i].name);
         if (change == CHANGE_CHANGED)
-            printf("%-8s %s  %.4g %% of the pixels\n", change_names[change], diff->pairs[i].name,
-                   100 * json_number_value(json_object_get(records[i], "share_over_1")));
-        else if (change != CHANGE_EQUAL)
-            printf("%-8s %s\n", change_names[change], diff->pairs[i].name);
+            printf("  %.4g %% of the pixels", 100 * json_number_value(json_object_get(records[i], "share_over_1")));
+        putchar('\n');
     }
     for (int i = 0; i < CHANGE_COUNT; i++)
         printf("%s%zu %s", i ? ", " : "", diff->counts[i], change_names[i]);

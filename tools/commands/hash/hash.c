@@ -81,10 +81,11 @@ static bool add_models(struct hash_run *run, int count, char **operands, lam_err
         ok = batch_add_operand(&run->plan, operands[i], error);
     for (int i = 0; ok && i < run->options->batch.lists.count; i++)
         ok = batch_add_list(&run->plan, run->options->batch.lists.items[i], error);
-    bool all = !count && !run->options->batch.lists.count; // uses the models in the file
-    for (size_t i = 0; ok && all && i < run->then.count; i++) {
+    for (size_t i = 0; ok && run->by_file && i < run->then.count; i++) {
         char *model = hash_file_model(run->path, run->then.entries[i].name);
-        ok = model ? batch_plan_add(&run->plan, model, NULL, error) : complain(error, LAM_LIMIT, "out of memory");
+        ok = model || complain(error, LAM_LIMIT, "out of memory");
+        ok = ok && hash_file_may_name(run->path, model, run->options, error) &&
+             batch_plan_add(&run->plan, model, NULL, error);
         free(model);
     }
     return ok;
@@ -107,7 +108,7 @@ static bool name_models(struct hash_run *run, lam_error *error)
     for (size_t i = 1; ok && i < seen.count; i++)
         if (strcmp(seen.entries[i].name, seen.entries[i - 1].name) == 0)
             ok = complain(error, LAM_BAD_ARGUMENT, "hash: '%.300s' is given twice", seen.entries[i].name);
-    free(seen.entries);
+    run->sorted = seen;
     return ok;
 }
 
@@ -119,10 +120,8 @@ static bool find_kept(struct hash_run *run, lam_error *error)
     for (size_t i = 0; ok && run->options->hash.update && i < run->then.count; i++) {
         char *model = hash_file_model(run->path, run->then.entries[i].name);
         ok = model != NULL;
-        bool named = false;
-        for (size_t k = 0; ok && !named && k < run->plan.count; k++)
-            named = strcmp(run->names[k], run->then.entries[i].name) == 0;
-        run->kept[i] = ok && !named && (lam_shape_find(model) >= 0 || access(model, F_OK) == 0);
+        run->kept[i] = ok && !hash_file_find(&run->sorted, run->then.entries[i].name) &&
+                       (lam_shape_find(model) >= 0 || access(model, F_OK) == 0);
         free(model);
     }
     return ok || complain(error, LAM_LIMIT, "out of memory");
@@ -135,8 +134,9 @@ static bool save_picture(const struct hash_run *run, const char *name, const str
     char *path = hash_picture_path(run->options->hash.pictures, name);
     lam_save_params params = {.threads = job->options->work.threads};
     lam_bytes png = {0};
-    bool ok = path ? lam_image_encode(&job->image, "png", &params, &png, error) && writer_save(path, &png, false, error)
-                   : complain(error, LAM_LIMIT, "out of memory");
+    bool ok = path || complain(error, LAM_LIMIT, "out of memory");
+    ok = ok && writer_check_links(path, strlen(run->options->hash.pictures), error) &&
+         lam_image_encode(&job->image, "png", &params, &png, error) && writer_save(path, &png, false, error);
     lam_bytes_free(&png);
     free(path);
     return ok;
@@ -193,8 +193,11 @@ static void tell_state(const struct hash_run *run, json_t *const *records, enum 
         result->counts[state]++;
         if (json)
             json_text(json, NULL, name);
-        else if (state != STATE_EQUAL && run->checks && !run->options->report.quiet)
-            printf("%-8s %s\n", state_names[state], name);
+        else if (state != STATE_EQUAL && run->checks && !run->options->report.quiet) {
+            printf("%-8s ", state_names[state]);
+            print_name(stdout, name);
+            putchar('\n');
+        }
     }
     if (json)
         json_close(json, ']');
@@ -340,11 +343,12 @@ static enum writer_right right_of(void *user, const char *path)
     if (strcmp(path, run->path) == 0)
         return WRITER_ANY;
     if (run->sheet && strcmp(path, run->sheet) == 0)
-        return WRITER_NEW_OR_OURS;
+        return WRITER_NEW_OR_OURS | WRITER_IMPLIED;
+    lam_error ignored;
     size_t length = pictures ? strlen(pictures) : 0, all = strlen(path);
     bool kept = length && strncmp(path, pictures, length) == 0 && !strstr(path + length, "../") &&
                 (pictures[length - 1] == '/' || path[length] == '/') && all > 4 && strcmp(path + all - 4, ".png") == 0;
-    return kept ? WRITER_NEW_OR_OURS : WRITER_NONE;
+    return kept && writer_check_links(path, length, &ignored) ? WRITER_NEW_OR_OURS | WRITER_IMPLIED : WRITER_NONE;
 }
 
 static void reach(void *user, size_t model, struct sandbox_paths *paths)
@@ -385,6 +389,8 @@ static int run_with(struct hash_run *run, int operand_count, char **operands)
     drawn.report.json = false;
     drawn.report.verbose = false;
     drawn.picture.output = NULL;
+    run->by_file = !operand_count && !run->options->batch.lists.count;
+    drawn.limits.files_inside |= run->by_file; // a file's scenes read no other folders than the file
     struct batch_use use = {draw, reach, right_of, finish, run};
     bool ok = check(operand_count, run->options, &error) && batch_plan_start(&run->plan, &drawn, &error) &&
               prepare(run, operand_count, operands, &error);
@@ -407,6 +413,7 @@ int run_hash(int operand_count, char **operands, const struct options *options)
     for (size_t i = 0; run.names && i < run.plan.count; i++)
         free(run.names[i]);
     free(run.names);
+    free(run.sorted.entries); // whose names they were
     free(run.kept);
     free(run.sheet);
     shared_count_free(run.rows);

@@ -11,15 +11,17 @@ enum { SHEET_ROWS = 40 };
 
 struct hash_run {
     const struct options *options;
-    const char *path;       // the hash file; "-" is standard output
-    bool checks;            // compares with the file
-    struct hash_file then;  // the old contents of the file; empty unless `checks`
-    struct hash_file now;   // the new contents
-    struct batch_plan plan; // the models
-    char **names;           // the models' names in the file, from malloc
-    bool *kept;             // for each entry of the file: the model exists but is not in the plan
-    char *sheet;            // the path of the sheet for --update, from malloc
-    atomic_int *rows;       // the number of pictures kept for the sheet of --update
+    const char *path;        // the hash file; "-" is standard output
+    bool checks;             // compares with the file
+    struct hash_file then;   // the old contents of the file; empty unless `checks`
+    struct hash_file now;    // the new contents
+    struct batch_plan plan;  // the models
+    char **names;            // the models' names in the file, from malloc
+    bool by_file;            // the file names the models, not the command line
+    struct hash_file sorted; // `names`, sorted
+    bool *kept;              // for each entry of the file: the model exists but is not in the plan
+    char *sheet;             // the path of the sheet for --update, from malloc
+    atomic_int *rows;        // the number of pictures kept for the sheet of --update
 };
 
 // Copies the options of the command line to `own`. If no option of the command line changes the picture, adds the

@@ -2,9 +2,12 @@
 #include "hash_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <lambent/lambent.h>
 
@@ -134,8 +137,9 @@ static bool read_lines(struct hash_file *file, FILE *in, const char *path, lam_e
         else if (length)
             ok = add_line(file, path, number, line, &capacity, error);
     }
-    if (ok && ferror(in))
-        ok = complain(error, LAM_CANNOT_READ, "%.400s: cannot read: %s", path, strerror(errno));
+    if (ok && !feof(in)) // getline fails without memory too
+        ok = complain(error, errno == ENOMEM ? LAM_LIMIT : LAM_CANNOT_READ, "%.400s: cannot read: %s", path,
+                      strerror(errno));
     if (ok && (!file->version || !file->options))
         ok = complain(error, number < 4 ? LAM_CANNOT_READ : LAM_LIMIT,
                       "%.300s: the file ends after line %d, expected "
@@ -148,10 +152,18 @@ static bool read_lines(struct hash_file *file, FILE *in, const char *path, lam_e
 bool hash_file_read(struct hash_file *file, const char *path, lam_error *error)
 {
     *file = (struct hash_file){0};
-    FILE *in = fopen(path, "r");
+    struct stat about;
+    int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); // a pipe is not waited for
+    FILE *in = opened < 0 ? NULL : fdopen(opened, "r");
     if (!in)
         return complain(error, LAM_CANNOT_READ, "%.400s: cannot open: %s", path, strerror(errno));
-    bool ok = read_lines(file, in, path, error);
+    bool regular = fstat(opened, &about) == 0 && S_ISREG(about.st_mode), ok = regular && about.st_size <= HASH_FILE_MAX;
+    if (!ok)
+        complain(error, LAM_CANNOT_READ,
+                 regular ? "%.400s: has more than %d MiB, which no file of hashes has"
+                         : "%.400s: is not a regular file",
+                 path, HASH_FILE_MAX >> 20);
+    ok = ok && read_lines(file, in, path, error);
     fclose(in);
     hash_file_sort(file);
     for (size_t i = 1; ok && i < file->count; i++)
@@ -239,4 +251,29 @@ char *hash_file_model(const char *path, const char *name)
     if (lam_shape_find(name) >= 0 || name[0] == '/')
         return strdup(name);
     return asprintf(&model, "%.*s%s", slash ? (int)(slash - path) + 1 : 0, path, name) < 0 ? NULL : model;
+}
+
+static bool is_below(const char *real, const char *folder)
+{
+    char *top = realpath(folder, NULL);
+    size_t length = top ? strlen(top) : 0;
+    bool below =
+        top && strncmp(real, top, length) == 0 && (!real[length] || real[length] == '/' || top[length - 1] == '/');
+    free(top);
+    return below;
+}
+
+bool hash_file_may_name(const char *path, const char *file, const struct options *options, lam_error *error)
+{
+    if (lam_shape_find(file) >= 0)
+        return true;
+    char *folder = output_folder_of(path), *real = realpath(file, NULL);
+    bool may = folder && (real ? is_below(real, folder) : errno == ENOENT); // one that is missing cannot be read
+    for (int i = 0; real && !may && i < options->limits.allow_paths.count; i++)
+        may = is_below(real, options->limits.allow_paths.items[i]);
+    free(folder);
+    free(real);
+    return may || complain(error, LAM_CANNOT_READ,
+                           "%.200s: names '%.200s', which is not below the folder of this file; --allow-path allows it",
+                           path, file);
 }

@@ -91,13 +91,35 @@ char *hash_options_text(const struct options *options, const char *path)
     return text;
 }
 
-// Makes the paths among the words relative to the current folder. Stores the new texts after the line with the words,
-// at `to`.
-static bool resolve(char **words, int count, const char *path, char *to, const char *end)
+// Returns whether the file may name the files of such an option, whose paths are relative to the present folder.
+static bool may_name(const char *path, const char *name, const char *value, const struct options *o, lam_error *error)
 {
-    for (int i = 0; i + 1 < count; i++)
+    bool environment = strcmp(name, "environment") == 0, ok = true;
+    if (environment ? environment_option_built_in(value) != NULL : look_find(value) != NULL)
+        return true;
+    for (const char *from = value; ok && from;) {
+        size_t length = environment ? strcspn(from, ",") : strlen(from);
+        char *one = strndup(from, length);
+        ok = one ? hash_file_may_name(path, one, o, error) : complain(error, LAM_LIMIT, "out of memory");
+        free(one);
+        from = from[length] ? from + length + 1 : NULL;
+    }
+    return ok;
+}
+
+// Makes the paths among the words relative to the present folder, before a look is read. The texts follow the line of the words, at `to`.
+static bool resolve(char **words, int count, const char *path, char *to, const char *end, const struct options *o,
+                    lam_error *error)
+{
+    for (int i = 0; i < count; i++)
         for (size_t k = 0; k < sizeof of_files / sizeof *of_files; k++) {
-            if (strncmp(words[i], "--", 2) != 0 || strcmp(words[i] + 2, of_files[k]) != 0)
+            size_t length = strlen(of_files[k]);
+            if (strncmp(words[i], "--", 2) != 0 || strncmp(words[i] + 2, of_files[k], length) != 0)
+                continue;
+            const char *rest = words[i] + 2 + length;
+            if (*rest == '=') // is not how hash writes them
+                return false;
+            if (*rest || i + 1 == count)
                 continue;
             char *value = map_paths(of_files[k], words[i + 1], path, hash_file_model);
             bool fits = value && strlen(value) < (size_t)(end - to);
@@ -105,7 +127,7 @@ static bool resolve(char **words, int count, const char *path, char *to, const c
                 words[i + 1] = strcpy(to, value);
             to += fits ? strlen(value) + 1 : 0;
             free(value);
-            if (!fits)
+            if (!fits || !may_name(path, of_files[k], words[i + 1], o, error))
                 return false;
         }
     return true;
@@ -128,8 +150,10 @@ bool hash_options_take(const struct hash_file *file, const char *path, const str
         return true;
     lam_error reason = {0};
     int count = split(*kept, words);
-    ok = resolve(words, count, path, *kept + length + 1, *kept + room) &&
+    ok = resolve(words, count, path, *kept + length + 1, *kept + room, given, &reason) &&
          options_parse(count, words, find_groups("hash"), own, &reason) == 0;
+    // A look may name an environment.
+    ok = ok && (!own->shading.environment || may_name(path, "environment", own->shading.environment, given, &reason));
     now = ok ? hash_options_text(own, path) : NULL;
     ok = now && strcmp(now, file->options) == 0; // changes the hash file only: no output, no other files
     free(now);

@@ -10,6 +10,7 @@
 #include "console.h"
 #include "drawing.h"
 #include "shrink.h"
+#include "writer.h"
 #include "xxh64.h"
 
 enum { CELL = 320, GAP = 16, TITLE = 28, HEAD = 40, INK = 0x222222, GREY = 0x777777 };
@@ -129,7 +130,9 @@ bool hash_sheet_write(const struct hash_run *run, json_t *const *records, int *r
     for (size_t i = 0; ok && i < run->plan.count && drawn < *rows; i++)
         if (json_object_get(records[i], "new_picture"))
             ok = draw_row(&d, records[i], run->names[i], HEAD + drawn++ * row, error);
-    ok = ok && drawing_write(&d, run->sheet, error);
+    const char *slash = strrchr(run->sheet, '/');
+    ok = ok && writer_check_links(run->sheet, slash ? (size_t)(slash - run->sheet) : 0, error) &&
+         drawing_write(&d, run->sheet, error);
     drawing_free(&d);
     return ok;
 }

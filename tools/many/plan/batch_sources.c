@@ -156,8 +156,9 @@ bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error)
     if (ok && past) // the next shard's first model, read only to check the order
         batch_plan_drop_last(plan);
     plan->listed += plan->count - first;
-    if (ok && ferror(file))
-        ok = complain(error, LAM_CANNOT_READ, "%s: cannot read the list: %s", path, strerror(errno));
+    if (ok && !past && !feof(file)) // getline fails without memory too
+        ok = complain(error, errno == ENOMEM ? LAM_LIMIT : LAM_CANNOT_READ, "%s: cannot read the list: %s", path,
+                      strerror(errno));
     free(line);
     if (!standard)
         fclose(file);

@@ -1,0 +1,25 @@
+// writer_files.h: checks paths before files are replaced, and replaces sets of files together. The process that writes
+// calls these functions: the writer, or without a sandbox the program itself.
+#ifndef WRITER_FILES_H
+#define WRITER_FILES_H
+
+#include "writer.h"
+
+// Checks a path against its right, except WRITER_NEW_OR_OURS, which the caller checks. Fails with LAM_CANNOT_WRITE.
+bool writer_files_check(const char *path, enum writer_right right, lam_error *error);
+
+// Writes a file completely or not at all, and creates its missing folder.
+bool writer_files_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
+
+// Writes the contents to a hidden file beside the path. Any thread may call it. Fails with LAM_CANNOT_WRITE or
+// LAM_LIMIT.
+bool writer_files_stage(const char *path, const lam_bytes *bytes, lam_error *error);
+
+// Renames the hidden files to their names, in the order in which they were staged. After a failure it removes the
+// others.
+bool writer_files_commit(lam_error *error);
+
+// Removes the hidden files.
+void writer_files_drop(void);
+
+#endif

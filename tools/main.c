@@ -1,4 +1,4 @@
-// main.c: finds the command, parses its options, runs it.
+// main.c: finds the command, parses its options, and runs it.
 #include "command.h"
 
 #include <signal.h>
@@ -31,7 +31,8 @@ static struct options scan_report_options(int count, char **words)
     return options;
 }
 
-// Removes the command's name from the words, in which options may come before it; the default command if they name none.
+// Removes the command's name from the words, in which options may come before it. Returns the default command if the
+// words contain none.
 static const struct command *take_command(int *count, char **words)
 {
     int first = options_first_operand(*count, words);
@@ -45,7 +46,7 @@ static const struct command *take_command(int *count, char **words)
 static bool check_operands(const struct command *command, int count, char **operands, const struct options *options,
                            lam_error *error)
 {
-    if (options->batch.lists.count) // whose names are models
+    if (options->batch.lists.count) // the listed names are models
         return true;
     if (count < command->min_operands && command == command_table)
         return complain(error, LAM_BAD_ARGUMENT, "no model given, expected a file, a shape's name or -");
@@ -58,7 +59,7 @@ static bool check_operands(const struct command *command, int count, char **oper
     return true;
 }
 
-// Pictures of a page do not depend on the user who made it.
+// Pictures of a web page must not depend on the settings of the user who made it.
 static bool reads_settings(const struct command *command, const struct options *options)
 {
     return command->groups & 1ull << GROUP_SETTINGS && command != &command_table[COMMAND_config] &&
@@ -79,7 +80,7 @@ static int execute(const struct command *command, int operands, char **words, st
         return 0;
     }
     if (options->picture.output && strcmp(options->picture.output, "/dev/stdout") == 0)
-        options->picture.output = "-"; // nothing but the picture may be written there
+        options->picture.output = "-"; // standard output is reserved for the picture
     if (!check_operands(command, operands, words, options, &error))
         return report_failure(&error, options);
     struct settings_source source;
@@ -95,7 +96,7 @@ static int execute(const struct command *command, int operands, char **words, st
     return code;
 }
 
-// Parses the options, except for a command whose words are none. Returns the number of operands; −1 with the error.
+// Parses the options, unless the command takes its words verbatim. Returns the number of operands; −1 with the error.
 static int parse(const struct command *command, int count, char **words, struct options *options, lam_error *error)
 {
     bool help = count && (strcmp(words[0], "-h") == 0 || strcmp(words[0], "--help") == 0);
@@ -118,7 +119,7 @@ int main(int count, char **words)
 {
     if (count == 3 && strcmp(words[1], CHECK_WORKER) == 0)
         check_worker(words[2]);
-    signal(SIGXFSZ, SIG_IGN); // a file over the limit is an error of writing it
+    signal(SIGXFSZ, SIG_IGN); // a file over the size limit becomes a write error
     console_start();
     option_table_fill();
     int code = run(count - (count > 0), words + (count > 0));

@@ -1,5 +1,5 @@
-// without_classroom.c: the functions of classroom/ that the program calls, for a program that is built without it
-// (-Dclassroom=false). Each says so.
+// without_classroom.c: replaces the functions of classroom/ for programs that are built without it (-Dclassroom=false).
+// Each function reports that it is not available.
 #include "check.h"
 #include "command.h"
 #include "console.h"

@@ -36,7 +36,7 @@ static struct reference_scene visible_scene(const struct run *r, int index)
     return s;
 }
 
-// Returns whether the shaders cannot distinguish a scene from one of `scenes`: shaders without a name for a strength
+// Returns whether a scene looks the same to these shaders as one of `scenes`: shaders without a name for a strength
 // draw every term in every scene.
 static bool is_repeated(const struct run *r, int index, unsigned scenes)
 {
@@ -78,8 +78,8 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
     return true;
 }
 
-// Gets the given contract, or the contract that has the shaders' names; NULL if there is none. Returns false and fills
-// `error` on failure.
+// Gets the given contract, or the contract that has the shaders' names; `*out` is NULL if there is none. Returns false
+// and fills `error` on failure.
 static bool choose_contract(struct run *r, const struct contract **out, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -124,8 +124,7 @@ static bool prepare(struct run *r, const struct contract *contract, unsigned *sc
                                                                     : r->interface.contract->reflection;
     if (r->interface.physical && p->reflection != LAM_REFLECTION_AUTO)
         return fail(error, LAM_BAD_ARGUMENT,
-                    "check: the shader has metalness and roughness, whose highlight is not a matter of choice; leave "
-                    "--highlight out");
+                    "check: the shader has metalness and roughness, which determine its highlight; omit --highlight");
     if (p->reflection != LAM_REFLECTION_AUTO && r->reflection != LAM_REFLECTION_PHONG &&
         r->reflection != LAM_REFLECTION_BLINN_PHONG)
         return fail(error, LAM_BAD_ARGUMENT, "check: unknown highlight, expected phong or blinn-phong");
@@ -137,8 +136,8 @@ static bool prepare(struct run *r, const struct contract *contract, unsigned *sc
         r->report->made_vertex = true;
         if (unknown[0])
             return fail(error, LAM_BAD_ARGUMENT,
-                        "no vertex shader is given, and the contract %s does not say which values %s should have; give "
-                        "the vertex shader with --vertex",
+                        "no vertex shader is given, and the contract %s does not define values for %s; name the vertex "
+                        "shader with --vertex",
                         r->interface.contract->name, unknown);
     }
     return choose_scenes(r, scenes, error);
@@ -205,7 +204,7 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
 }
 
 #define BIT(semantic) ((uint64_t)1 << (semantic))
-// Names that do not concern lighting.
+// The roles of names that do not concern lighting.
 static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTIC_PROJECTION) |
                                           BIT(SEMANTIC_MODEL_VIEW_PROJECTION) | BIT(SEMANTIC_NORMAL_MATRIX) |
                                           BIT(SEMANTIC_MODEL) | BIT(SEMANTIC_VIEW) | BIT(SEMANTIC_VIEW_PROJECTION) |
@@ -299,8 +298,8 @@ static bool try_inferred(struct run *r, const struct contract *contract, enum fi
     return true;
 }
 
-// Infers the roles of the inputs from their use, in each possible space. It accepts the first interpretation for which
-// the shaders are correct, or else one that a single mistake explains.
+// Infers the roles of the inputs from their use, in each possible space. It accepts the first interpretation under
+// which the shaders are correct, or else one in which a single mistake explains the difference.
 static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -313,8 +312,8 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     bool ok = p->vertex != NULL, done = false;
     if (!ok)
         return fail_unknown(r,
-                            "the names fit no known contract, and a fragment shader without its vertex shader does not "
-                            "show the role of its inputs",
+                            "the names match no known contract, and without its vertex shader the roles of a fragment "
+                            "shader's inputs are unknown",
                             error);
     ok = (engine ? prefix_add(engine, p->vertex, p->fragment, &texts, error)
                  : (texts = (struct complete_texts){.vertex = p->vertex, .fragment = p->fragment}, true)) &&

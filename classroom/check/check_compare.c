@@ -12,10 +12,10 @@
 #include "fault_search.h"
 #include "srgb.h"
 
-// Some seconds with a software driver on one processor (docs/check.md).
+// The time limit of a search: some seconds with a software driver on one processor (docs/check.md).
 static const uint64_t default_max_pictures = 10000;
 static const double max_dark = 2.0 / 255; // the largest value in a picture that counts as black
-// of the difference, so that names are reported although they do not explain everything
+// the largest remainder, as a share of the difference, for which found mistakes are reported
 static const double max_left = 0.25;
 
 // --- the pictures
@@ -159,8 +159,8 @@ static bool is_dark(const struct scene_comparison *scene, const float *picture)
     return true;
 }
 
-// A black picture of a black scene proves nothing: it earns no points in a shader that fails elsewhere, and a shader
-// with only such scenes gets no verdict.
+// A black picture of a black scene proves nothing: it scores no points if the shader fails elsewhere, and a shader with
+// only such scenes gets no verdict.
 static bool weigh_darkness(struct run *r, lam_error *error)
 {
     bool lit = false;
@@ -190,9 +190,9 @@ static bool is_searchable(struct run *r, bool writes)
                  (model == LAM_REFLECTION_GGX && !r->interface.multiple_scattering));
     if (!known)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "no mistakes are looked for in this shader of `lambent shader`: they are known for Lambert's, "
-                        "Phong's and Blinn-Phong's models, and for GGX with --single-scattering; not with --gl1 or "
-                        "--viewer infinite");
+                        "lambent does not search for mistakes in this shader of `lambent shader`: it knows mistakes of "
+                        "Lambert's, Phong's and Blinn-Phong's models, and of GGX with --single-scattering, but not "
+                        "with --gl1 or --viewer infinite");
     for (int i = 0; i < r->scene_count; i++) {
         clear += check_missing_share(&r->scenes[i], false) / r->scene_count;
         r->scenes[i].spoilt = check_missing_share(&r->scenes[i], true) > 0.25;
@@ -200,12 +200,13 @@ static bool is_searchable(struct run *r, bool writes)
     }
     if (writes && clear > 0.02)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "%.0f %% of the model is not drawn: the shader discards it, or gl_Position puts it elsewhere",
+                        "%.0f %% of the model is not drawn: the shader discards it, or gl_Position moves it elsewhere",
                         clear * 100);
     return writes && known && clear < 0.9 && usable > 0;
 }
 
-// Finds styles of the shader that are as correct as the reference, and compares with pictures in these styles.
+// Finds styles of the shader that are as correct as the reference, and then compares with pictures drawn in these
+// styles.
 static bool accept_styles(struct run *r, struct fault_search *s, bool writes, lam_error *error)
 {
     if (s->count == 0)

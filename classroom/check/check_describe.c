@@ -1,5 +1,5 @@
 // check_describe.c: describes in one sentence a difference that no known mistake explains, and finds the line of a
-// mistake that is only visible in the text.
+// mistake that only the source text shows.
 #include "check_run.h"
 
 #include <string.h>
@@ -83,22 +83,22 @@ static const struct {
     {"only the ambient term differs: scenes without it match", shows_ambient},
     {"only the diffuse term differs: scenes without it match", shows_diffuse},
     {"only the specular term differs: scenes without it match", shows_specular},
-    {"right with one light, wrong with several", has_lights},
-    {"right with even scales, and different if the model is scaled unevenly: look at the normals and their matrix",
+    {"correct with one light, wrong with several", has_lights},
+    {"correct with uniform scales, but different with non-uniform scales: check the normals and their matrix",
      is_uneven},
-    {"right at the vertices of small triangles, and different between the vertices of large ones: compute the "
+    {"correct at the vertices of small triangles, but different between the vertices of large triangles: compute the "
      "interpolated value in each fragment",
      is_coarse},
     {"only directional lights differ", has_direction},
     {"only point lights differ", has_point},
     {"only spots differ", has_spot},
-    {"different if the light is attenuated, and right if it is not", is_attenuated},
-    {"different if the light comes from behind, and right if it comes from the front", is_lit_from_behind},
-    {"only scenes with a normal map differ that is not flat: look at tangent, bitangent and the texel", has_bumps},
+    {"correct without attenuation, but different with it", is_attenuated},
+    {"correct if the light comes from the front, but different if it comes from behind", is_lit_from_behind},
+    {"only scenes with a bumpy normal map differ: check tangent, bitangent and the texel", has_bumps},
     {"only flat shading differs", is_flat},
-    {"only the scene of back faces differs", has_two_sides},
-    {"only the scene of a translucent material differs: look at alpha", is_translucent},
-    {"only small highlights differ: look at the exponent", is_glossy},
+    {"only the scene with back faces differs", has_two_sides},
+    {"only the scene with a translucent material differs: check alpha", is_translucent},
+    {"only small highlights differ: check the exponent", is_glossy},
 };
 
 // Returns the number of scenes with a property, if all differing scenes have it and nearly all scenes with it differ;

@@ -34,7 +34,7 @@ static void display(const struct physical_convention *c, float *pixels, size_t c
         }
 }
 
-// The CPU device uses glTF's own equations; the fault shader draws their other forms.
+// The CPU device uses glTF's own equations; the fault shader draws all other forms.
 static bool is_of_device(const struct run *r)
 {
     const struct physical_convention *c = &r->interface.contract->physical;
@@ -51,7 +51,7 @@ static bool draw_by_shader(struct run *r, struct scene_comparison *scene, lam_er
     return fault_shader_draw(r->shader, &scene->reference_scene, &model, &none, scene->reference, error);
 }
 
-// Makes only the surfaces of a scene: whether both of their sides are drawn.
+// Makes a scene that contains only the surfaces and states whether both of their sides are drawn.
 static lam_scene *surfaces_of(const struct run *r, const struct reference_scene *s, lam_camera *camera,
                               lam_error *error)
 {
@@ -160,11 +160,11 @@ static bool try_candidate(struct run *r, lam_device *device, int scene_count, st
     return true;
 }
 
-// If the exercise has a number instead of a name, and the text does not show which of its numbers it is, all numbers
-// are tried on the first scene, which shows every term. The numbers with which the shader is correct are kept in
-// `best`. If there are none, the shader has a mistake, and the nearest numbers prove little. In that case the
-// contract's number is kept if the text contains it or contains no other number, and no number of the text is used
-// twice.
+// If the exercise uses a number instead of a name, and the text does not show which of its numbers is meant, all
+// numbers are tried on the first scene, which shows every term. Stores in `best` the parameter values for which the
+// shader is correct. If no values are correct, the shader contains a mistake, and the closest values prove little. In
+// that case the contract's number is kept if the text contains it or contains no other number, and no number of the
+// text is used twice.
 enum { MAX_OPEN = 4, MAX_TRIES = 512 };
 static const double same_pictures = 1e-5; // mean difference
 
@@ -174,7 +174,7 @@ struct open_number {
     int count, own; // 1 + the index of the contract's own value; 0 means the text does not contain it
 };
 
-// Finds the open numbers, and the number of their combinations.
+// Finds the open numbers, and counts their combinations.
 static int find_open(struct shader_interface *interface, struct open_number open[MAX_OPEN], int *count)
 {
     enum uniform_semantic semantics[SEMANTIC_COUNT];
@@ -205,7 +205,7 @@ static bool is_taken(const struct open_number *a, int value_a, const struct open
            memcmp(a->values[value_a - 1], b->values[value_b - 1], sizeof *a->values) == 0;
 }
 
-// Sets the numbers of a combination. Returns whether it is likely in a shader with a mistake.
+// Sets the numbers of a combination. Returns whether a shader with a mistake is likely to use this combination.
 static bool set_numbers(struct shader_interface *interface, const struct open_number *open, int count, int combination)
 {
     bool likely = true;
@@ -283,9 +283,8 @@ bool check_draw_references(struct run *r, lam_error *error)
     if (ok && text[0] && r->interface.printed_model != LAM_REFLECTION_NONE)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", text);
     if (ok && numbers)
-        diagnostics_add(
-            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-            "the numbers of the exercise, such as the strength of the ambient light, are taken from the shader's "
-            "text as they fit best");
+        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+                        "lambent takes the numbers of the exercise, such as the strength of the ambient light, from "
+                        "the shader's text: those that fit best");
     return ok;
 }

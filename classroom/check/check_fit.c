@@ -1,11 +1,11 @@
-// check_fit.c: compares a shader that has its own strengths and colours with sums of an ambient, a diffuse and a
-// specular term.
+// check_fit.c: compares a shader with its own strengths and colours to sums of an ambient, a diffuse and a specular
+// term.
 //
 // The fault shader draws each term of a scene in a separate channel (shader_interface_scene). An interpretation
-// consists of a highlight, an exponent, and forms or a fault. The factors of its terms, which are the same
-// in every scene, are found by least squares. The shader passes if some interpretation of a correct shader explains
-// every scene, and differs if one with a single known mistake does. Otherwise there is no verdict: a shader that the
-// check does not understand may be correct.
+// consists of a highlight, an exponent, and forms or a fault. The factors of its terms, which are the same in every
+// scene, are found by least squares. The shader passes if an interpretation without a mistake explains every scene. It
+// differs if an interpretation with a single known mistake does. Otherwise there is no verdict: a shader that the check
+// does not understand may be correct.
 #include "interpretations.h"
 
 #include <stdio.h>
@@ -29,7 +29,7 @@ struct fit {
     struct fault_shader *shader; // draws the strided pictures
     int stride, size;
     uint32_t *from[MAX_SCENES],
-        *to[MAX_SCENES]; // indices of the pixels: in the shader's pictures, and in the ones drawn here
+        *to[MAX_SCENES]; // pixel indices in the shader's pictures and in those drawn here
     size_t count[MAX_SCENES];
     float *basis[MAX_SCENES], *pixels;
 };
@@ -235,7 +235,7 @@ static void hint_forms(struct run *r, const struct interpretation *g)
                         g->forms[i]->explanation);
     if (g->set.constant > 0)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "the exponent of the highlight is taken from the text: %g", (double)g->set.constant);
+                        "lambent takes the exponent of the highlight from the text: %g", (double)g->set.constant);
 }
 
 // --- the fit
@@ -246,7 +246,7 @@ static int by_mean(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Lists the interpretations with which faults are tried: they differ from the nearest one only in the highlight and its
+// Lists the interpretations to combine with faults: they differ from the closest one only in the highlight and its
 // forms. If the text contains reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct interpretation *interpretations, int count,
                         const struct interpretation *best)
@@ -345,7 +345,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     bool plain = !best.fits && best.mean > min_mean && interpretations_are_plain(r);
     if (!best.fits && !plain) {
         snprintf(reason, capacity,
-                 "its pictures are no sum of an ambient, a diffuse and a specular term that the check knows");
+                 "the check cannot explain its pictures as the sum of an ambient, a diffuse and a specular term");
         return true;
     }
     bool explained = best.fault_count > 0;
@@ -362,7 +362,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     else if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
         *outcome = FIT_UNKNOWN; // the full pictures do not confirm it
     if (*outcome == FIT_UNKNOWN)
-        snprintf(reason, capacity, "its pictures are close to a correct shader's, but not equal");
+        snprintf(reason, capacity, "its pictures resemble a correct shader's pictures, but are not equal to them");
     else if (explained)
         report_faults(r, &best, before);
     if (*outcome == FIT_DIFFERS)

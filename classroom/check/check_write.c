@@ -1,5 +1,4 @@
-// check_write.c: writes a contract as a file for readers: one entry per line, with its meaning and possible
-// corrections.
+// check_write.c: writes a contract as a readable file: one entry per line, with its meaning and possible corrections.
 #include <lambent/check.h>
 
 #include <jansson.h>
@@ -19,7 +18,7 @@
 static const struct {
     const char *role, *correct;
 } corrections[] = {
-    {"zero", "gets 0, since its role is not known or it is not used; give it a role if it matters"},
+    {"zero", "gets 0, because its role is unknown or it is unused; give it a role if it matters"},
     {"factor",
      "its value is free. If the exercise prescribes it: a role such as color, light_color, diffuse_strength, and "
      "\"strengths\": \"given\""},
@@ -27,7 +26,7 @@ static const struct {
     {"light_direction", "it points to the light; if it points away from it, light_travel. Correct `space` too"},
     {"light_travel", "it points away from the light; if it points to it, light_direction. Correct `space` too"},
     {"eye_position", "correct `space` if the program gives it in another one"},
-    {"normal_matrix", "correct `space` if it leads to another one"},
+    {"normal_matrix", "correct `space` if the matrix transforms to another one"},
     {"shininess", "the exponent of the highlight, which the scenes choose"},
 };
 

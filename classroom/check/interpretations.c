@@ -94,7 +94,7 @@ static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
         if (strcmp(d->words[i].text, "pow") == 0 && read_exponent(d, i + 1, &x))
             add_exponent(out, &count, x);
     }
-    // the exponent may be a parameter of a function
+    // The exponent may be passed as a parameter of a function.
     for (int i = 0; i < d->word_count && !count && interpretations_use(r, "pow"); i++) {
         double x = 0;
         if (read_literal(d->words[i].text, &x))
@@ -178,7 +178,7 @@ int interpretations_list(const struct run *r, struct interpretation out[MAX_INTE
     return count;
 }
 
-// Faults of colours, strengths and alpha are part of the factors, or do not matter.
+// Returns whether a fault concerns neither colours and strengths, which the factors include, nor alpha, which does not matter.
 static bool is_geometric(const struct fault *row)
 {
     static const enum fault_bit others[] = {BIT_KD_KS_SWAPPED,
@@ -254,7 +254,7 @@ bool interpretations_are_plain(const struct run *r)
             bool of_w = i + 3 < sides[s]->word_count && strcmp(w[2].text, ".") == 0 && strcmp(w[3].text, "w") == 0;
             bool quotient = strcmp(w->text, "/") == 0 && !read_literal(next, &divisor) && !of_w;
             bool number = read_literal(w->text, &x);
-            bool compared = false; // compared with something other than 0, outside of a loop's head
+            bool compared = false; // compared with a number other than 0, outside of a loop's head
             if (w->text[0] == '<' || w->text[0] == '>') {
                 const char *after = next[0] == '=' ? w[2].text : next;
                 double zero = 1;

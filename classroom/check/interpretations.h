@@ -1,5 +1,5 @@
-// interpretations.h: the interpretations of a shader that has its own strengths and colours: the calculations
-// that its text allows.
+// interpretations.h: the interpretations of a shader that has its own strengths and colours: the calculations that its
+// source may contain.
 #ifndef INTERPRETATIONS_H
 #define INTERPRETATIONS_H
 
@@ -31,9 +31,9 @@ bool interpretations_allow_fault(const struct fault *row);
 // Returns whether a word occurs in one of the texts.
 bool interpretations_use(const struct run *run, const char *word);
 
-// Returns whether the texts consist only of the words of an ambient, a diffuse and a specular term: pictures that no
-// interpretation explains are then wrong. Steps, cones, distances, rims and similar features may be correct, but are
-// not understood.
+// Returns whether the texts use only words of an ambient, a diffuse and a specular term: if no interpretation explains
+// the pictures, the shader is then wrong. Steps, cones, distances, rims and similar features may be correct, but the
+// check does not understand them.
 bool interpretations_are_plain(const struct run *run);
 
 #endif

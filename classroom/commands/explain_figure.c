@@ -220,7 +220,7 @@ static bool draw_vectors(const struct explain_figure *f, const struct subject *s
 }
 
 // Draws the vectors in the plane of the normal and the light (n and v without a light), with the surface as a
-// horizontal line. For a thread it is the plane of t and l, with the thread as the horizontal line, because only the
+// horizontal line. For a thread it draws the plane of t and l, with the thread as the horizontal line, because only the
 // angle between t and l matters. In the picture, v points towards the viewer.
 static bool draw_from_the_side(const struct subject *s, const struct sheet_layout *at, struct drawing *d,
                                lam_error *error)

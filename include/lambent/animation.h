@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-// An animation that is being encoded. It stores the last frame and the encoded frames, not the earlier pictures. One
-// thread at a time may use it.
+// An animation that is being encoded. It stores the last frame and the encoded frames, not the earlier pictures. Only
+// one thread at a time may use it.
 typedef struct lam_animation lam_animation;
 
 // Parameters of an animation. If all fields are zero, the defaults apply.
@@ -38,9 +38,9 @@ LAM_API lam_animation *lam_animation_make(const char *format, int width, int hei
 LAM_API bool lam_animation_add(lam_animation *animation, const lam_image *frame, const lam_control *control,
                                lam_error *error);
 
-// Ends the animation, which needs at least one frame, and makes the bytes of its file; the caller frees them. A PNG has
-// the same bytes on every machine (LAM_COMPRESS_FAST); a WebP depends on the version of its library. Later calls fail.
-// Fails with LAM_BAD_ARGUMENT, LAM_LIMIT or LAM_CANCELLED.
+// Ends the animation, which needs at least one frame, and encodes its file; the caller frees the bytes. A PNG is
+// identical on every machine (LAM_COMPRESS_FAST); a WebP depends on the version of its library. Later calls fail. Fails
+// with LAM_BAD_ARGUMENT, LAM_LIMIT or LAM_CANCELLED.
 LAM_API bool lam_animation_finish(lam_animation *animation, const lam_control *control, lam_bytes *out,
                                   lam_error *error);
 

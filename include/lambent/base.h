@@ -14,11 +14,11 @@
 // them, lam_<thing>_default.
 //
 // Growth: a struct that may grow ends in LAM_RESERVED(n), n words of 8 bytes that must be zero. A later version
-// replaces a whole number of these words by new fields, for each of which zero means the default or "absent". Therefore
-// the size of a struct, the stride of an array of them, and the offset of each field never change within one soname:
-// programs and libraries of different versions work together, in both directions. A call that takes a struct of
-// parameters with a reserved word that is not zero fails with LAM_BAD_ARGUMENT: the program was compiled against a
-// newer header and sets a field that this library does not know. Structs without LAM_RESERVED never change.
+// replaces some of these words with new fields. For each new field, zero means the default or "absent". Therefore the
+// size of a struct, the stride of an array of them, and the offset of each field never change within one soname: a
+// program works with both older and newer versions of the library. A call that takes a struct of parameters with a
+// reserved word that is not zero fails with LAM_BAD_ARGUMENT: the program was compiled against a newer header and sets
+// a field that this library does not know. Structs without LAM_RESERVED never change.
 #ifndef LAMBENT_BASE_H
 #define LAMBENT_BASE_H
 
@@ -42,10 +42,11 @@ extern "C" {
 #define LAM_API
 #endif
 
-// Words of 8 bytes at the end of a struct, which later versions replace by fields. Must be zero (see "Growth" above).
+// Words of 8 bytes at the end of a struct, which later versions may replace with fields. Must be zero (see "Growth"
+// above).
 #define LAM_RESERVED(words) uint64_t reserved[words]
 
-// The kind of a failure. The exit codes of the `lambent` program are different numbers.
+// The kind of a failure. The exit codes of the `lambent` program use different numbers.
 typedef enum lam_code {
     LAM_OK = 0, // no error
     // An argument is out of range or cannot be combined with another; the sentence names it.
@@ -105,10 +106,11 @@ LAM_API void lam_cancel_clear(lam_cancel *cancel);
 typedef struct lam_control {
     // The flag that stops the call with LAM_CANCELLED. NULL: the call cannot be cancelled.
     const lam_cancel *cancel;
-    // The call fails with LAM_LIMIT this many seconds after its start (wall-clock time). Times the number of threads,
-    // this bounds the processor time as well. 0 or less: no limit.
+    // The call fails with LAM_LIMIT this many seconds after its start (wall-clock time). Multiplied by the number of
+    // threads, this also limits the processor time. 0 or less: no limit.
     double time_limit_s;
-    // The most bytes that the call may use at once; beyond this it fails with LAM_LIMIT. 0: no limit.
+    // The largest number of bytes that the call may use at once; if it needs more, it fails with LAM_LIMIT. 0: no
+    // limit.
     uint64_t memory_limit_bytes;
     // Called repeatedly, in the calling thread, with the fraction done, 0..1, and the name of the step ("read",
     // "normals", "frame"). It must not call into the same device or scene. NULL: none.
@@ -131,8 +133,8 @@ typedef struct lam_control {
     // files.
     uint64_t object_limit;
     // The largest number of layers per pixel of a picture, on average (a smaller picture counts as 256×256 pixels). A
-    // layer is a translucent or masked surface over a pixel; 32 lights that light a point count as one layer, and so do
-    // 32 opaque surfaces. The CPU device counts the layers. 0: LAM_LAYERS_BASE, or more for large files.
+    // layer is a translucent or masked surface over a pixel; 32 lights evaluated at a point count as one layer, and so
+    // do 32 opaque surfaces. The CPU device counts the layers. 0: LAM_LAYERS_BASE, or more for large files.
     uint64_t layer_limit;
     LAM_RESERVED(1);
 } lam_control;
@@ -191,9 +193,9 @@ LAM_API int lam_utf8_length(const void *bytes, size_t size);
 // neighbour (optimal string alignment). Words of more than 63 bytes have the distance 63.
 LAM_API int lam_edit_distance(const char *a, const char *b);
 
-// Returns the distance of a typed word from a word of this interface, for suggestions. 0: both words mean the same
-// (they differ only in capitals, '-', '_' and spaces, or the typed word is a common synonym: "sun" for "directional").
-// 1: the word begins with the typed one, which has at least three letters. Otherwise: the edit distance.
+// Returns the edit distance between a typed word and a known name, for suggestions. 0: both mean the same (they differ
+// only in case, '-', '_' and spaces, or the typed word is a common synonym: "sun" for "directional"). 1: the name
+// begins with the typed word, which has at least three letters. Otherwise: the edit distance.
 LAM_API int lam_word_distance(const char *typed, const char *word);
 
 #ifdef __cplusplus

@@ -49,7 +49,8 @@ typedef struct lam_view {
     double fovy_rad;   // full vertical field of view, radians, in (0, π); 0: 30°
     bool orthographic; // true: parallel projection; `fovy_rad` is ignored
     double zoom;       // > 0; 2 shows the model twice as large; 0: 1
-    // Fraction of the picture's tighter side that the projected vertices fill, in (0, 1]. 0: 0.92.
+    // Fraction of the picture's width or height (whichever is tighter) that the projected vertices fill, in (0, 1]. 0:
+    // 0.92.
     double fill;
     LAM_RESERVED(8);
 } lam_view;
@@ -116,17 +117,17 @@ LAM_API lam_orbit lam_orbit_of(const lam_camera *camera, const lam_scene *scene)
 // Returns the camera of an orbit; the planes are fitted to the scene when it is drawn.
 LAM_API lam_camera lam_orbit_camera(const lam_orbit *orbit);
 
-// Turns the eye about the target, radians, to the right and up. The elevation stops at −π/2 and π/2. To turn the model
-// with the mouse, a drag by dx, dy pixels (dy down) in a picture of `height` pixels is about −π dx / height to the
-// right and π dy / height up. Numbers that are not finite are ignored, here and below.
+// Rotates the eye about the target to the right and up, by angles in radians. The elevation stops at −π/2 and π/2. To
+// turn the model with the mouse, a drag by dx, dy pixels (dy down) in a picture of `height` pixels is about −π dx /
+// height to the right and π dy / height up. Numbers that are not finite are ignored, here and below.
 LAM_API void lam_orbit_turn(lam_orbit *orbit, double right_rad, double up_rad);
 
 // Moves eye and target in the plane of the picture, in heights of the picture at the target's distance: a drag by dx, dy pixels is
 // −dx / height to the right and dy / height up.
 LAM_API void lam_orbit_pan(lam_orbit *orbit, double right, double up);
 
-// Shows the target `factor` times as large, > 0: the eye comes nearer, or an orthographic camera shows less. Other
-// factors are ignored.
+// Shows the target `factor` times as large, > 0: moves the eye closer, or narrows the view of an orthographic camera.
+// Other factors are ignored.
 LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 
 // Parses a camera from text: pairs key=value, separated by commas, of
@@ -135,8 +136,7 @@ LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 //   up=x/y/z      default: the scene's up axis
 //   fovy=degrees  default: 30; or ortho=height, half the height of an orthographic view in model units
 //   near=d,far=d  default: fitted to the scene
-// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. False: LAM_BAD_ARGUMENT,
-// and the sentence says what was found and what was expected.
+// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. Fails with LAM_BAD_ARGUMENT; the error states what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
 // Returns the keys of lam_camera_parse, from 0, or NULL if the index is out of range.

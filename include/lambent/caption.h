@@ -1,8 +1,8 @@
 // lambent/caption.h: text in pictures, for captions and the axes of plots.
 //
 // FreeType draws the text with a system font. FreeType is loaded when a font is opened, so programs without text do not
-// need it. Letters differ by a few shades between versions of FreeType and of the font: text is the only part of a
-// picture that is not bit-identical on every machine.
+// need it. Letters differ slightly in brightness between versions of FreeType and of the font: text is the only part of
+// a picture that is not bit-identical on every machine.
 #ifndef LAMBENT_CAPTION_H
 #define LAMBENT_CAPTION_H
 
@@ -12,13 +12,13 @@
 extern "C" {
 #endif
 
-// An open font. One thread at a time may use it.
+// An open font. Only one thread at a time may use it.
 typedef struct lam_font lam_font;
 
 // Opens a font file: TrueType, OpenType or any other format of FreeType. If `path` is NULL, it opens the file that the
 // environment variable LAMBENT_FONT names, else the first of lam_font_path() that exists; the static program of `make
-// static` opens its embedded font. Returns NULL on failure: LAM_UNSUPPORTED (no FreeType or no font; the sentence names
-// the Debian packages), LAM_CANNOT_READ (not a font), LAM_LIMIT.
+// static` opens its embedded font. Returns NULL on failure: LAM_UNSUPPORTED (no FreeType or no font; the
+// sentence names the Debian packages), LAM_CANNOT_READ (not a font) or LAM_LIMIT.
 LAM_API lam_font *lam_font_open(const char *path, lam_error *error);
 LAM_API void lam_font_free(lam_font *font); // NULL is allowed
 

@@ -2,7 +2,7 @@
 // the pictures with the CPU device's, and names the known mistakes that explain a difference. For teachers and
 // students: docs/check.md.
 //
-// These functions are in a library of their own, liblambent-check (pkg-config lambent-check), which uses liblambent.
+// These functions are in a separate library, liblambent-check (pkg-config lambent-check), which uses liblambent.
 #ifndef LAMBENT_CHECK_H
 #define LAMBENT_CHECK_H
 
@@ -90,8 +90,8 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 // --- drawing for a check
 
 // A check draws the shaders under test, and its own shaders with known mistakes. It uses OpenGL, which it finds at run
-// time, or a painter of the caller: a page draws with WebGL 2 (web/check/painter.js). The check alone chooses the
-// meshes and their inputs and compares the pictures, so that every painter gets the same verdict.
+// time, or a painter that the caller provides: a web page draws with WebGL 2 (web/check/painter.js). The check alone
+// chooses the meshes and their inputs and compares the pictures, so that every painter gets the same verdict.
 
 // The compiler of a pair of shaders.
 typedef enum lam_check_language {
@@ -138,8 +138,8 @@ typedef struct lam_check_program {
 } lam_check_program;
 
 // Values of a uniform: `count` elements from `first` on. Each element has as many floats as its type has components,
-// matrices by columns. Integers and flags are given as whole numbers. A sampler gets the RGBA of a texture with one
-// colour everywhere.
+// matrices by columns. Integers and flags are given as whole numbers. A sampler gets the RGBA colour of a uniformly
+// coloured texture.
 typedef struct lam_check_value {
     int input;            // index in `inputs`
     int first;            // index of the first element
@@ -200,12 +200,12 @@ typedef struct lam_check_painter {
     // Makes a context for pictures of size² pixels and for programs in a language. `renderer` gets the name of the
     // renderer. NULL: the call failed, and `error` is filled.
     void *(*open)(void *user, lam_check_language language, int size, char renderer[128], lam_error *error);
-    void (*close)(void *place); // frees it; `forget` was called for its programs before
-    // Contexts can be cached by the caller: a context rests after a check and is woken for another one, perhaps on
+    void (*close)(void *place); // frees the context, after `forget` for each of its programs
+    // The caller can cache contexts: a context is put to rest after a check and woken for the next check, perhaps on
     // another thread.
     void (*rest)(void *place);
-    // Returns false and fills `error` on failure; the context stays at rest. Its programs are then forgotten and it is
-    // closed without being woken again, so these calls must free memory and device objects in this state too.
+    // Returns false and fills `error` on failure; the context stays at rest. The check then forgets its programs and
+    // closes it without waking it again, so these calls must free memory and device objects in this state too.
     bool (*wake)(void *place, lam_error *error);
     // Compiles both shaders, so that the messages of both are available at once, and links them. A program that does
     // not compile is not an error. Returns false, fills `error` and keeps nothing on failure.
@@ -215,15 +215,15 @@ typedef struct lam_check_painter {
     // Draws to size² RGBA pixels, rows top-down. The pixels are floats as the program wrote them. If the device has no
     // float targets, they are bytes / 255; colours are then clamped, and NaN is not found.
     bool (*draw)(void *place, const lam_check_drawing *drawing, float *pixels, lam_error *error);
-    // The painter compiles only GLSL ES. Desktop GLSL is rewritten for it, line by line, as far as the two languages
-    // agree (docs/check.md). Pixels are not compared where the surface normal changes by more than 26 degrees to the
-    // next pixel, because such GPUs may round corners to 1/16 of a pixel.
+    // The painter compiles only GLSL ES. The check translates desktop GLSL to it, line by line, as far as the two
+    // languages agree (docs/check.md). Pixels are not compared where the surface normal changes by more than 26 degrees
+    // to the next pixel, because such GPUs may round corners to 1/16 of a pixel.
     bool es_only;
     LAM_RESERVED(4);
 } lam_check_painter;
 
 // A cache of the pictures of known mistakes, shared by several checks; most of a check's time is spent drawing them. It
-// stores up to `max_bytes` and draws further pictures each time. A cache serves one OpenGL device or painter; any
+// stores up to `max_bytes`; pictures beyond that are drawn each time. A cache serves one OpenGL device or painter; any
 // number of threads may use it at once.
 typedef struct lam_check_cache lam_check_cache;
 
@@ -270,8 +270,8 @@ typedef struct lam_check_params {
     // The search for mistakes ends after comparing this many pictures of combined mistakes; 0: 10000. The result is the
     // same on every machine, with or without a cache.
     uint64_t max_pictures;
-    // Draws instead of OpenGL. NULL: OpenGL draws, on `gl_device`. If `draw` is set, it still draws the shaders under
-    // test. The caller keeps the painter and its data valid until the check and its cache are freed.
+    // Draws instead of OpenGL. NULL: NULL: OpenGL draws, on `gl_device`. If `draw` is set, it still draws the shaders
+    // under test. The caller keeps the painter and its data valid until the check and its cache are freed.
     const lam_check_painter *painter;
     LAM_RESERVED(13);
 } lam_check_params;
@@ -287,8 +287,8 @@ typedef enum lam_check_verdict {
     LAM_CHECK_MEMORY,     // drawing exceeded its memory limit
 } lam_check_verdict;
 
-// The result of one scene. Pixels are compared if they and their eight neighbours are inside the model; colours are
-// first clamped to 0…1, as on a screen.
+// The result of one scene. A pixel is compared if it and its eight neighbours are inside the model; colours are first
+// clamped to 0…1, as on a screen.
 typedef struct lam_check_scene {
     const char *name, *description; // the scene's name and description
     lam_image theirs, reference;    // LAM_RGBA32F, straight alpha

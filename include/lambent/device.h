@@ -1,4 +1,4 @@
-// lambent/device.h: devices, which draw scenes into pictures.
+// lambent/device.h: devices, which render scenes to pictures.
 #ifndef LAMBENT_DEVICE_H
 #define LAMBENT_DEVICE_H
 
@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-// A device draws one picture at a time. Different threads use different devices, and may share a scene while nobody
-// changes it. A device keeps its memory from frame to frame: drawing the same kind of frame again allocates nothing.
+// A device draws one picture at a time. Different threads must use different devices, but may share a scene while
+// nobody changes it. A device keeps its memory between frames: drawing the same kind of frame again allocates nothing.
 typedef struct lam_device lam_device;
 
 // Instruction sets of the CPU device. All give bit-identical pictures.
@@ -93,7 +93,8 @@ typedef enum lam_flat_normal {
 // Light outputs are drawn like the picture: over the background, and sRGB-encoded in 8 bits (lam_output_is_light).
 // Other outputs are neither blended nor encoded. A float picture stores the number itself, an 8-bit picture the code
 // given here. Pixels without a triangle store the background in 8 bits, as in the picture, and 0 with alpha 0 in
-// floats. Numbers are not averaged: they come from the triangle at the covered sample nearest to the pixel's centre.
+// floats. These numbers are not averaged: they come from the triangle at the covered sample nearest to the pixel's
+// centre.
 typedef enum lam_output {
     LAM_OUTPUT_PICTURE = 0, // the whole sum
     // Terms of the sum. The five add up to the picture without a background (an unlit colour is part of the diffuse
@@ -111,9 +112,10 @@ typedef enum lam_output {
     LAM_OUTPUT_NORMALS,
     // Tangents from the file or the direction field, perpendicular to the normal. They are coded as normals.
     LAM_OUTPUT_TANGENTS,
-    // Distance d in front of the eye along the view, model units. 8-bit code: (far − d)/(far − near), so that near is
-    // white and far is black. near and far are the distances of the scene's nearest and farthest vertices, limited to
-    // the camera's planes (lam_frame_report.depth_near, depth_far). A range below 1/100000 of far is all white.
+    // Distance d in front of the eye along the view, model units. 8-bit code: 8-bit code: (far − d)/(far − near), so
+    // that near is white and far is black. near and far are the distances of the scene's nearest and farthest vertices,
+    // limited to the camera's planes (lam_frame_report.depth_near, depth_far). A range below 1/100000 of far is all
+    // white.
     LAM_OUTPUT_DEPTH,
     LAM_OUTPUT_N_L, // cosine between normal and light; 8-bit: max(n·l, 0)
     // Cosine between normal and half vector. 8-bit code: max(n·h, 0).
@@ -143,8 +145,8 @@ typedef enum lam_output {
     LAM_OUTPUT_LOD,
     // The fraction of surrounding light that reaches the point (lam_occlusion, lam_cavity), 0 … 1, above 1 on ridges.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
-    // The light of the environment: the reflection term of classic materials, and what physical ones have of it in their
-    // diffuse and specular terms. Black where a surface is not lit.
+    // The light of the environment: the reflection term of classic materials, and the environment's share of the
+    // diffuse and specular terms of physical materials. Black if a surface is not lit.
     LAM_OUTPUT_ENVIRONMENT,
     LAM_OUTPUT_COUNT,
 } lam_output;
@@ -232,9 +234,9 @@ typedef enum lam_brighten {
 } lam_brighten;
 
 // The ground: a plane at the scene's lowest point, perpendicular to its up axis (lam_scene_set_up), on which the
-// scene's lights cast shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is opaque up to 3
-// radii of the scene's sphere from the centre, and fades out up to 6 radii. It is invisible from below. It casts no
-// shadows, and fitting the camera and measuring the scene ignore it. It requires Phong shading.
+// scene's lights cast shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is opaque within 3
+// radii of the scene's sphere from the centre, and fades to transparent at 6 radii. It is invisible from below. It
+// casts no shadows, and fitting the camera and measuring the scene ignore it. It requires Phong shading.
 typedef enum lam_ground {
     LAM_GROUND_NONE = 0, // no ground
     // A shadow catcher: black, with the fraction of light that the scene blocks from a white, matt ground as alpha. It
@@ -291,11 +293,12 @@ typedef struct lam_draw_params {
     // Lighting as in OpenGL 1: vertex colours are clamped to 0…1 before interpolation, shininess is at most 128, and
     // attenuation and cone also dim each light's ambient term.
     bool gl1;
-    // In frames with more than 16 lights, each part of the picture skips its weakest lights if they change an encoded
-    // channel by less than this fraction of its range together; at most 1. 0: ½/255, so that no byte differs by more
+    // In frames with more than 16 lights, each region of the picture skips its weakest lights if they together change
+    // an encoded channel by less than this fraction of its range; at most 1. 0: ½/255, so that no byte differs by more
     // than 1. Below 0: every light is evaluated everywhere, as the OpenGL device always does.
     float light_cutoff;
-    // The most texture probes along the longer axis of a pixel's footprint, 1..16, for textures seen at a slant. 0: 1.
+    // The largest number of texture probes along the longer axis of a pixel's footprint, 1..16, for textures seen at a
+    // slant. 0: 1.
     int anisotropy;
     lam_output output; // the content of the frame
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the index of the light in lam_draw_lights.
@@ -307,7 +310,7 @@ typedef struct lam_draw_params {
     int reference;
     // The width of lines, and the diameter of points, in pixels, up to 1000. 0: 1.5 for lines; for points at least 3,
     // increasing for fewer points and larger pictures, and at least 8 for fewer than 100 points. Points below 4 pixels
-    // are squares. Lines and points are drawn nearer to the eye by their own width, so that lines on a surface remain
+    // are squares. Lines and points are moved towards the eye by their own width, so that lines on a surface remain
     // visible.
     float line_width, point_size;
     // Triangles between a point and a light block the diffuse and specular terms of every light that casts shadows
@@ -349,21 +352,21 @@ typedef struct lam_draw_params {
     LAM_RESERVED(13);
 } lam_draw_params;
 
-// The times of a frame in milliseconds, and counters.
+// Timings of a frame in milliseconds, and counters.
 typedef struct lam_frame_report {
     double frame_ms;     // flattening the scene: lights and matrices
     double vertices_ms;  // positions to clip space
     double triangles_ms; // culling, clipping, binning
     // Computing missing normals (lam_load_params.normals_when_drawn).
     double normals_ms;
-    // LAM_OCCLUSION_SCREEN, without finding the depths (rays are part of lighting_ms).
+    // Time for LAM_OCCLUSION_SCREEN, without finding the depths (rays are part of lighting_ms).
     double occlusion_ms;
     double tiles_ms; // coverage, lighting and resolve of all tiles
     double total_ms; // the whole call
     // tiles_ms divided in proportion to the times summed over the threads.
     double coverage_ms, lighting_ms, resolve_ms;
-    // OpenGL device: making and uploading new or changed buffers (without lighting_ms, the lighting of the stage
-    // `application`); drawing until done; reading back and encoding. vertices_ms to tiles_ms are 0.
+    // OpenGL device: creating and uploading new or changed buffers (without lighting_ms, the lighting of the stage
+    // `application`); drawing until the GPU is done; reading back and encoding. vertices_ms to tiles_ms are 0.
     double upload_ms, draw_ms, read_ms;
     // OpenGL device: bytes of vertices, colours, lights, materials and environment sent in this frame.
     uint64_t bytes_uploaded;

@@ -41,8 +41,8 @@ LAM_API lam_environment *lam_environment_make(const struct lam_image *const face
 //                              . -Y  .  .                               . -Y  .
 //                                                                       . -Z  .   (-Z turned by 180°)
 //   2:1  equirectangular: direction −z in the middle, +x to the right of it, +y at the top
-// An equirectangular picture is sampled once, bilinearly, into faces of width/π pixels on a side, rounded up: about one
-// pixel for each of the picture's in the middle of a face.
+// An equirectangular picture is sampled once, bilinearly, into faces of width/π pixels on a side, rounded up, so that
+// in the middle of a face one pixel corresponds to about one pixel of the picture.
 LAM_API lam_environment *lam_environment_from_image(const struct lam_image *image, lam_color_mode color,
                                                     lam_error *error);
 
@@ -75,7 +75,7 @@ LAM_API int lam_environment_size(const lam_environment *environment);
 // stores (docs/lighting/environment.md).
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
-// Makes the texture `environment_light` of exported shaders (lambent/shader.h), which lights physical materials: an
+// Makes the texture `environment_light` of exported shaders (lambent/shader.h), which lights physical materials: a
 // LAM_RGBA32F picture 1024 texels wide, which the caller frees with lam_image_free. It contains the prefiltered levels
 // 1 to 11 and the irradiance divided by pi. Each of them is six faces in the order of lam_cube_face with a border of
 // one texel, stored row by row as one sequence of texels. docs/lighting/environment.md lists sizes and roughnesses.

@@ -105,7 +105,7 @@ typedef struct lam_explained_layers {
     lam_rgb transmittance;           // factor of the light behind; black: opaque
     // The environment light returned by the split sum of each layer: environment_specular is
     //    mirrored_part + sheen_part + coat_part
-    // each dimmed by the layers over it and by occlusion. Black without an environment, and with `reference`.
+    // Each is dimmed by the layers over it and by occlusion. Black without an environment, and with `reference`.
     lam_rgb mirrored_part, sheen_part, coat_part;
     float coat_level;         // of the prefiltered environment, for the coat's roughness
     float coat_albedo;        // scale + bias of the coat's lobe

@@ -42,7 +42,7 @@ LAM_API void lam_export_free(lam_export *result); // NULL is allowed
 LAM_API const char *lam_export_file_name(const lam_export *result, int index);
 LAM_API lam_bytes lam_export_file(const lam_export *result, int index);
 
-// Returns sentences, from 0, about data of the scene that the files omit; NULL past the last one.
+// Returns the sentence with this index (from 0) about data of the scene that the files omit; NULL past the last one.
 LAM_API const char *lam_export_loss(const lam_export *result, int index);
 
 // Returns the name of a format, from 0, which is also the file extension ("glb"). Returns a static string, or NULL if

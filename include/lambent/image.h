@@ -98,7 +98,7 @@ LAM_API bool lam_image_encode(const lam_image *image, const char *format, const 
                               lam_error *error);
 
 // Encodes a picture and writes it to `path`, whose extension selects the format. The file appears completely or not at
-// all, and no temporary file remains, even if a signal ends the process meanwhile (including SIGKILL, if the file
+// all, and no temporary file remains, even if a signal ends the process during the call (including SIGKILL, if the file
 // system supports O_TMPFILE). Errors: as above, and LAM_CANNOT_WRITE.
 LAM_API bool lam_image_save(const lam_image *image, const char *path, const lam_save_params *params, lam_error *error);
 
@@ -145,8 +145,7 @@ LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color
                                    lam_error *error);
 
 // Returns whether the file at `path` states that Lambent wrote it: PNG by the text "Software: lambent", PPM by the
-// comment "# lambent" in its second line, JPEG by the comment "lambent". Returns false for PFM and WebP, which cannot
-// store such a remark, and for a file that does not exist, is not regular or is not readable. Only the beginning of the
+// comment "# lambent" in its second line, JPEG by the comment "lambent". Returns false for PFM and WebP, which cannot store such a comment, and for a file that does not exist, is not regular or is not readable. Only the beginning of the
 // file is read.
 LAM_API bool lam_image_is_from_lambent(const char *path);
 

@@ -137,7 +137,7 @@ LAM_API void lam_scene_free(lam_scene *scene); // NULL is allowed
 
 // Add to a scene. Arrays and strings are copied. Each call returns the index of the added element, or −1 on failure:
 // LAM_BAD_ARGUMENT (an index out of range, a number out of range or not finite), LAM_LIMIT. A mesh without normals gets
-// smooth ones, with creases at 40°.
+// smooth normals, with creases at 40°.
 LAM_API int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 LAM_API int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error);
 LAM_API int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error);
@@ -348,8 +348,8 @@ LAM_API lam_up lam_scene_up(const lam_scene *scene);
 LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
 
 // Gets a sphere around the triangles of an object, in the object's own space, or (`object` −1) of the whole scene, in
-// world space. Its centre is the centre of their box, and its radius the largest distance of a vertex from there.
-// Returns false and all zero if there are no triangles or no such object.
+// world space. Its centre is the centre of their box, and its radius the largest distance from that centre to a vertex.
+// Returns false and stores zeros if there are no triangles or no such object.
 LAM_API bool lam_scene_sphere(const lam_scene *scene, int object, lam_vec3 *centre, double *radius);
 
 // Moves all objects: the transform of each object becomes `transform` × its own. Lights stay, except in the frames of
@@ -398,8 +398,8 @@ LAM_API bool lam_scene_set_environment(lam_scene *scene, const lam_environment *
 // Returns the environment, or NULL if there is none.
 LAM_API const lam_environment *lam_scene_environment(const lam_scene *scene);
 
-// Sets the material of parts that name none; initially it is lam_material_default(). Returns false as
-// lam_scene_add_material.
+// Sets the material of parts that name none; initially it is lam_material_default(). Returns false for the same reasons
+// as lam_scene_add_material.
 LAM_API bool lam_scene_set_default_material(lam_scene *scene, const lam_material *material, lam_error *error);
 LAM_API const lam_material *lam_scene_default_material(const lam_scene *scene);
 

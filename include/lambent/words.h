@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-// Changes a material as a text says:
+// Changes a material as a text specifies:
 //   ruby                   becomes a named material (lam_material_name), or "glass": clear, smooth glass
 //   shininess=9,ks=0.5     changes fields: the keys of scene files, with their ranges (lam_material_field)
 //   gold,opacity=0.5       both, the name first

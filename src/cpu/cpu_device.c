@@ -174,7 +174,7 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
     }
 }
 
-// Prepares the light for physical materials: the prefiltered environment, or directions for sampling it.
+// Prepares the environment light for physical materials: the prefiltered environment, or sample directions.
 static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->shade.frame;
@@ -188,7 +188,7 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
                                     frame->settings.reference, &memory->reference, cpu->call, error);
 }
 
-// Smaller pictures count as this large: they take little time with any number of layers.
+// Smaller pictures count as this large, because they take little time with any number of layers.
 enum { WORK_PIXELS = 256 * 256 };
 
 static uint64_t work_limit(const lam_image *image, const struct call_control *call)

@@ -223,7 +223,7 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
         occlusion_pattern_fill(memory->occlusion.data, frame->settings.occlusion_samples);
         cpu->shade.occlusion_pattern = memory->occlusion.data;
     } else if (frame->settings.occlusion == LAM_OCCLUSION_SCREEN) {
-        // If fragments are kept, the transformed vertices are no longer needed.
+        // If fragments are stored, the transformed vertices are no longer needed.
         struct scratch_memory lent = {0};
         if (keeps_fragments(cpu) && !frame->makes_normals)
             lent = (struct scratch_memory){.memory = memory->vertices.data, .capacity = memory->vertices.capacity};

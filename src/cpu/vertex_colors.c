@@ -1,4 +1,4 @@
-// vertex_colors.c: the memory for lighting vertices only.
+// vertex_colors.c: allocates only the memory for lighting vertices.
 #include "vertex_colors.h"
 
 #include "isa.h"
@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-// The consecutive arrays in one block.
+// The arrays, consecutive in one block.
 struct arrays {
     struct shading_batch batch; // first: it is aligned to cache lines
     struct shadow_rows shadows;

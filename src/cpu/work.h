@@ -15,7 +15,7 @@ enum failure {
 // Units of work, about a nanosecond each with AVX2, measured with four samples per pixel.
 enum {
     WORK_LAYER = 96,    // a translucent fragment
-    WORK_LIGHT = 3,     // a light at a point
+    WORK_LIGHT = 3,     // one light evaluated at one point
     WORK_MASK = 24,     // a sample whose opacity is looked up before it counts as a layer
     WORK_OPAQUE = 3,    // an opaque triangle at a pixel
     WORK_SET_UP = 32,   // a triangle in a tile

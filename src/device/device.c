@@ -17,7 +17,7 @@ static uint64_t own_memory(const lam_device *device)
 // Finds the edges that are drawn over the picture.
 static bool find_edges(lam_device *device, struct call_control *call, lam_error *error)
 {
-    // The number of rays that are traced together, at most; LAM_ISA_AUTO: for devices without an instruction set of
+    // The largest number of rays that are traced together; LAM_ISA_AUTO: for devices without an instruction set of
     // their own.
     static const int lanes[LAM_ISA_COUNT] = {
         [LAM_ISA_AUTO] = 16,   [LAM_ISA_SCALAR] = 1, [LAM_ISA_SSE4] = 4, [LAM_ISA_AVX2] = 8,

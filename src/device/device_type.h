@@ -26,7 +26,7 @@ struct lam_device {
     char name[96];
     lam_isa isa; // AUTO and 0 threads if they do not apply
     int threads;
-    struct pool *pool; // NULL if only the calling thread works
+    struct pool *pool; // NULL if only the calling thread runs tasks
     struct frame frame;
     struct hierarchy_memory hierarchy; // used for edges and for the CPU device's shadows
     struct edge_memory edges;

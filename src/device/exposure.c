@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-// The target luminance, and the share of the pixels that are at most as bright.
+// The target luminance, and the share of the pixels that should be at most this bright.
 #define TARGET 0.8
 #define SHARE  0.95
 

@@ -152,8 +152,8 @@ static void sample_around(const lam_image *image, struct lam_environment *cube, 
     }
 }
 
-// Samples the same rows of the upper and the lower face. Their halves mirror each other: longitudes change their sign,
-// or are subtracted from a half turn. `memory` has space for three rows.
+// Samples the same rows of the upper and lower faces. Their halves mirror each other: longitudes change their sign, or
+// are subtracted from a half turn. `memory` has space for three rows.
 static void sample_ends(const lam_image *image, struct lam_environment *cube, double *memory, int t)
 {
     int size = cube->size;

@@ -104,7 +104,7 @@ struct making {
     struct call_control *call;
 };
 
-// Returns the number of rows of a level's faces to be made; `size` returns its texels per side.
+// Returns the number of rows of a level's faces to be computed; `size` returns its texels per side.
 static size_t rows_of(const struct making *work, int level, int (*size)(int level))
 {
     return work->parts >> level & 1 ? (size_t)size(level) * LAM_FACE_COUNT : 0;

@@ -25,7 +25,7 @@ struct environment_light {
     float *texels; // all levels but level[0], in rows of ENVIRONMENT_LIGHT_WIDTH texels
     size_t held;   // bytes of their pages
     unsigned made; // bit i: level i; bit ENVIRONMENT_LEVELS: the irradiance. Accessed atomically
-    // See environment_lamp.h; NULL until first use. The second one shares the levels of this struct.
+    // See environment_lamp.h; NULL before first use. The second one shares the levels of this struct.
     struct environment_lamp *lamp;
     struct environment_light *without_lamp;
 };

@@ -63,8 +63,9 @@ void export_lose(struct exporting *e, const char *format, ...) __attribute__((fo
 // means that the format supports lights and cameras.
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 
-// Adds a file beside the model, whose bytes come from malloc and are given away. Its name is the model's without its
-// ending, and `ending`: "-0.png". `beside`: other files name it, so letters that OBJ and MTL cannot name become _. Fails with LAM_LIMIT.
+// Adds a file beside the model; takes ownership of its bytes, which come from malloc. Its name is the model's name
+// without its extension, followed by `ending`. "-0.png". With `beside`, other files refer to it by name, so letters
+// that OBJ and MTL cannot use in names become _. Fails with LAM_LIMIT.
 const char *export_add_file(struct exporting *e, const char *ending, bool beside, lam_bytes bytes);
 
 // Reports that memory has run out. Returns false.

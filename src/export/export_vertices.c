@@ -85,7 +85,7 @@ void export_color(const lam_mesh *mesh, size_t element, float color[4])
     }
 }
 
-// Returns the byte whose light is nearest, by bisection, since the curve is monotonic.
+// Returns the byte whose linear intensity is closest to `light`, by bisection, since the curve is monotonic.
 static uint8_t encoded(float light)
 {
     int low = 0, high = 255;
@@ -100,8 +100,8 @@ static uint8_t encoded(float light)
 }
 
 // Returns the number that OBJ and MTL use for a channel of light: sRGB-encoded below 1. The reader rounds it to a float
-// and decodes it. This is the smallest float between 0 and 1 whose light is not below, so that a colour from such a
-// file gets its original number. Most are bytes.
+// and decodes it. This is the smallest float between 0 and 1 whose linear intensity is not below `light`, so that a
+// colour from such a file gets its original number. Most results are exact bytes.
 double export_encoded(float light)
 {
     uint32_t low = 0, high = 0x3f800000; // bit patterns of 0 and 1

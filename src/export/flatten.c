@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-// The sizes and arrays of a flat mesh while they are filled.
+// The sizes and arrays of a flat mesh that is being built.
 struct flat {
     struct exporting *e;
     enum export_kind kind;

@@ -68,7 +68,7 @@ int glb_material(struct glb *glb, int material, bool double_sided);
 // map, or its picture cannot be written.
 json_t *glb_texture(struct glb *glb, const lam_texture_map *map);
 
-// Writes nodes: the scene's objects, lights and cameras.
+// Writes the nodes: the scene's objects, lights and cameras.
 bool glb_nodes(struct glb *glb);
 
 #endif

@@ -126,7 +126,7 @@ static void add_indices(struct glb *glb, const struct vertices *v, struct glb_ar
     export_memory_free(glb->e, numbers, (corners + 1) * sizeof *numbers);
 }
 
-// Writes the arrays of a mesh, if that has not happened yet.
+// Writes the arrays of a mesh, unless they are already written.
 static bool write_arrays(struct glb *glb, int index)
 {
     const lam_mesh *m = scene_mesh(glb->e->scene, index);

@@ -176,7 +176,7 @@ static bool put_material(struct exporting *e, struct text *text, const lam_mater
     return put_maps(e, text, m, pictures, flips);
 }
 
-// Makes a name for a material that no other material has.
+// Makes a unique name for a material.
 static const char *name_of(struct exporting *e, const char *const *names, int index)
 {
     const lam_material *m = export_material(e, index);

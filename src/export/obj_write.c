@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-// The indices of the next vertex, texture coordinate and normal, from 1. They continue from one kind of items to the
-// next.
+// The indices of the next vertex, texture coordinate and normal, starting at 1. They continue across the kinds of
+// items.
 struct firsts {
     unsigned long position, texcoord, normal;
 };
@@ -93,7 +93,7 @@ static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *pa
     }
 }
 
-// Writes a name on a separate line.
+// Writes a name on a line of its own.
 static void put_name(struct text *text, const char *word, const char *name)
 {
     char clean[200];

@@ -1,6 +1,6 @@
-// frame_brighten.c: by how much the studio is brighter for a dark model: a black product is photographed with more light than a white
-// one, or only its outline would be seen. It follows from the colours of the surfaces alone, not from the view: all pictures of a model
-// have the same exposure.
+// frame_brighten.c: computes by how much the studio is brighter for a dark model. Photographers light a black product
+// more strongly than a white one, because otherwise only its outline would be visible. The amount depends only on the
+// colours of the surfaces, not on the view: all pictures of a model have the same exposure.
 #include "frame.h"
 
 #include "linear.h"
@@ -9,23 +9,24 @@
 
 #include <string.h>
 
-// A model is dark if three quarters of its surface are darker than BRIGHT, by the luminance of the base colours. If m stops are missing,
-// it gets root(RATE m) of them, at most MOST, and not so many that 5 % of the surface would exceed WHITE.
+// A model is dark if three quarters of its surface have a base colour with a luminance below BRIGHT. If m stops are
+// missing, the exposure increases by root(RATE m) stops, at most by MOST, and only so far that 5 % of the surface does
+// not exceed WHITE.
 #define BRIGHT 0.35
 #define RATE   0.8
 #define MOST   2.5
 #define WHITE  1.0
 
-enum { SAMPLES = 4096, BINS = 256, STEPS = 6 }; // triangles that are looked at; steps of a stop
+enum { SAMPLES = 4096, BINS = 256, STEPS = 6 }; // sampled triangles; steps of a stop
 
-// The area of triangles by the luminance of their base colours: bin b is of sqrt(luminance) = b / BINS.
+// A histogram of triangle area by the luminance of the base colour: bin b is for sqrt(luminance) = b / BINS.
 struct luminances {
     double area[BINS], all;
 };
 
 static double luminance(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
 
-// The linear value of an sRGB byte, near enough for a mean.
+// Returns the approximate linear value of an sRGB byte, accurate enough for a mean.
 static double decoded(uint8_t byte)
 {
     double x = byte / 255.0;
@@ -37,7 +38,7 @@ static uint32_t element(const uint32_t *own, const uint32_t *shared, uint32_t co
     return own ? own[corner] : shared ? shared[corner] : corner;
 }
 
-// The factor of the mesh's own colour at a triangle's first corner.
+// Multiplies a colour by the mesh's own colour at a triangle's first corner.
 static void tint(const lam_mesh *mesh, uint32_t triangle, double color[3])
 {
     if (!mesh->colors)
@@ -50,7 +51,7 @@ static void tint(const lam_mesh *mesh, uint32_t triangle, double color[3])
                         : decoded(((const uint8_t *)mesh->colors)[4 * (size_t)at + (size_t)c]);
 }
 
-// The base colour in the middle of a triangle.
+// Returns the luminance of the base colour in the middle of a triangle.
 static double base_luminance(const lam_mesh *mesh, const lam_material *material, uint32_t triangle)
 {
     double color[3] = {(double)material->diffuse.r, (double)material->diffuse.g, (double)material->diffuse.b};
@@ -72,7 +73,7 @@ static double base_luminance(const lam_mesh *mesh, const lam_material *material,
     return luminance(color[0], color[1], color[2]);
 }
 
-// Twice the area of a triangle in eye space.
+// Returns twice the area of a triangle in eye space.
 static double area_of(const struct frame_draw *draw, uint32_t triangle)
 {
     lam_vec3 p[3];
@@ -98,7 +99,7 @@ static void add(struct luminances *sum, double bright, double area)
     sum->all += area;
 }
 
-// Returns the luminance that a share of the surface does not exceed.
+// Returns the luminance that this share of the surface does not exceed.
 static double percentile(const struct luminances *sum, double share)
 {
     double below = 0;
@@ -110,7 +111,7 @@ static double percentile(const struct luminances *sum, double share)
 
 static bool is_dark(const lam_rgb *c) { return c->r == 0 && c->g == 0 && c->b == 0; }
 
-// Returns whether the studio lights a model that comes with its own colours, and lights all of it.
+// Returns whether only the studio lights the model, and the model has colours of its own.
 static bool applies(const struct frame *frame, const lam_scene *scene)
 {
     const lam_draw_params *settings = &frame->settings;

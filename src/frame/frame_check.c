@@ -56,9 +56,9 @@ static bool others_check(const lam_draw_params *params, lam_error *error)
 static bool rules_check(const lam_draw_params *params, lam_error *error)
 {
     if (params->cavity == LAM_CAVITY_ON && params->occlusion == LAM_OCCLUSION_RAYS)
-        return fail(
-            error, LAM_BAD_ARGUMENT,
-            "the cavity is computed on the screen: it needs the ambient occlusion 'screen' or 'off', not 'rays'");
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "cavity shading is computed from screen depths: it needs the ambient occlusion 'screen' or 'off', "
+                    "not 'rays'");
     const char *shading = params->shading == LAM_SHADING_FLAT ? "flat" : "Gouraud";
     bool pixels = params->occlusion > LAM_OCCLUSION_OFF || params->cavity == LAM_CAVITY_ON;
     if (pixels && params->shading != LAM_SHADING_PHONG)
@@ -74,11 +74,11 @@ static bool rules_check(const lam_draw_params *params, lam_error *error)
         (params->stage == LAM_STAGE_APPLICATION || params->stage == LAM_STAGE_VERTEX))
         return fail(error, LAM_BAD_ARGUMENT,
                     "Phong shading lights every fragment: its stage is fragment; "
-                    "application and vertex go with flat and Gouraud shading");
+                    "application and vertex work with flat and Gouraud shading");
     if (params->shading == LAM_SHADING_GOURAUD && params->stage == LAM_STAGE_FRAGMENT)
         return fail(error, LAM_BAD_ARGUMENT,
                     "Gouraud shading lights every vertex: its stage is application or vertex; "
-                    "fragment goes with flat and Phong shading");
+                    "fragment works with flat and Phong shading");
     return true;
 }
 

@@ -35,7 +35,7 @@ size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners) { return cor
 #define FEW_LEAST   8.0
 #define FEW_MOST    0.025
 enum { FEW = 100 };
-// The sizes from which points are octagons, and from which they have 16 corners.
+// The minimum sizes at which points are drawn as octagons, and as polygons with 16 corners.
 #define ROUND_FROM   4.0
 #define ROUNDER_FROM 12.0
 
@@ -140,7 +140,7 @@ static void interpolate(const float *from, const uint32_t *own, const lam_mesh *
         out[i] = place.t == 0 ? a[i] : place.t == 1 ? b[i] : mixed(a[i], b[i], place.t);
 }
 
-// Returns the byte whose light is nearest.
+// Returns the byte whose linear intensity is closest to `light`.
 static uint8_t encode_srgb(double light)
 {
     int low = 0, high = 255;

@@ -1,4 +1,4 @@
-// light_eval.c: evaluates attenuation, cone and highlight at a single value, with the kernels' code for one lane.
+// light_eval.c: evaluates attenuation, cone and highlight for a single value, with the kernels' code for one lane.
 #define LANES 1
 #include "lighting.h"
 

@@ -153,7 +153,7 @@ static int add_draw_calls(struct gl_frame *f, const struct frame_draw_range *lis
     return call_count < count ? count : 0;
 }
 
-// Sets up the buffers and programs of one draw's calls.
+// Sets up the buffers and programs of a draw's calls.
 static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list, int count, lam_error *error)
 {
     const struct frame *frame = f->frame;
@@ -240,7 +240,7 @@ static bool check_errors(struct gl_frame *f, lam_error *error)
     return !f->device->context.debug || gl_messages_clean(&f->device->context, "drawing", error);
 }
 
-// Draws the picture in parts no larger than the driver's targets.
+// Draws the picture in parts no larger than the driver's largest targets.
 static bool draw_parts(struct gl_frame *f, lam_error *error)
 {
     lam_frame_report *report = &f->device->base.report;
@@ -323,18 +323,19 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
     struct gl_previous_context previous;
     struct gl_saved_state state;
     if (frame->settings.reference)
-        return fail(error, LAM_UNSUPPORTED,
-                    "OpenGL: reference is %d, and this device has the split sum alone; the CPU device sums directions",
-                    frame->settings.reference);
+        return fail(
+            error, LAM_UNSUPPORTED,
+            "OpenGL: reference is %d, but this device supports only the split sum; the CPU device sums directions",
+            frame->settings.reference);
     if (frame->refracts)
         return fail(
             error, LAM_UNSUPPORTED,
             "OpenGL: the scene has rough or thick glass (transmission with a roughness or a thickness above 0), "
-            "which the CPU device alone draws");
+            "which only the CPU device draws");
     if (frame->settings.occlusion == LAM_OCCLUSION_RAYS)
         return fail(
             error, LAM_UNSUPPORTED,
-            "OpenGL: ambient occlusion is 'rays', and this device has 'screen' alone; the CPU device traces rays");
+            "OpenGL: ambient occlusion is 'rays', but this device supports only 'screen'; the CPU device traces rays");
     if (!gl_context_enter(&device->context, &previous, error))
         return false;
     struct gl_frame f = {.device = device, .gl = &device->context.gl, .frame = frame, .call = call, .image = image};

@@ -24,7 +24,7 @@
 #include "vertex_colors.h"
 
 enum {
-    PART_SIZE_MAX = 2048, // largest width and height in pixels of a part that is drawn at once
+    PART_SIZE_MAX = 2048, // the largest width and height in pixels of a part that is drawn in one pass
 };
 
 enum texture_unit {
@@ -353,8 +353,8 @@ void meshes_free(struct gl_device *device);
 // Returns the number of floats per vertex in the buffer.
 size_t mesh_vertex_floats(const lam_mesh *mesh);
 
-// --- gl_textures.c
-// Uploads what a program reads for a range. Until the frame ends, textures_use finds it there.
+// --- gl_textures.c Uploads the textures that a program reads for a range. Until the frame ends, textures_use finds
+// them there.
 bool textures_upload(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range,
                      lam_error *error);
 // Sets the uniforms of the maps and of the alpha cutoff, and binds the textures.
@@ -398,7 +398,7 @@ bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
 // --- gl_surfaces.c Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
-// has `most` texels. Sets *same to whether the texels are the ones that were packed last, with the same hierarchy.
+// has `most` texels. Sets *same to whether the texels are those that were packed last, with the same hierarchy.
 // Fails with LAM_LIMIT.
 bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
 // Writes the counted texels into zeroed memory.
@@ -408,8 +408,8 @@ void surfaces_free(struct gl_device *device);
 // Returns the position of a triangle's record, by its number in the frame; 0 if it transmits no light.
 size_t surfaces_record(const struct gl_frame *f, uint32_t number);
 
-// --- gl_shadows.c
-// Uploads the hierarchy of a frame with shadows, and what lets light through. LAM_LIMIT: the texture would be too large.
+// --- gl_shadows.c Uploads the hierarchy of a frame with shadows, and the surfaces that transmit light. LAM_LIMIT: the
+// texture would be too large.
 bool shadows_send(struct gl_frame *f, lam_error *error);
 // Sets the uniforms and textures for a program with shadows.
 void shadows_use(struct gl_frame *f, struct gl_program *program);
@@ -420,8 +420,7 @@ bool targets_make(struct gl_frame *f, int width, int height, bool layered, bool 
 bool targets_find_format(struct gl_device *device, lam_error *error);
 void targets_free(struct gl_device *device);
 
-// --- gl_passes.c
-// Draws the part. The framebuffer that holds the result stays bound.
+// --- gl_passes.c Draws the part. The framebuffer with the result stays bound.
 bool passes_draw(struct gl_frame *f, lam_error *error);
 
 // --- gl_readback.c

@@ -79,10 +79,10 @@ static bool find_maps(struct gl_frame *f, struct gl_program *program, lam_error 
             int length = snprintf(name, sizeof name, "%s%s_map", side ? "back_" : "", lam_map_name((lam_map)i));
             GLint at = gl->GetUniformLocation(program->name, name);
             if (at >= 0 && unit == f->device->unit_count)
-                return fail(
-                    error, LAM_UNSUPPORTED,
-                    "OpenGL: a material reads more than %d different textures, which is what this driver has units for",
-                    f->device->unit_count - UNIT_FIRST_MAP);
+                return fail(error, LAM_UNSUPPORTED,
+                            "OpenGL: a material reads more than %d different textures, the number of texture units of "
+                            "this driver",
+                            f->device->unit_count - UNIT_FIRST_MAP);
             if (at >= 0) {
                 gl->Uniform1i(at, unit);
                 program->map_units[side][i] = (uint8_t)unit++;

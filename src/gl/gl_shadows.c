@@ -126,7 +126,7 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
         return true;
     device->shadows_sent = false;
     if (depth_of(h) > STACK)
-        return fail(error, LAM_LIMIT, "OpenGL: the hierarchy is %d nodes deep, at most %d can be walked here",
+        return fail(error, LAM_LIMIT, "OpenGL: the hierarchy is %d nodes deep, but shaders can traverse at most %d",
                     depth_of(h), STACK);
     size_t rows = (surfaces + surface_texels + WIDTH - 1) / WIDTH, bytes = rows * WIDTH * TEXEL;
     if (!gl_charge(f, &device->shadow_bytes, bytes, error) || !buffer_reserve(&device->scratch, bytes, f->call, error))

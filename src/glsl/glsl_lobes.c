@@ -62,7 +62,7 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
             text_print(text, "    float own_%s = front ? %s : back_%s;\n", parameters[i], parameters[i], parameters[i]);
 }
 
-// `own`: the material's and its maps', as they are before lighting.
+// `own` selects the values of the material and its maps, before lighting changes them.
 static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length, bool own)
 {
     char member[32];

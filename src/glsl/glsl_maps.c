@@ -16,7 +16,7 @@
 
 static bool is_drawn(int map) { return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION; }
 
-// If light is evaluated at vertices or once per triangle, these maps are applied at each fragment.
+// If light is evaluated at vertices or once per triangle, these maps are still applied at each fragment.
 static bool follows_lighting(int map)
 {
     return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION;
@@ -276,11 +276,11 @@ static const struct {
     [AMBIENT] = {"ambient", "vec3", "factor of the ambient colour", LAM_MAP_AMBIENT},
     [SPECULAR] = {"specular", "vec3", "factor of the highlights", LAM_MAP_SPECULAR},
     [EMISSION] = {"emission", "vec3", "factor of the emission", LAM_MAP_EMISSION},
-    [NORMAL] = {"normal", "vec3", "the parts of the normal along tangent, bitangent and the mesh's normal",
+    [NORMAL] = {"normal", "vec3", "components of the normal along tangent, bitangent and the mesh's normal",
                 LAM_MAP_NORMAL},
     [OPACITY] = {"opacity", "float", "factor of the opacity", LAM_MAP_OPACITY},
     [SHININESS] = {"shininess", "float", "exponent of the highlights", LAM_MAP_SHININESS},
-    [OCCLUSION] = {"occlusion", "float", "share of the light from everywhere that arrives", LAM_MAP_OCCLUSION},
+    [OCCLUSION] = {"occlusion", "float", "unoccluded share of ambient light", LAM_MAP_OCCLUSION},
     [ROUGHNESS] = {"roughness", "float", "0 a mirror, 1 matt", LAM_MAP_ROUGHNESS},
     [METALLIC] = {"metallic", "float", "0 a dielectric, 1 a metal", LAM_MAP_METALLIC},
     [DIELECTRIC] = {"dielectric", "float", "factor of the diffuse light", LAM_MAP_METALLIC},
@@ -546,7 +546,7 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     const struct glsl_choices *c = f->choices;
     bool varies = c->converted[side] || f->maps[side][LAM_MAP_METALLIC];
     text_print(text,
-               "\n// What the maps of the %s say of the point.\n"
+               "\n// Returns the values of the maps of the %s at the point.\n"
                "surface_maps %s_maps(footprint first, footprint second, vec3 p, vec4 tint)\n{\n",
                side ? "back" : "front", side ? "back" : "front");
     text_add(text, "    surface_maps maps;\n");
@@ -591,7 +591,7 @@ void glsl_add_maps(struct text *text, const struct glsl_facts *f)
 {
     if (!f->has_maps)
         return;
-    text_add(text, "// What maps say of a point.\nSTRUCT(surface_maps)\n{\n");
+    text_add(text, "// The values of maps at a point.\nSTRUCT(surface_maps)\n{\n");
     for (int i = 0; i < MEMBERS; i++)
         if (has_member(f, i))
             text_print(text, "    %s %s; // %s\n", members[i].type, members[i].name, members[i].meaning);

@@ -147,7 +147,7 @@ static void add_environment(struct list *list, const struct glsl_facts *f)
     }
     if (f->occluded) {
         add(list, GLSL_OCCLUSION, "sampler2D", 0, NULL, "ambient_occlusion");
-        set_meaning(list, "a texel for each pixel: the share of the light from all around that arrives there");
+        set_meaning(list, "a texel for each pixel: the unoccluded share of surrounding light");
     }
 }
 
@@ -194,7 +194,7 @@ static void add_lights(struct list *list, const struct glsl_facts *f)
     }
     if (c->passed && f->has_lights && c->storage != GLSL_TEXTURE) {
         add(list, GLSL_PASSED, "float", c->light_count, NULL, "passed");
-        set_meaning(list, "the share of each light that nothing keeps from the surface, 0...1");
+        set_meaning(list, "the unblocked share of each light, 0...1");
     }
 }
 
@@ -220,7 +220,7 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
     for (int back = 0; back <= f->back_material && f->has_mask; back++)
         if (c->alpha[back] == LAM_ALPHA_MASK) {
             add(&list, GLSL_ALPHA_CUTOFF, "float", 0, NULL, "%salpha_cutoff", back ? "back_" : "");
-            set_meaning(&list, "points with less opacity are left out");
+            set_meaning(&list, "points with less opacity are discarded");
             list.rows[list.count - 1].back = back;
         }
     add_maps(&list, f);

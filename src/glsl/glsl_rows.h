@@ -158,7 +158,8 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
 // Appends the struct of values from maps, and the functions that fill it.
 void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
 
-// Appends the expression of a parameter of the material: as it is lit, or as the material and its maps have it.
+// Appends the expression of a parameter of the material: either as it is lit, or as the material and its maps define
+// it.
 void glsl_add_own_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".

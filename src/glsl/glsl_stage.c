@@ -180,7 +180,7 @@ void glsl_add_stage(struct text *text, const struct glsl_facts *f)
         glsl_declare_attributes(&attributes, f);
     const struct stage_source sources[] = {
         {.title = NULL, .text = uniforms.bytes, .made = true},
-        {.title = NULL, .text = "bool unobstructed = false; // the point is lit as if nothing were in the way\n"},
+        {.title = NULL, .text = "bool unobstructed = false; // the point is lit as if nothing blocked the light\n"},
         {.title = "wrapping of texture coordinates", .text = text_wrapping_glsl},
         {.title = "textures", .text = text_texture_glsl},
         {.title = NULL, .text = maps.bytes},

@@ -113,7 +113,7 @@ if (lights_here) {
             }
         }
         if (has_environment) {
-            vec3 mirrored = environment_matrix * reflect(-V, N); // the way that the eye sees in a mirror
+            vec3 mirrored = environment_matrix * reflect(-V, N); // the reflected line of sight
             color = color + REFLECTIVITY * TEXTURE_CUBE(environment, mirrored).rgb;
         }
         return color;
@@ -136,7 +136,7 @@ void main()
             vec3 N = normalize(eye_normal); // interpolation made it shorter
             if (two_sided) {
                 if (!gl_FrontFacing)
-                    N = -N;                     // the back is lit as well
+                    N = -N;                     // the back is lit too
             }
             vec4 light = vec4(lit(ARGUMENTS), OPACITY);
         } else {
@@ -177,7 +177,7 @@ void main()
             }
             front_light = vec4(lit(ARGUMENTS), OPACITY);
             if (two_sided) {
-                N = -N; // the back is lit as well; the fragment shader chooses
+                N = -N; // the back is lit too; the fragment shader chooses
                 back_light = vec4(lit(ARGUMENTS), OPACITY);
             }
         }

@@ -14,8 +14,8 @@ void lecture_add(struct text *text, const struct glsl_facts *stage);
 
 // Makes the C source of the application stage: a function `light_vertex` that computes the colours of a vertex of one
 // of the draws `ranges`. order[i] is the index in the frame of the shader's light i; it contains the mistake
-// choices->mistake. The caller frees the result. Returns NULL on failure: LAM_UNSUPPORTED, with the option that the
-// style does not support, or as mistake_apply; LAM_LIMIT.
+// choices->mistake. The caller frees the result. Returns NULL on failure: LAM_UNSUPPORTED, naming the option
+// that the style does not support, or the errors of mistake_apply; LAM_LIMIT.
 char *lecture_application(const struct glsl_choices *choices, const struct frame *frame, const int *order,
                           const struct frame_draw_range *const *ranges, int count, lam_error *error);
 

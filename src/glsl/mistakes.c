@@ -15,14 +15,14 @@
 
 enum { EDITS_MAX = 2 };
 
-// `before` occurs exactly once in the two texts of a shader to which the mistake applies. "@lights@" is the number of
-// lights.
+// `before` occurs exactly once in the two source files of a shader to which the mistake applies. "@lights@" is the
+// number of lights.
 struct edit {
     const char *before, *after;
 };
 
-// Adjacent rows with the same id are forms of one mistake; the first applicable form is used. The first has the
-// sentences. Forms for the C function of the application stage are last.
+// Adjacent rows with the same id are forms of one mistake; the first applicable form is used. The first row contains
+// the sentences. Forms for the C function of the application stage are last.
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];
@@ -81,7 +81,7 @@ static const struct mistake mistakes[] = {
     {"no-flip",
      "The inside of open objects stays dark, or is lit like the outside.",
      "an object that is lit on both sides, in the fragment shader",
-     {{"    if (!gl_FrontFacing)\n        N = -N;                     // the back is lit as well\n", ""}}},
+     {{"    if (!gl_FrontFacing)\n        N = -N;                     // the back is lit too\n", ""}}},
     {"no-flip", NULL, NULL, {{", scale(-1.0, N)", ", N"}}},
     // --- spaces
     {"clip-space-vertex",
@@ -451,6 +451,7 @@ bool mistake_apply(const struct glsl_choices *c, char **texts, int count, lam_er
             return true;
         }
     }
-    return fail(error, LAM_UNSUPPORTED, "mistake '%s': the shader does not have what it spoils; expected %s",
-                mistakes[first].id, mistakes[first].needs ? mistakes[first].needs : "lighting in a shader");
+    return fail(error, LAM_UNSUPPORTED,
+                "mistake '%s': the shader lacks the code that this mistake changes; expected %s", mistakes[first].id,
+                mistakes[first].needs ? mistakes[first].needs : "lighting in a shader");
 }

@@ -1,4 +1,4 @@
-// shader.c: lam_shader_make: generates a scene's shaders and the value of every uniform.
+// shader.c: implements lam_shader_make: generates a scene's shaders and the value of every uniform.
 #include <lambent/shader.h>
 
 #include "arena.h"
@@ -47,7 +47,7 @@ static bool is_selected(const struct frame *frame, const struct frame_draw_range
 }
 
 // Merges the maps of another material, which may have more: a missing map is 1 everywhere (glsl_map_values). Returns
-// false if one text cannot read both.
+// false if one source cannot read both.
 static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
 {
     bool same = true;
@@ -79,8 +79,8 @@ static bool fail_nothing_selected(const struct build *m, int object, lam_error *
     if (object < 0)
         return fail(error, LAM_UNSUPPORTED,
                     strokes ? "the model has only lines and points, which have no shader: they are drawn as rectangles "
-                              "that are made anew for each camera; expected a model with triangles"
-                            : "the model has no triangles, so there is nothing that a shader could draw");
+                              "that depend on the camera; expected a model with triangles"
+                            : "the model has no triangles that a shader could draw");
     if (strokes)
         return fail(error, LAM_UNSUPPORTED,
                     "object %d has only lines and points, which have no shader; expected an object with triangles",

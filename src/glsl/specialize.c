@@ -61,7 +61,7 @@ static const char *text_of(struct span name, const struct index *known)
 
 static bool is_truth(const char *text) { return strcmp(text, "true") == 0 || strcmp(text, "false") == 0; }
 
-// Returns the bracket that closes the one at `at`.
+// Returns the bracket that closes the bracket at `at`.
 static const char *closing_bracket(const char *at, const char *end)
 {
     for (int depth = 0; at < end; at++) {

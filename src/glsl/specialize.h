@@ -1,4 +1,4 @@
-// specialize.h: reduces ordinary texts to the shader for some choices. Branches that are never taken are removed, and
+// specialize.h: reduces general sources to the shader for some choices. Branches that are never taken are removed, and
 // so are the parameters, variables and members that are then unread, so that a printed shader contains none of them.
 //
 // The text must have the layout that the formatter gives src/lighting: an `if` ends its line with the opening brace,
@@ -9,7 +9,8 @@
 #include "text_builder.h"
 
 // A name, or the condition of an `if` as written between the parentheses, and its text. "true" and "false" decide
-// branches; other texts replace the name. A line "NAME;" is replaced by the lines of the text. A table ends with NULL.
+// branches; any other text replaces the name. A line "NAME;" is replaced by the lines of the text. A table ends with
+// NULL.
 struct known {
     const char *name, *text;
 };

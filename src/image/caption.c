@@ -103,7 +103,7 @@ static bool open_contained(lam_font *font, lam_error *error)
     return fail(error, LAM_LIMIT, "text: the program's own font cannot be opened: out of memory");
 #else
     (void)font;
-    return fail(error, LAM_UNSUPPORTED, "text: no font is installed where fonts are looked for; " NEEDED);
+    return fail(error, LAM_UNSUPPORTED, "text: none of the default fonts is installed; " NEEDED);
 #endif
 }
 

@@ -1,4 +1,4 @@
-// codec.h: the interface of a picture format. A new format is a file with a struct codec, and its name in CODECS.
+// codec.h: the interface of a picture format. A new format needs a file with a struct codec, and its name in CODECS.
 #ifndef CODEC_H
 #define CODEC_H
 
@@ -33,8 +33,7 @@ struct codec {
     // Returns whether a file that starts with these bytes has this format.
     bool (*probe)(const uint8_t *bytes, size_t size);
 
-    // Decodes a file into `image`, which is empty and remains empty on failure. picture_make allocates the pixels; rows
-    // are decoded one by one while picture_continues returns true.
+    // Decodes a file into `image`, which is empty and remains empty on failure. picture_make allocates the pixels; rows are decoded one at a time while picture_continues returns true.
     bool (*read)(const struct picture_file *file, lam_image *image, lam_error *error);
 
     // Decodes without loss of precision. With more than 8 bits per channel, `image` becomes LAM_RGBA32F with the file's

@@ -86,7 +86,7 @@ static bool fail_unknown(lam_error *error, const char *subject, const char *befo
         return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s%s (it writes %s)", subject, before,
                     word, before, instead, list);
     if (*before && word[strspn(word, "0123456789")] == 0) // "part-v1.0" has no extension
-        return fail(error, LAM_UNSUPPORTED, "%s: the ending .%s names no picture format; expected %s, as in %s.png",
+        return fail(error, LAM_UNSUPPORTED, "%s: the extension .%s is not a picture format; expected %s, as in %s.png",
                     subject, word, list, subject);
     return fail(error, LAM_UNSUPPORTED, "%s: lambent cannot write %s%s; use %s", subject, before, word, list);
 }

@@ -49,7 +49,7 @@ bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format
     // too.
     void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? get_pixels((size_t)bytes) : NULL;
     if (!pixels)
-        return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which could not be had", width,
+        return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which is not available", width,
                     height, (double)bytes / 1e6);
     *image = (lam_image){.width = width, .height = height, .format = format, .owned = true, .pixels = pixels};
     return true;

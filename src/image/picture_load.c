@@ -10,7 +10,7 @@
 #define KNOWN "PNG, JPEG, WebP, BMP, TGA, PPM (P6), PFM, EXR or Radiance"
 
 // Picture libraries report a damaged file if they run out of memory, and loading a library fails for lack of memory
-// too. A file is therefore only blamed if memory can still be allocated.
+// too. Therefore a file is reported as damaged only if memory can still be allocated.
 static bool blame_memory(lam_error *error)
 {
     enum { SOME = 1 << 20 }; // more than the small requests of such a library

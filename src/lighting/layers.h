@@ -1,10 +1,10 @@
 // layers.h: the layers that glTF 2.0's extensions add to a metallic-roughness surface: a dielectric of any index, a
 // clear coat, sheen, anisotropy, a thin film, transmission.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). The formulas are from the Khronos extensions KHR_materials_ior,
-// specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set` has a bit for each layer of the
-// material (layer_kinds.h); without layers, lobes.h and sum.h are complete. Colours of the base layer are multiplied by
-// pi, like every lobe here.
+// The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). The formulas are from the Khronos
+// extensions KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set` has
+// a bit for each layer of the material (layer_kinds.h); without layers, lobes.h and sum.h are complete. Colours of the
+// base layer are multiplied by pi, like every lobe here.
 
 // The numbers of a material at a point.
 STRUCT(layer_values)
@@ -81,17 +81,17 @@ FN vec3 divide3(vec3 a, vec3 b) { return vec3_of(a.x / b.x, a.y / b.y, a.z / b.z
 FN vec3 grey3(num x) { return vec3_of(x, x, x); }
 FN num fifth_power(num x) { return x * x * (x * x) * x; }
 
-// The reflectance along the normal of a boundary between two indices of refraction: ((a - b) / (a + b))^2.
+// Returns the reflectance along the normal of a boundary between two indices of refraction: ((a - b) / (a + b))^2.
 FN num boundary_f0(num a, num b)
 {
     num ratio = (a - b) / (a + b);
     return ratio * ratio;
 }
 
-// The Fresnel factor (Schlick) from its value along the normal and its value at grazing angles.
+// Returns the Fresnel factor (Schlick) from its value along the normal and its value at grazing angles.
 FN vec3 fresnel_mix(vec3 f0, num f90, num weight) { return add3(f0, scale3(sub3(grey3(f90), f0), weight)); }
 
-// The cosine of x turns, for x >= 0.
+// Returns the cosine of x turns, for x >= 0.
 FN num cosine_of_turns(num x)
 {
     num part = x - whole(x);
@@ -214,7 +214,7 @@ FN num sheen_lobe(surface s, vec3 l, num roughness)
     return pick(both(both(n_dot_l > 0.0f, present(s.v)), square > 0.0f), value, num_of(0.0f));
 }
 
-// The share of uniform light that the sheen reflects: the integral of S over all l, divided by pi.
+// Returns the share of uniform light that the sheen reflects: the integral of S over all l, divided by pi.
 FN num sheen_albedo(num n_dot_v, num roughness)
 {
     albedo_place p = albedo_place_of(n_dot_v, roughness);
@@ -224,7 +224,8 @@ FN num sheen_albedo(num n_dot_v, num roughness)
     return upper + (lower - upper) * p.down;
 }
 
-// The roughness with which tables of isotropic lobes are read for an anisotropic one: alpha is the geometric mean.
+// Returns the roughness for looking up an anisotropic lobe in the tables of isotropic lobes: alpha is the geometric
+// mean.
 FN num mean_roughness(num roughness, num anisotropy)
 {
     num rough = max_of(roughness, num_of(ROUGHNESS_MIN));
@@ -297,7 +298,7 @@ FN layered layered_of(surface s, layer_values m, int scattering, int set)
     return y;
 }
 
-// Fresnel factors for the angle between the eye and a microfacet, with the cosine `c` and Schlick's weight.
+// Return the Fresnel factors for the angle between the eye and a microfacet, with the cosine `c` and Schlick's weight.
 FN vec3 layered_dielectric(layered m, num c, num weight, int set)
 {
     vec3 f = fresnel_mix(m.dielectric, m.grazing, weight);
@@ -316,7 +317,7 @@ FN vec3 layered_metal(layered m, num c, num weight, int set)
     return f;
 }
 
-// Mixes both, each with its own multiple scattering.
+// Mixes the dielectric and the metal, each with its own multiple scattering.
 FN vec3 layered_mix(layered m, vec3 dielectric, vec3 metal)
 {
     vec3 one = grey3(num_of(1.0f));
@@ -325,7 +326,7 @@ FN vec3 layered_mix(layered m, vec3 dielectric, vec3 metal)
     return mix3(d, c, m.metallic);
 }
 
-// The light of one direction:
+// Returns the response to light from one direction:
 //    base   = (1 - metallic) ((1 - max F_d) (1 - max f0_d) (1 - transmission) n.l, F_d S) + metallic F_m S
 //             the second factor is only for specular-glossiness materials; S is from `lobe`, a microfacet model, unless
 //             the highlight is anisotropic
@@ -395,8 +396,8 @@ FN terms cover_terms(terms sum, layered m, int set)
     return sum;
 }
 
-// The surface whose mirror direction represents an anisotropic highlight: its normal is bent towards the eye, across
-// the stretched direction (KHR_materials_anisotropy, image-based lighting).
+// Returns a surface whose mirror direction represents an anisotropic highlight: its normal is bent towards the eye,
+// across the stretched direction (KHR_materials_anisotropy, image-based lighting).
 FN surface bent_surface(surface s, layered m, num anisotropy)
 {
     vec3 bent = unit3(cross3(cross3(m.across, s.v), m.across));
@@ -412,7 +413,8 @@ FN surface coat_surface(surface s, layered m)
     return s;
 }
 
-// Environment light: the split sum of each layer. The sheen uses the mean of the light above the surface.
+// Returns the reflected environment light: the split sum of each layer. The sheen uses the mean of the light above the
+// surface.
 FN returned_light layered_surroundings(surface s, layered m, vec3 kd, surroundings e, surroundings top, int set)
 {
     returned_light r;
@@ -442,8 +444,8 @@ FN returned_light layered_surroundings(surface s, layered m, vec3 kd, surroundin
     return r;
 }
 
-// The transmittance straight ahead: (1 - max F_d) transmission base, times the volume's attenuation, under sheen and
-// coat.
+// Returns the transmittance along the view direction: (1 - max F_d) transmission base, times the volume's attenuation,
+// under sheen and coat.
 FN vec3 layered_transmittance(surface s, layered m, layer_values given, int set)
 {
     num c = eye_cosine(s);

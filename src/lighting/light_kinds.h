@@ -1,7 +1,7 @@
 // light_kinds.h: the numbers of the kinds of light, shared by the frame, the CPU and GLSL.
 //
-// One text for C and GLSL, included before lights.h. frame.c determines a light's kind and falloff (struct
-// frame_light).
+// The same source is compiled as C and as GLSL; include it before lights.h. frame.c determines a light's kind and
+// falloff (struct frame_light).
 
 // Kinds of light that have a direction; each function takes the kind as a uniform number. Ambient and hemisphere light
 // have none and are in sum.h.

@@ -1,8 +1,9 @@
 // lights.h: the light that arrives at a point: its direction, distance, attenuation and cone.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space, distances in the scene's units.
+// The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space, distances in
+// the scene's units.
 
-// One light as it acts on one material: the colours are products, computed once for each draw. Fields that a kind of
+// One light as it affects one material: the colours are products, computed once for each draw. Fields that a kind of
 // light does not have are never read.
 STRUCT(light_source)
 {
@@ -28,7 +29,8 @@ STRUCT(light_sample)
     num spot;        // the cone's factor, 0...1
 };
 
-// 1 / (a + b d + c d^2), or 0 if that sum is 0. With a range, times the window of glTF's KHR_lights_punctual: max(min(1
+// Returns 1 / (a + b d + c d^2), or 0 if that sum is 0. With a range, times the window of glTF's KHR_lights_punctual:
+// max(min(1
 // - (d / range)^4, 1), 0).
 FN num attenuation_at(num d, light_source light, int falloff)
 {
@@ -42,7 +44,7 @@ FN num attenuation_at(num d, light_source light, int falloff)
     return attenuation;
 }
 
-// The cone's factor from c, the cosine between the spot's axis and the direction from the light to the point:
+// Returns the cone's factor for c, the cosine between the spot's axis and the direction from the light to the point:
 //    cutoff:    [c >= cos cutoff] max(c, 0)^exponent
 //    exponent:  max(c, 0)^exponent
 //    cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in KHR_lights_punctual
@@ -64,7 +66,7 @@ FN num spot_at(num c, light_source light, int kind)
     return spot;
 }
 
-// The light at the end of the vector `way` from a point; `square` is its squared length, `inverse` 1 / length.
+// Returns the light at the end of the vector `way` from a point; `square` is its squared length, `inverse` 1 / length.
 FN light_sample toward_along(vec3 way, num square, num inverse)
 {
     light_sample t;
@@ -88,7 +90,7 @@ FN light_sample weaken_light(light_sample t, num square, light_source light, int
     return t;
 }
 
-// The light that arrives at the point p.
+// Returns the light that arrives at the point p.
 FN light_sample toward_light(vec3 p, light_source light, int kind, int falloff)
 {
     light_sample t;

@@ -1,9 +1,10 @@
 // lobes.h: the reflection models: how a point of a surface reflects light from one direction; and their table.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n is the unit normal, l points to
-// the light, v to the eye, t along the tangent. Each has length 1, or 0 if it is missing; the result is then 0. D is
-// the fraction of diffuse light, S the strength of the highlight, both in 0...1; sum.h multiplies them by colours. No
-// light passes through a surface: S is 0 if n.l <= 0, although r.v and n.h may be positive there.
+// The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n is the unit
+// normal, l points to the light, v to the eye, t along the tangent. Each has length 1, or 0 if it is missing; the
+// result is then 0. D is the fraction of diffuse light, S the strength of the highlight, both in 0...1; sum.h
+// multiplies them by colours. No light passes through a surface: S is 0 if n.l <= 0, although r.v and n.h may be
+// positive there.
 //
 // `lambent shader` prints this text, and src/glsl/equations.c and specialize.c read it line by line. They rely on its
 // layout, here and in lights.h and sum.h: a definition begins in column 1, and so does its closing brace; an `if` ends
@@ -38,19 +39,19 @@ STRUCT(lobe_value)
 // Clamps a dot product of unit vectors to -1...1, which rounding may exceed.
 FN num cosine(num x) { return min_of(max_of(x, num_of(-1.0f)), num_of(1.0f)); }
 
-// Whether a direction exists: it is not the zero vector.
+// Returns whether a direction exists: it is not the zero vector.
 FN mask present(vec3 w) { return dot3(w, w) > 0.0f; }
 
-// The mirror image of w about n:
+// Returns the mirror image of w about n:
 //    2 (n.w) n - w
 // For l it is the r of textbooks; for v it is the direction in which an environment is looked up.
 FN vec3 mirror3(vec3 w, vec3 n) { return sub3(scale3(n, 2.0f * dot3(n, w)), w); }
 
-// The unit vector halfway between l and v, both of length 1.
+// Returns the unit vector halfway between l and v, both of length 1.
 FN vec3 halfway3(vec3 l, vec3 v) { return unit3(add3(l, v)); }
 
-// w made perpendicular to n and unit (Gram and Schmidt); 0 if w is parallel to n, |w x n| < 1e-4 |w|: the remainder of
-// w is then only rounding error.
+// Returns w made perpendicular to n and unit (Gram and Schmidt); 0 if w is parallel to n, |w x n| < 1e-4 |w|: the
+// remainder of w is then only rounding error.
 FN vec3 perpendicular3(vec3 w, vec3 n)
 {
     vec3 across = sub3(w, scale3(n, dot3(n, w)));
@@ -186,9 +187,9 @@ FN lobe_sample oren_nayar_lobe(surface s, vec3 l, num sigma)
     return b;
 }
 
-// The cosine between the normal and the eye, |n.v|, as in glTF 2.0 (appendix B). An interpolated normal may face away
-// from the eye although the triangle's front is visible. The absolute value lights such points, so that metals have no
-// black holes.
+// Returns the cosine between the normal and the eye, |n.v|, as in glTF 2.0 (appendix B). An interpolated normal may
+// face away from the eye although the triangle's front is visible. The absolute value lights such points, so that
+// metals have no black holes.
 FN num eye_cosine(surface s) { return min_of(absolute(dot3(s.n, s.v)), num_of(1.0f)); }
 
 // Cook and Torrance (1982) with Walter's distribution GGX (2007): a surface of microfacets, which glTF 2.0 (appendix B)
@@ -205,7 +206,7 @@ FN num eye_cosine(surface s) { return min_of(absolute(dot3(s.n, s.v)), num_of(1.
 // Below ROUGHNESS_MIN, the highlight of a light without a size would be smaller than a pixel.
 #define ROUGHNESS_MIN 0.045f
 
-// Schlick (1994): a microfacet reflects f0 + (1 - f0) (1 - v.h)^5; this is the power. v.h = |l + v| / 2.
+// Schlick (1994): a microfacet reflects f0 + (1 - f0) (1 - v.h)^5; returns the power (1 - v.h)^5. v.h = |l + v| / 2.
 FN num schlick_weight(vec3 v, vec3 l)
 {
     vec3 sum = add3(l, v);
@@ -217,7 +218,7 @@ FN num schlick_weight(vec3 v, vec3 l)
 // The reflectance of a dielectric along its normal, for an index of refraction of 1.5.
 #define DIELECTRIC_F0 0.04f
 
-// The microfacets' visibility times 2 n.l: n.l / (n.l root(...) + |n.v| root(...)).
+// Returns the microfacets' visibility times 2 n.l: n.l / (n.l root(...) + |n.v| root(...)).
 FN num smith_visibility(num n_dot_l, num n_dot_v, num alpha_square)
 {
     num beyond = 1.0f - alpha_square;
@@ -267,8 +268,8 @@ FN albedo_place albedo_place_of(num n_dot_v, num roughness)
     return p;
 }
 
-// The share of light that microfacets of f0 = 1 return after one reflection: the integral of S over all l, divided by
-// pi. The rest hits other microfacets.
+// Returns the share of light that microfacets of f0 = 1 return after one reflection: the integral of S over all l,
+// divided by pi. The rest hits other microfacets.
 FN num single_scattering(num n_dot_v, num roughness)
 {
     albedo_place p = albedo_place_of(n_dot_v, roughness);
@@ -278,7 +279,7 @@ FN num single_scattering(num n_dot_v, num roughness)
     return upper + (lower - upper) * p.down;
 }
 
-// The same integral with Schlick's weight (1 - v.h)^5.
+// Returns the same integral with Schlick's weight (1 - v.h)^5.
 FN num schlick_scattering(num n_dot_v, num roughness)
 {
     albedo_place p = albedo_place_of(n_dot_v, roughness);
@@ -288,7 +289,7 @@ FN num schlick_scattering(num n_dot_v, num roughness)
     return upper + (lower - upper) * p.down;
 }
 
-// The ratio of multiply to singly scattered light, for f0 = 1.
+// Returns the ratio of multiply to singly scattered light, for f0 = 1.
 FN num scattering_gain(surface s, num roughness) { return 1.0f / single_scattering(eye_cosine(s), roughness) - 1.0f; }
 
 // The level of a prefiltered environment for a roughness: 0 at ROUGHNESS_MIN, PREFILTERED_LAST at 1, linear in its
@@ -302,7 +303,7 @@ FN num prefilter_level(num roughness)
     return saturate((root - ROUGHNESS_MIN_ROOT) / (1.0f - ROUGHNESS_MIN_ROOT)) * PREFILTERED_LAST;
 }
 
-// A microfacet lobe's base is its S.
+// Returns the value of a microfacet lobe, whose base is its S.
 FN lobe_value microfacet_of(lobe_sample b)
 {
     lobe_value r;
@@ -313,7 +314,7 @@ FN lobe_value microfacet_of(lobe_sample b)
     return r;
 }
 
-// The highlight, raised to its power.
+// Returns the value of a lobe with the highlight raised to its power.
 FN lobe_value reflected_of(lobe_sample b, num shininess)
 {
     lobe_value r;
@@ -341,8 +342,9 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 // clang-format on
 
 // The table of the reflection models: the dispatch in C and in GLSL, the words of the command line and of scene files,
-// reports, explanations and tests are made from it. A new model is an enumerator in lambent/material.h, a function
-// above and a row here; a number of its own is a member of lam_material and a row of LOBE_PARAMETERS. The columns:
+// reports, explanations and tests are made from it. A new model needs an enumerator in lambent/material.h, a function
+// above and a row here; a parameter of its own needs a member of lam_material and a row of LOBE_PARAMETERS. The
+// columns:
 //     the enumerator without LAM_REFLECTION_
 //     the call: `s` is the surface, `l` the direction to the light, `m` the material's lobe_parameters
 //     properties: LOBE_HIGHLIGHT   S is not 0: the lobe returns the base of a power
@@ -394,7 +396,7 @@ STRUCT(lobe_parameters){
 #undef MEMBER
 };
 
-// The lobe of a lam_reflection. LAM_REFLECTION_NONE reflects nothing: its colour is `unlit_terms` in sum.h.
+// Returns the lobe of a lam_reflection. LAM_REFLECTION_NONE reflects nothing: its colour is `unlit_terms` in sum.h.
 LANE_FN lobe_sample lobe_of(surface s, vec3 l, lobe_parameters m, int model)
 {
     switch (model) {
@@ -411,7 +413,7 @@ LANE_FN lobe_sample lobe_of(surface s, vec3 l, lobe_parameters m, int model)
     }
 }
 
-// Its properties; 0 for LAM_REFLECTION_NONE.
+// Returns the properties of a model's lobe, or 0 for LAM_REFLECTION_NONE.
 static inline int lobe_properties(int model)
 {
     switch (model) {
@@ -435,7 +437,7 @@ LANE_FN lobe_value reflect_light(surface s, vec3 l, lobe_parameters m, int model
     return r;
 }
 
-// The parameters of a material; `shininess` is the exponent in use (frame_shininess).
+// Returns the parameters of a material; `shininess` is the exponent in use (frame_shininess).
 LANE_FN lobe_parameters lobe_parameters_of(const lam_material *material, float shininess)
 {
 #define OF_MATERIAL(name, ...) .name = num_of((float)material->name),

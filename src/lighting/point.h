@@ -1,16 +1,16 @@
 // point.h: a point before lighting: its normal and tangent, and the material after its maps.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl).
+// The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl).
 
-// The tangent of a surface without tangents: around the mesh's y axis, like the marks of a lathe; along x if n is along
-// y. n is unit; y and x are the mesh's axes in eye space.
+// Returns the tangent of a surface without tangents: around the mesh's y axis, like the marks of a lathe; along x if n
+// is along y. n is unit; y and x are the mesh's axes in eye space.
 FN vec3 field_tangent(vec3 n, vec3 y, vec3 x)
 {
     vec3 around = cross3(unit3(y), n);
     return pick3(dot3(around, around) < 1.0e-8f, unit3(x), around);
 }
 
-// The normal from a normal map, given along tangent, bitangent and normal, none of which is normalised after
+// Returns the normal from a normal map, given along tangent, bitangent and normal, none of which is normalised after
 // interpolation (MikkTSpace).
 FN vec3 mapped_normal(vec3 map, vec3 tangent, vec3 bitangent, vec3 normal)
 {
@@ -31,9 +31,9 @@ FN num widened_roughness(num roughness, num variance)
     return pick(variance > 0.0f, square_root(square_root(square)), roughness);
 }
 
-// The variance of the unit normal over a pixel, from an interpolated normal of any length and its derivatives by the window's x
-// and y. A pixel is a box of the variance 1/12. (The paper uses 1 / (2 pi), which blurs the reflections of small mirrors.) Only
-// the part of a derivative that is perpendicular to the normal turns it.
+// Returns the variance of the unit normal over a pixel, from an interpolated normal of any length and its derivatives
+// by the window's x and y. A pixel is a box of the variance 1/12. (The paper uses 1 / (2 pi), which blurs the
+// reflections of small mirrors.) Only the part of a derivative that is perpendicular to the normal turns it.
 FN num normal_variance(vec3 normal, vec3 by_x, vec3 by_y)
 {
     num inverse = rsqrt(dot3(normal, normal));
@@ -59,8 +59,8 @@ FN vec3 bumped_normal(vec3 n, vec3 across, vec3 down, num slope_across, num slop
     return sub3(n, add3(scale3(perpendicular3(across, n), slope_across), scale3(perpendicular3(down, n), slope_down)));
 }
 
-// A metallic-roughness material under a classic model (lam_material_as_classic): the exponent and the strength of its
-// highlight.
+// Convert a metallic-roughness material for a classic model (lam_material_as_classic): the exponent and the strength of
+// its highlight.
 FN num classic_exponent(num roughness)
 {
     num slope = roughness * roughness;
@@ -74,13 +74,13 @@ FN vec3 classic_specular(vec3 base, num metallic, num exponent)
     return scale3(mix3(f0, base, metallic), (exponent + 8.0f) * 0.125f);
 }
 
-// The direction along a surface with the components x along the tangent and y along the bitangent; the sign of the
-// bitangent is part of y.
+// Returns the direction along a surface with the components x along the tangent and y along the bitangent; y already
+// includes the sign of the bitangent.
 FN vec3 along_surface(vec3 n, vec3 tangent, num x, num y)
 {
     return unit3(add3(scale3(tangent, x), scale3(cross3(n, tangent), y)));
 }
 
-// The factor of ambient occlusion for a light: the fraction `occluded` of it counts as surrounding light, of which
-// `share` arrives.
+// Returns the factor of ambient occlusion for a light: the fraction `occluded` of it counts as surrounding light, of
+// which `share` arrives.
 FN num unoccluded_light(num occluded, num share) { return 1.0f - occluded * (1.0f - share); }

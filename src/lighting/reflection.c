@@ -1,4 +1,5 @@
-// reflection.c: lam_reflection_describe: names and descriptions of the reflection models (src/lighting/lobes.h).
+// reflection.c: implements lam_reflection_describe: names and descriptions of the reflection models
+// (src/lighting/lobes.h).
 #define LANES 1
 #include "lighting.h"
 

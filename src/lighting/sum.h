@@ -1,6 +1,6 @@
 // sum.h: the light that leaves a point, as terms and as their sum.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl).
+// The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl).
 //
 //
 //    I = emission + ka * (La global + sum of La_i + sum of hemisphere_i)
@@ -27,7 +27,7 @@ STRUCT(hemisphere)
 
 FN vec3 black3(void) { return vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f)); }
 
-// The direction from p to the eye, which is at the origin of eye space.
+// Returns the direction from p to the eye, which is at the origin of eye space.
 FN vec3 to_eye(vec3 p, int viewer)
 {
     vec3 v = vec3_of(num_of(0.0f), num_of(0.0f), num_of(1.0f));
@@ -37,7 +37,7 @@ FN vec3 to_eye(vec3 p, int viewer)
     return v;
 }
 
-// A surface from interpolated values: normal and tangent of any length.
+// Builds a surface from interpolated values; the normal and tangent need not be unit vectors.
 FN surface surface_at(vec3 p, vec3 normal, vec3 tangent, int viewer)
 {
     surface s;
@@ -48,7 +48,8 @@ FN surface surface_at(vec3 p, vec3 normal, vec3 tangent, int viewer)
     return s;
 }
 
-// The terms before any light is added: ambient = ka * (La global + sum of the lights' La), and the surface's emission.
+// Returns the terms before any light is added: ambient = ka * (La global + sum of the lights' La), and the surface's
+// emission.
 FN terms start_terms(vec3 ambient, vec3 emission)
 {
     terms sum;
@@ -60,7 +61,7 @@ FN terms start_terms(vec3 ambient, vec3 emission)
     return sum;
 }
 
-// The model `none`: the diffuse colour unchanged; lights are ignored.
+// Returns the terms of the model `none`: the diffuse colour unchanged; lights are ignored.
 FN terms unlit_terms(vec3 kd)
 {
     terms sum = start_terms(black3(), black3());
@@ -93,7 +94,7 @@ FN fresnel fresnel_of(vec3 base, num metallic, num gain)
     return f;
 }
 
-// The light with the Fresnel factor in its specular colour.
+// Returns the light with its specular colour multiplied by the Fresnel factor.
 FN light_source with_fresnel(light_source light, fresnel f, vec3 v, vec3 l)
 {
     light.specular = mul3(light.specular, add3(f.f0, scale3(f.rest, schlick_weight(v, l))));
@@ -136,7 +137,7 @@ STRUCT(surroundings)
 STRUCT(returned_light)
 {
     vec3 diffuse;  // from its matt part
-    vec3 specular; // from its mirrors
+    vec3 specular; // from its microfacets
 };
 
 FN returned_light scale_returned(returned_light r, num share)
@@ -146,7 +147,7 @@ FN returned_light scale_returned(returned_light r, num share)
     return r;
 }
 
-// Adds it to the terms of the lights. Vertex colours and maps are already included.
+// Adds the returned light to the terms of the lights. Vertex colours and maps are already included.
 FN terms add_returned(terms sum, returned_light r)
 {
     sum.diffuse = add3(sum.diffuse, r.diffuse);
@@ -177,7 +178,7 @@ FN terms tint_terms(terms sum, vec3 colour)
     return sum;
 }
 
-// The sum of the terms, unclamped.
+// Returns the sum of the terms, unclamped.
 FN vec3 sum_terms(terms t)
 {
     return add3(add3(add3(add3(t.emission, t.ambient), t.diffuse), t.specular), t.reflection);

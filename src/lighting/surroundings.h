@@ -1,9 +1,9 @@
 // surroundings.h: the light of an environment around a point of a physical material.
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). The including file defines the lookups; in C it defines SCENE
-// and IN_SCENE as a parameter and its argument, which GLSL does not need.
+// The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). The including file defines the lookups; in
+// C it defines SCENE and IN_SCENE as a parameter and its argument, which GLSL does not need.
 
-// The environment's irradiance divided by pi for a surface with that normal, and its light around a direction,
+// Return the environment's irradiance divided by pi for a surface with that normal, and its light around a direction,
 // prefiltered for a level (prefilter_level). Directions are in eye space.
 FN vec3 irradiance_at(SCENE vec3 normal);
 FN vec3 prefiltered_at(SCENE vec3 direction, num level);

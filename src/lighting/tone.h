@@ -1,6 +1,7 @@
 // tone.h: tone curves, from linear light of any strength to linear light of a display, 0...1 (docs/lighting/tone.md).
 //
-// One text for C and GLSL (prelude_c.h, prelude.glsl). Colours have the primaries of sRGB, and no channel is below 0.
+// The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). Colours have the primaries of sRGB, and no
+// channel is below 0.
 
 // Reinhard, Stark, Shirley and Ferwerda (2002), for each channel:
 //    x / (1 + x)
@@ -67,7 +68,7 @@ FN vec3 khronos_neutral_tone(vec3 c)
     return pick3(peak < NEUTRAL_START, base, bright);
 }
 
-// Limits the argument of a tone curve: not below 0, not infinite.
+// Clamps the argument of a tone curve: not below 0, not infinite.
 FN num tone_limit(num x) { return min_of(positive(x), num_of(1.0e6f)); }
 
 FN vec3 tone_input(vec3 c) { return vec3_of(tone_limit(c.x), tone_limit(c.y), tone_limit(c.z)); }

@@ -91,8 +91,8 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
         return false;
     if (importer->up_is_habit && params->up == LAM_UP_AUTO && is_terrain_on_z(scene)) {
         scene->up = LAM_UP_Z;
-        lam_scene_add_warning(
-            scene, "z is taken as up: the model is a terrain in the plane of x and y (up y: as the file has it)");
+        lam_scene_add_warning(scene, "z is assumed to be up, because the model is a terrain in the plane of x and y "
+                                     "(up y keeps the file's axes)");
     }
     scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
     call_progress(source->call, 1, "normals");

@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-// A terrain is a surface that is much thinner along z than along x and y, and whose area faces +z almost everywhere.
+// A model is a terrain if it is much thinner along z than along x and y, and its area faces +z almost everywhere.
 #define THIN     0.3
-#define NOT_FLAT 0.01 // flat pictures are often upright
+#define NOT_FLAT 0.01 // a flat picture usually stands upright
 #define FACING   0.6
 #define EVEN     0.999 // stacked cards have no slopes
 

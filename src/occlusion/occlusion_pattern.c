@@ -3,7 +3,7 @@
 
 #include "linear.h"
 
-// Spreads the bits of a number 0…1023, with a 0 between each two bits.
+// Spreads the bits of a number 0…1023, with a 0 after each bit.
 static uint32_t spread_bits(uint32_t n)
 {
     uint32_t spread = 0;

@@ -33,7 +33,7 @@ struct screen_occlusion {
     // of a cell (screen_pixel). The caller fills it; screen_occlusion_start writes SCREEN_EMPTY around the picture.
     float *depth;
     float *cell_depth; // the depth of the first pixel of each cell that shows a surface
-    // The slope of each cell's surface, computed with its occlusion: the change of distance from cell to cell.
+    // The slope of each cell's surface, computed with its occlusion: the change of distance to the next cell.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
     // The result, in the order of `depth` and, with step 2, in its memory: 1 if all surrounding light arrives, 0 if
@@ -79,7 +79,7 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
     return seen && (dx * dx + dy * dy) + dz * dz < end * end ? depth : SCREEN_EMPTY;
 }
 
-// Sets up a picture's rows in `storage`, without any surface, using the threads of `pool` (may be NULL). `lent` is
+// Initialises a picture's rows in `storage` without any surface, using the threads of `pool` (may be NULL). `lent` is
 // optional memory that nothing else uses from screen_occlusion_find until the result has been read; if it is large
 // enough, it stores the cells.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory lent,

@@ -4,7 +4,7 @@
 // of its cells instead of the far more numerous triangles. A range of few triangles is removed from its cells and
 // divided by one thread (splits.c), and so is a range within one cell; if that range is large, it gets its own grid.
 // Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its triangles, so
-// the result does not depend on threads.
+// the result does not depend on the number of threads.
 #include "ranges.h"
 
 #include "fail.h"

@@ -111,7 +111,7 @@ static int by_number(const void *a, const void *b)
     return (x->number > y->number) - (x->number < y->number);
 }
 
-// Returns the number of channels of the passing light: one unless something tints it.
+// Returns the number of channels of the transmitted light: one unless something tints it.
 static int passed_channels(const struct frame *frame) { return frame->tints_rays ? 3 : 1; }
 
 // Computes the share of the light that passes along LANES rays, for each of passed_channels.
@@ -137,7 +137,7 @@ static __attribute__((noinline)) void trace(struct light_rays *r, const struct r
             passed[c][layers->list[i].lane] *= layers->list[i].passed[c];
 }
 
-// Computes two unit vectors perpendicular to d and to each other.
+// Computes two unit vectors that are perpendicular to d and to each other.
 static void across(const double d[3], double u[3], double v[3])
 {
     double length = __builtin_sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);

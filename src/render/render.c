@@ -1,4 +1,4 @@
-// render.c: lam_render: loads a model, fits the camera and draws with the defaults of the `lambent` program.
+// render.c: implements lam_render: loads a model, fits the camera and draws with the defaults of the `lambent` program.
 #include "fail.h"
 
 #include <lambent/render.h>

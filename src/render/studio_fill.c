@@ -1,4 +1,4 @@
-// studio_fill.c: lam_studio_fill: adds a dim studio if a file's own lights leave most of the picture black.
+// studio_fill.c: implements lam_studio_fill: adds a dim studio if a file's own lights leave most of the picture black.
 #include "fail.h"
 #include "linear.h"
 

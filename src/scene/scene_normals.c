@@ -1,4 +1,4 @@
-// scene_normals.c: lam_scene_make_normals.
+// scene_normals.c: implements lam_scene_make_normals.
 #include "scene_internal.h"
 
 #include "fail.h"

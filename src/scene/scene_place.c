@@ -6,7 +6,7 @@
 #include "linear.h"
 #include "up_axis.h"
 
-// A point whose squared distance is below this number is nearer than `distance`, whatever rounding does.
+// A point whose squared distance is below this number is nearer than `distance`, regardless of rounding.
 static double nearer_than(double distance)
 {
     return distance > 1e-100 && distance < 1e100 ? distance * distance * (1 - 1e-9) : 0;

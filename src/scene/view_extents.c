@@ -6,7 +6,7 @@
 #include "linear.h"
 #include "scene_internal.h"
 
-// The search in one mesh for the directions [first, end). In the axes of the view, a component of a vertex is row ·
+// The search in one mesh for the directions [first, end). A component of a vertex in the axes of the view is row ·
 // position + shift.
 struct search {
     const lam_mesh *mesh;
@@ -22,7 +22,7 @@ struct search {
 
 static double absolute(double a) { return a < 0 ? -a : a; }
 
-// The directions of the extents in the axes of the view.
+// Sets the directions of the extents in the axes of the view.
 static void set_across(const struct view_extents *extents, lam_vec3 across[EXTENT_DIRECTIONS])
 {
     across[EXTENT_RIGHT] = v3(1, 0, extents->kx);
@@ -164,7 +164,7 @@ static void search_object(const lam_scene *scene, const lam_object *object, cons
     search_level(&s, s.extent->boxes.levels - 1, 0);
 }
 
-// Sets the extents of a direction to a ball's around the centre.
+// Sets the extents of a direction to the extents of a ball around the centre.
 static void find_ball(double radius, struct view_extents *extents, int d)
 {
     lam_vec3 direction[EXTENT_DIRECTIONS];

@@ -5,20 +5,21 @@
 #include <lambent/scene.h>
 
 // The axes of the view as world directions: the picture's right and top, and from the model to the eye. x, y and z of a
-// vertex are measured along them from `centre`, a point near the scene, so that the numbers keep their digits wherever
-// the scene lies.
+// vertex are measured along them from `centre`, a point near the scene, so that the numbers keep their precision
+// wherever the scene is.
 struct view_axes {
     lam_vec3 right, above, back;
     lam_vec3 centre;
 };
 
-// The points that extents are of.
+// The points whose extents are computed.
 struct view_points {
     const lam_scene *scene;
-    // The scene's vertices as seen along each of these axes: for a scene that rotates, seen from its fixed position.
+    // The scene's vertices as seen along each of these axes. A rotating scene is represented by its fixed position,
+    // seen along several axes.
     const struct view_axes *axes;
     int axes_count;
-    double ball_radius; // > 0: a ball around the axes' centre in place of the scene
+    double ball_radius; // > 0: measures a ball around the axes' centre instead
 };
 
 // The maxima over all points of ±x + kx·z, ±y + ky·z and z, in the axes of the view. With k = 0 this is the bounding
@@ -28,10 +29,11 @@ enum extent_direction { EXTENT_RIGHT, EXTENT_LEFT, EXTENT_TOP, EXTENT_BOTTOM, EX
 struct view_extents {
     double kx, ky;
     double value[EXTENT_DIRECTIONS];
-    lam_vec3 point[EXTENT_DIRECTIONS]; // the point that has the maximum: its x, y and z
+    lam_vec3 point[EXTENT_DIRECTIONS]; // the point with the maximum: its x, y and z
 };
 
-// A point of the scene: the middle of the box of the first object that has triangles. False, and zero: none has.
+// Gets a point of the scene: the middle of the box of the first object that has triangles. Returns false, and zero, if
+// there is none.
 bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre);
 
 // Sets all extents for the given kx and ky.
@@ -41,8 +43,8 @@ void view_extents_find(const struct view_points *points, struct view_extents *ex
 void view_extents_horizontal(const struct view_points *points, double kx, struct view_extents *extents);
 void view_extents_vertical(const struct view_points *points, double ky, struct view_extents *extents);
 
-// The smallest and largest distance of the scene's vertices in front of the eye, along the view. Returns false if there
-// are no vertices.
+// Gets the smallest and largest distance of the scene's vertices in front of the eye, along the view. Returns false if
+// there are no vertices.
 bool view_extents_depth(const lam_scene *scene, const lam_mat4 *view, double *nearest, double *farthest);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// The most operations for all implicit surfaces of a file together, which take a few seconds.
+// The maximum number of operations for all implicit surfaces of a file together; they take a few seconds.
 enum { FORMULA_OPERATIONS = 200000000 };
 
 // --- recognising scene files
@@ -217,12 +217,10 @@ static bool check_stage(struct scene_reader *r)
     }
     if (by_vertex && s->draw.shading == LAM_SHADING_PHONG)
         return fail_place(r, KEY_OF(NULL, "stage"),
-                          "Phong shading has the stage fragment; application and vertex go with flat "
-                          "and gouraud");
+                          "Phong shading needs the stage fragment; application and vertex work with flat and gouraud");
     if (s->draw.stage == LAM_STAGE_FRAGMENT && s->draw.shading == LAM_SHADING_GOURAUD)
         return fail_place(r, KEY_OF(NULL, "stage"),
-                          "Gouraud shading has the stages application and vertex; fragment goes with "
-                          "flat and phong");
+                          "Gouraud shading needs the stage application or vertex; fragment works with flat and phong");
     return true;
 }
 

@@ -162,7 +162,7 @@ static bool read_frame(struct scene_reader *r, const struct place *place, const 
         return false;
     light->frame = (lam_light_frame)frame;
     if (light->object && light->frame != LAM_FRAME_OBJECT)
-        return fail_place(r, KEY_OF(place, "object"), "goes only with \"frame\": \"object\"");
+        return fail_place(r, KEY_OF(place, "object"), "is allowed only with \"frame\": \"object\"");
     char shown[SHOWN_NAME_SIZE];
     int named = light->object ? objects_named(r->scene, light->object) : 1;
     if (named == 0)

@@ -36,7 +36,7 @@ static bool no_memory(const struct scene_reader *r, size_t bytes)
 
 // --- reading
 
-// Fills model->inner, within the outer scene's arena.
+// Makes the shape in model->inner, within the outer scene's arena.
 static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted, struct model *model)
 {
     lam_error reason = {0};
@@ -46,7 +46,7 @@ static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted
                       ? scene_add_formula(&model->inner, wanted->formula, r->source->call, &reason)
                       : scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
     if (object.mesh < 0) {
-        if (reason.code == LAM_BAD_ARGUMENT) // for formulas too: errors of their text
+        if (reason.code == LAM_BAD_ARGUMENT) // formulas too: their text may contain errors
             return fail_place(r, KEY_OF(wanted->place, "shape"), "%s", reason.text);
         *r->error = reason;
         return false;

@@ -22,7 +22,7 @@ void put(struct scene_writer *w, json_t *object, const char *key, json_t *value)
 
 void append(struct scene_writer *w, json_t *list, json_t *value) { w->ok &= json_array_append_new(list, value) == 0; }
 
-// Makes a number; whole numbers have no decimal point.
+// Makes a JSON number; whole numbers are written without a decimal point.
 static json_t *number(double x)
 {
     bool whole = x > -1e15 && x < 1e15 && x == (double)(json_int_t)x && !(x == 0 && 1 / x < 0);

@@ -162,7 +162,7 @@ int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b
     return node_of(graph, op, a, b, 0);
 }
 
-// The rules, with the operands a and b, the node f itself, and the operands' derivatives da and db.
+// Differentiates the node f by the rule for its operation, from its operands a and b and their derivatives da and db.
 static int rule(struct formula_graph *g, int f, int da, int db)
 {
     const struct formula_node n = g->nodes[f];

@@ -26,7 +26,7 @@
 
 struct parser {
     struct formula *formula;
-    const char *what; // the noun in error messages: "formula"
+    const char *what; // the noun for the text in error messages: "formula"
     const char *text, *at, *end;
     int depth;
     lam_error *error;
@@ -391,10 +391,10 @@ static bool definition(struct parser *p)
         return expected(p, start, "a definition, such as x = cos(u)") >= 0;
     if (find_parameter(p->formula, start, length) >= 0 || find_function(start, length) || find_constant(start, length))
         return expected(p, start,
-                        p->formula->implicit ? "a name of your own: this one has a meaning already"
-                                             : "x, y, z or a name of your own: this one has a meaning already") >= 0;
+                        p->formula->implicit ? "another name: this one is predefined"
+                                             : "x, y, z or another name: this one is predefined") >= 0;
     if (find_name(p->formula, start, length))
-        return expected(p, start, "a new name: this one is defined before") >= 0;
+        return expected(p, start, "a new name: this one is already defined") >= 0;
     p->at += length;
     if (!take(p, '='))
         return expected(p, p->at, "'='") >= 0;

@@ -1,9 +1,9 @@
 // teapot.c: the Utah teapot from its Bézier patches.
 //
 // Adjacent patches form one parametric surface. u goes around: 4 patches for body and lid, 2 for handle and spout. v
-// goes along: from the centre of the bottom over body and rim, from the edge of the lid to its top, from the body
-// outward. All joints are smooth in the data and share positions and normals. As published, the pot is open: the lid
-// rests in the rim without touching it, and handle and spout end inside the body's wall.
+// runs along the part: from the centre of the bottom over body and rim, from the edge of the lid to its top, from the
+// body outward. All joints are smooth in the data and share positions and normals. As published, the pot is open: the
+// lid rests in the rim without touching it, and handle and spout end inside the body's wall.
 #include "shapes.h"
 
 #include "fail.h"
@@ -29,7 +29,7 @@ struct patches {
     int u_steps, v_steps; // segments of one patch
 };
 
-// Cubic Bernstein polynomials and their derivatives, exact at 0 and 1.
+// Computes the cubic Bernstein polynomials and their derivatives, exact at 0 and 1.
 static void bernstein(double t, double b[4], double d[4])
 {
     double s = 1 - t;

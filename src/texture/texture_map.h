@@ -16,8 +16,8 @@ static inline bool texture_map_translucent(const lam_texture_map *map)
     return map && map->texture && !map->texture->opaque;
 }
 
-// Gets bounds of a map's numbers after channel, scale and offset, not exact because of rounding; −1e30 and 1e30 if the
-// texture was not made from bytes. They are computed once per texture, by any thread.
+// Gets approximate bounds of a map's numbers after channel, scale and offset (rounding makes them inexact); −1e30 and
+// 1e30 if the texture was not made from bytes. They are computed once per texture, by any thread.
 void texture_map_range(const lam_texture_map *map, float out[2]);
 
 // `count` points: their texture coordinates in the mesh, and the derivatives by the pixel's x and y.

@@ -39,7 +39,7 @@ struct parser {
     double w; // the fourth number of the position
 };
 
-// Returns the index of the first row of a key, or −1 if it is not a field.
+// Returns the index of the first row of a key, or −1 if the key is not a field.
 static int field_index(const char *key)
 {
     for (int i = 0; lam_light_field(i); i++)
@@ -505,8 +505,7 @@ static bool add_light(lam_scene *scene, const char *text, const lam_light_text_p
     if (!(model.radius > 0)) {
         bool found = lam_scene_sphere(scene, -1, &model.centre, &model.radius);
         if (!found && in_radii(&parser))
-            return fail(error, LAM_BAD_ARGUMENT,
-                        "expected numbers without r: there is no model whose radius it could be");
+            return fail(error, LAM_BAD_ARGUMENT, "expected numbers without r: there is no model to define the radius");
         model.radius = model.radius > 0 ? model.radius : 1;
     }
     if (!place_light(&parser, params, model, scene, error))

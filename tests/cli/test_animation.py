@@ -407,7 +407,7 @@ class Errors(Animated):
         self.bad(1, "cube.obj", "--fps", "4", says="option '--fps' needs --turntable or --sweep")
         self.bad(1, "cube.obj", "--turntable-light", "model", says="option '--turntable-light' needs --turntable")
         self.bad(1, "cube.obj", "--sweep", "zoom=1..2", "--turntable-light", "model", says="option '--turntable-light' needs --turntable")
-        self.bad(1, "cube.obj", "--turntable", "4", "--frames", "4", says="option '--frames' is for --sweep alone")
+        self.bad(1, "cube.obj", "--turntable", "4", "--frames", "4", says="option '--frames' applies only to --sweep")
         self.bad(1, "cube.obj", "--turntable", "4", "--repeat", "4", says="'--turntable' and '--repeat' cannot be used together")
         self.bad(1, "cube.obj", "--sweep", "zoom=1..2", "--save-scene", "x.json", says="'--sweep' and '--save-scene' cannot")
         self.bad(1, "cube.obj", "--sweep", "azimuth=1..2", "--camera", "eye=1/2/3", says="'--camera' and '--sweep azimuth' cannot")

@@ -178,7 +178,7 @@ class Sources(Batch):
                                   (["a/x.stl", "-s", "16,24", "-s", "32"], 1, "found one size and several"),
                                   (["a/x.stl", "--view", "front,side"], 1, "option '--view': found 'side'"),
                                   (["a/x.stl", "--resume", "--skip-same"], 1, "cannot be used together"),
-                                  (["a/x.stl", "--resume", "--journal", "none"], 1, "goes by a journal")):
+                                  (["a/x.stl", "--resume", "--journal", "none"], 1, "needs a journal, but")):
             done = self.run_program("batch", *words)
             self.assertEqual(done.returncode, code, (words, done.stderr))
             for part in [says] if isinstance(says, str) else says:
@@ -365,7 +365,7 @@ class Journal(Batch):
         (self.folder / names[1]).write_bytes(b"")
         done = self.batch("in", "-o", "out/", "--retry-failed", "2", code=7)
         self.assertEqual([(r["model"], r["attempt"]) for r in self.journal() if r["class"] != "ok"], [(names[1], 1), (names[1], 2), (names[1], 3)])
-        self.assertIn(f"{names[1]}: failed 3 times, and is not tried again", done.stderr.decode())
+        self.assertIn(f"{names[1]}: failed 3 times and is not retried", done.stderr.decode())
         self.assertIn("2 of 3 pictures written, 1 failed (cannot-read 1)", done.stderr.decode())
         done = self.batch("in", "-o", "out/", "--retry-failed", "2", "--resume", code=7)
         self.assertEqual(len(self.journal()), 5)

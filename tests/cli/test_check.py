@@ -172,7 +172,7 @@ class Right(CheckTest):
                 (self.folder / "p.frag").write_text(text.replace(old, new))
                 report = self.report_of("p.frag", "--vertex", "p.vert", code=6)
                 self.assertEqual((report["verdict"], [m["id"] for m in report["mistakes"]]), ("differs", ids or []), report)
-                self.assertEqual("no mistakes are looked for" in " ".join(self.notes(report, "hint")), not ids)
+                self.assertEqual("lambent does not search for mistakes" in " ".join(self.notes(report, "hint")), not ids)
 
     def test_printed_shaders_with_a_mistake(self):
         self.good("shader", "--light", "directional", "--light", "point:attenuation=1/0.1/0.02", "-q", "-o", "p")
@@ -394,7 +394,7 @@ class LectureStyle(CheckTest):
                 done = self.run_program("shader", "sphere", *scene, "--mistake", row["mistake"], "-o", f"{number:03}", "-q")
                 if done.returncode == 0:
                     break
-                self.assertIn(f"mistake '{row['mistake']}': the shader does not have what it spoils; expected {row['needs']}", done.stderr.decode())
+                self.assertIn(f"mistake '{row['mistake']}': the shader lacks the code that this mistake changes; expected {row['needs']}", done.stderr.decode())
             self.assertEqual(done.returncode, 0, row)
             used.setdefault("phong" in scene, []).append(f"{number:03}")
             expected[f"{number:03}.frag"] = row["mistake"]
@@ -451,7 +451,7 @@ class Refused(CheckTest):
             (self.folder / f"s.{ending}").write_text("#version 300 es\nprecision highp float;\n" + ("out vec4 pixel;\n" if ending == "frag" else "") + text)
         report = self.report_of("s.frag", "--vertex", "s.vert", code=6)
         self.assertEqual(report["verdict"], "refused")
-        self.assertIn("GLSL ES initialises globals with constants only: assign 'tint'", " ".join(self.notes(report, "hint")))
+        self.assertIn("GLSL ES can initialise globals only with constants: assign 'tint'", " ".join(self.notes(report, "hint")))
 
     def test_names_of_two(self):
         self.hints_of("pittsburgh", [("frag", "uniform float shininess;", "uniform float shininess; uniform vec3 eye_point;"),
@@ -524,7 +524,7 @@ class Unruly(CheckTest):
         self.assertEqual(reported[1]["tried"], reported[2]["tried"])
         self.assertTrue(1 <= reported[0]["tried"] <= 100 < reported[1]["tried"], [r["tried"] for r in reported])
         text = self.run_program("check", *words, "--scenes", "all", "-s", 48, "--search-limit", 100).stdout.decode()
-        self.assertIn(f"No explanation among {reported[0]['tried']} mistakes and sets of them; there the search ended, and --search-limit", text)
+        self.assertIn(f"None of {reported[0]['tried']} mistakes and sets of mistakes explains it; the search ended at its limit (--search-limit)", text)
         words = self.shader("oregon", [("frag", "dot(n, l) > 0.0 ?", "true ?")])
         for limit, ids in ((1, []), (10000, ["no-gate"])):
             self.assertEqual([m["id"] for m in self.report_of(*words, "--search-limit", limit, code=6)["mistakes"]], ids)
@@ -677,7 +677,7 @@ class Contracts(CheckTest):
     def own(self, old_names):
         """Oregon's contract with other names, as my.json, and its correct shaders with the same."""
         words = self.shader("oregon")
-        text = (ROOT / "src" / "check" / "contracts" / "oregon.json").read_text()
+        text = (ROOT / "classroom" / "check" / "contracts" / "oregon.json").read_text()
         for path, name in ((self.folder / "s.frag", "s.frag"), (self.folder / "s.vert", "s.vert")):
             shader = path.read_text()
             for old, new in old_names.items():
@@ -799,7 +799,7 @@ class Contracts(CheckTest):
                  ("frag", "(ambientStrength + diffuse + specularStrength * specular)", "(0.25 + diffuse + 0.7 * specular)")]
         report = self.report_of(*self.shader("learnopengl", edits))
         self.assertEqual(report["verdict"], "passes")
-        self.assertIn("taken from the shader's text", " ".join(self.notes(report, "hint")))
+        self.assertIn("from the shader's text: those that fit best", " ".join(self.notes(report, "hint")))
         words = self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")])
         self.assertIn("\"gate\": \"required\"", " ".join(self.notes(self.report_of(*words), "hint")))
         report = self.report_of(*words, *demanding(PROGRAM, "learnopengl", ["no-gate"], self.folder), code=6)

@@ -102,7 +102,7 @@ class Class(CheckTest):
         self.grade("--scenes", "gate", code=2)
         rows = self.grades()
         self.assertEqual({name: row["verdict"] for name, row in rows.items()}, {deepest: "passes", deepest + "/in": "no verdict"})
-        self.assertIn("too deep", rows[deepest + "/in"]["says"])
+        self.assertIn("too deeply", rows[deepest + "/in"]["says"])
 
     def test_outputs_that_cannot_be_written(self):
         """The verdicts are there, whatever becomes of the pictures."""

@@ -84,7 +84,7 @@ class Grades(CheckTest):
     GATE = [("frag", "dot(n, l) <= 0.0", "false")]
 
     def weighted(self, weights):
-        contract = json.loads((SHADERS.parent.parent / "src" / "check" / "contracts" / "pittsburgh.json").read_text())
+        contract = json.loads((SHADERS.parent.parent / "classroom" / "check" / "contracts" / "pittsburgh.json").read_text())
         (self.folder / "my.json").write_text(json.dumps({**contract, "weights": weights}))
         return ("--contract", "my.json", "--scenes", "all,gate,coarse")
 
@@ -146,7 +146,7 @@ class Sentences(CheckTest):
         for name, says, *edits in (
                 ("pittsburgh", "only the ambient term differs", ("frag", "vec4 ambient = ambient_product;", "vec4 ambient = 1.4 * ambient_product;")),
                 ("pittsburgh", "0.7 times as bright", ("frag", "vec4(color.rgb,", "vec4(0.7 * color.rgb,")),
-                ("nyu", "right with one light, wrong with several", ("frag", "lights[i].lightPosition - varyingPosition", "lights[i].lightPosition - (1.0 + 0.3 * float(i)) * varyingPosition")),
+                ("nyu", "correct with one light, wrong with several", ("frag", "lights[i].lightPosition - varyingPosition", "lights[i].lightPosition - (1.0 + 0.3 * float(i)) * varyingPosition")),
                 ("pittsburgh", "only directional lights differ", ("vert", "light.w == 0.0 ? light.xyz :", "light.w == 0.0 ? light.xyz * vec3(1.0, 0.6, 1.0) :")),
                 ("pittsburgh", "scenes differ, most of all", ("frag", PITTSBURGH_SUM, "0.8 * ambient + attenuation * (1.1 * diffuse + specular * ambient.r)"))):
             with self.subTest(says):

@@ -210,7 +210,7 @@ class Outputs(Case):
         for name in ("x.gif", "x.png.zip", ".png/x.gif"):
             self.bad(3, "cube.obj", "-o", name, says=name)
         self.bad(3, "cube.obj", "-o", "x.3mf", says="lambent cannot write .3mf; use .png")
-        self.bad(3, "cube.obj", "-o", "part-v1.0", says="the ending .0 names no picture format; expected .png")
+        self.bad(3, "cube.obj", "-o", "part-v1.0", says="the extension .0 is not a picture format; expected .png")
 
     def test_full_device(self):
         with open("/dev/full", "wb") as full:

@@ -98,7 +98,7 @@ class Hash(Case):
         (self.folder / "p.hash").write_text(text.replace("version ", "version 0.0.7-"))
         done = self.run_program("hash", "--check", "p.hash", "-s", 64)
         self.assertEqual((done.returncode, done.stdout), (0, b"3 equal\n"))
-        self.assertIn(b"p.hash is of version 0.0.7-", done.stderr)
+        self.assertIn(b"p.hash was written by version 0.0.7-", done.stderr)
         done = self.run_program("hash", "--check", "p.hash", "-b", "white", "-s", 64)
         self.assertEqual(done.returncode, 6)
         self.assertIn(b"'--size 64', and these are '--size 64 --background white'", done.stderr)

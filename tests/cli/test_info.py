@@ -81,9 +81,9 @@ class Info(GltfCase):
                                ("cone", grid(lambda x, y: 30 - abs(x - 15) - abs(y - 15)), "y")):
             (self.folder / f"{name}.obj").write_text(text)
             self.assertEqual(self.info(f"{name}.obj")[0]["up"], up, name)
-            self.assertEqual(b"z is taken as up" in self.good(f"{name}.obj", "-s", "32", "-o", "a.png").stderr, up == "z", name)
+            self.assertEqual(b"z is assumed to be up" in self.good(f"{name}.obj", "-s", "32", "-o", "a.png").stderr, up == "z", name)
             self.given.add(f"{name}.obj")
-        self.assertNotIn(b"z is taken", self.good("hills.obj", "--up", "y", "-s", "32", "-o", "a.png").stderr)
+        self.assertNotIn(b"z is assumed", self.good("hills.obj", "--up", "y", "-s", "32", "-o", "a.png").stderr)
         self.given.add("a.png")
 
     def test_drawing_memory(self):

@@ -358,7 +358,7 @@ class Materials(Pictures):
             f"property {kind} {name}\n" for kind, names in (("float", "xyz"), ("uchar", ("red", "green", "blue"))) for name in names)
         (self.folder / "own.ply").write_text(ply + "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                                              "0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n")
-        self.assertIn("colours of its own, which multiply", self.report("own.ply", "-s", 16, "--color", "white", "-o", "own.png")["warnings"][0])
+        self.assertIn("the model's own colours multiply", self.report("own.ply", "-s", 16, "--color", "white", "-o", "own.png")["warnings"][0])
         self.assertEqual(self.report("own.ply", "-s", 16, "--material", "ruby", "-o", "own.png")["warnings"], [])
 
     def test_back(self):
@@ -386,7 +386,7 @@ class Materials(Pictures):
         for value, says in {
             "bras": "did you mean 'brass'?", "": "empty", "kd=-1": "at least 0", "diffuse=-1/0/0": "at least 0", "kd=nan": "a number",
             "shininess=-2": "at least 0", "shininess=inf": "a number", "opacity=2": "from 0 to 1", "shinines=2": "did you mean 'shininess'?",
-            "gold,ruby": "expected key=value", "kd=1,kd=1": "given twice", "gold@": "nothing follows '@'", "fibre=maybe": "yes or no",
+            "gold,ruby": "expected key=value", "kd=1,kd=1": "given twice", "gold@": "nothing after '@'", "fibre=maybe": "yes or no",
             "specular=#ff000080": "without alpha", "#ff000080": "without alpha", "#ff80": "expected a colour", "rde": "did you mean 'red'?",
             "0.5": "a colour or key=value", "1/2": "expected a colour", "red,color=blue": "given twice", "diffuse=blurple": "expected a colour",
         }.items():

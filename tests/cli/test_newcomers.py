@@ -33,7 +33,7 @@ class Sentences(Case):
             "a.step": (2, reads, "as .stl"), "noise.step": (3, "this is a STEP file", reads, "as .stl"),
             "cub.obj": (2, "did you mean 'cube.obj'?"), "cube.OBJ": (2, "did you mean 'cube.obj'?"),
             r"C:\models\cube.obj": (2, "folders are separated by /"), "640": (2, SIZE), "open": (2, "did you mean 'view'?"),
-            "-i cube.obj": (1, "a model needs none: lambent MODEL"), "--input cube.obj": (1, "a model needs none"),
+            "-i cube.obj": (1, "a model needs no option: lambent MODEL"), "--input cube.obj": (1, "a model needs no option"),
             "diff cube.obj cube.png": (2, "diff compares two pictures, or two models"),
         })
 

@@ -189,9 +189,9 @@ class Patterns(Case):
     def test_mistakes(self):
         self.given |= {"a", "b"}
         for pattern, says in (("{name}.png", "found '{name}' in the name, expected one of {stem}, {ext}, {dir}, {view}, {size};"),
-                              ("{frame}.png", "found '{frame}'"), ("{stem.png", "'{stem.png' in the name, a brace without"),
-                              ("stem}.png", "'}.png' in the name, a brace"), ("{}.png", "found '{}'"),
-                              ("{a{b}}.png", "a brace without")):
+                              ("{frame}.png", "found '{frame}'"), ("{stem.png", "'{stem.png' in the name, an unmatched brace"),
+                              ("stem}.png", "'}.png' in the name, an unmatched brace"), ("{}.png", "found '{}'"),
+                              ("{a{b}}.png", "an unmatched brace")):
             self.bad(1, "cube.obj", "-o", pattern, says=[says, "option '--output'"])
         self.bad(1, "a/cube.stl", "b/deep/cube.stl", "-o", "{stem}.png",
                  says=["'a/cube.stl' and 'b/deep/cube.stl' would both be written to 'cube.png'", "{dir}"])
@@ -339,14 +339,14 @@ class Report(Case):
         """Says what would be written, and writes nothing; what drawing refuses is refused."""
         words = ("cube.obj", "-s", "40x30", "--samples", 2, "--light", "point:position=1/2/3", "--light", "ambient", "-b", "#fff", "--dry-run")
         text = self.good(*words, "-o", "a.jpg").stdout.decode()
-        for part in ("cube.obj\n", "obj, 12 triangles", "a.jpg, jpg, 40x30, 2 samples a pixel\n", "camera    eye ", "device    cpu",
+        for part in ("cube.obj\n", "obj, 12 triangles", "a.jpg, jpg, 40x30, 2 samples per pixel\n", "camera    eye ", "device    cpu",
                      "--size 40x30 --samples 2 --background '#fff' --light point:position=1/2/3 --light ambient"):
             self.assertIn(part, text)
         self.assertNotIn("--dry-run", text)
         self.good(*words, "--save-scene", "s.json", "-q")
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted({"cube.obj", *self.given}))
         (self.folder / "a.png").write_bytes(b"old")
-        self.assertIn(b"a.png, png, 40x30, 2 samples a pixel; replaces the file", self.good(*words, "-o", "a.png").stdout)
+        self.assertIn(b"a.png, png, 40x30, 2 samples per pixel; replaces the file", self.good(*words, "-o", "a.png").stdout)
         self.assertEqual((self.folder / "a.png").read_bytes(), b"old")
         report = json.loads(self.good(*words, "-o", "a.png", "--json").stdout)
         check_report(self, report)

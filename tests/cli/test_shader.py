@@ -260,7 +260,7 @@ class Shader(Case):
                     wrong.append(max(abs(a - b) for v in vertices for side in (0, 1) for a, b in zip(colors_of(0, *v)[side], expected(0, *v)[side])))
                 else:
                     self.assertEqual(done.returncode, 3)
-                    self.assertIn(b"the shader does not have what it spoils", done.stderr)
+                    self.assertIn(b"the shader lacks the code that this mistake changes", done.stderr)
             if wrong:
                 self.assertGreater(max(wrong), 0.02, row["mistake"])
             else:
@@ -277,7 +277,7 @@ class Shader(Case):
     def test_mistakes_that_do_not_apply(self):
         self.bad(1, "shader", "--mistake", "nogate", says="did you mean 'no-gate'?")
         self.bad(1, "shader", "--mistake", "no-gate", "--style", "full", says="options '--mistake' and '--style full'")
-        self.bad(3, "shader", "--mistake", "no-cone", says="mistake 'no-cone': the shader does not have what it spoils; expected a spotlight")
+        self.bad(3, "shader", "--mistake", "no-cone", says="mistake 'no-cone': the shader lacks the code that this mistake changes; expected a spotlight")
 
     def test_mistakes(self):
         """Each mistake edits the text, and says what it is."""

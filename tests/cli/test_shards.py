@@ -193,7 +193,7 @@ class Shards(Batch):
         self.assertIn("shares one list", self.models("b/2.stl", "@list", "--shard", "1/2", "--shard-by", "list", code=1))
         self.assertIn("shares one list", self.models("@list", "@list", "--shard", "1/2", "--shard-by", "list", code=1))
         self.assertIn("not a regular file", self.models("-", "--shard", "1/2", "--shard-by", "list", code=1))
-        self.assertIn("goes with --shard", self.models("@list", "--shard-by", "list", code=1))
+        self.assertIn("requires --shard", self.models("@list", "--shard-by", "list", code=1))
 
     def test_the_list_of_the_documentation(self):
         """Its line sorts any names by their pictures; shards of that list draw each once."""
@@ -254,7 +254,7 @@ class Shards(Batch):
         self.batch("in", "-o", "out/", "--shard", "03/12")
         self.assertTrue((self.folder / "out/lambent-03-of-12.jsonl").exists())
         done = self.batch("in", "-o", "out/", "--shard", "1/2", code=1)
-        self.assertIn("lambent-03-of-12.jsonl is of a run with 12 shards", done.stderr.decode())
+        self.assertIn("lambent-03-of-12.jsonl belongs to a run with 12 shards", done.stderr.decode())
         self.assertEqual(len(self.pictures()), len(self.journal("out/lambent-03-of-12.jsonl")))
         self.batch("in", "-o", "out/", "--shard", "4/12")
 

@@ -128,7 +128,7 @@ class Show(Case):
     def test_wrong(self):
         self.bad(1, "cube.obj", "--show", "diffuze", says=("diffuze", "did you mean 'diffuse'?", "overdraw"))
         self.bad(1, "cube.obj", "--show", "light", says="light:NAME")
-        self.bad(1, "cube.obj", "--show", "n.l:", says="behind the colon")
+        self.bad(1, "cube.obj", "--show", "n.l:", says="after the colon")
         self.bad(1, "cube.obj", "--show", "light:kye", says=("'kye'", "'key', 'fill', 'rim', 'sky'"))
         self.bad(1, "cube.obj", "--show", "n.h:sky", says="no light with a direction is 'sky'")
         self.bad(1, "cube.obj", "--show", "n.l", "--rig", "none", says="there is none")

@@ -251,7 +251,7 @@ class Refusals(Jobs):
                 ({"id": "x", "model": 3}, "key 'model': found an integer", 1), ({"id": "x", "model": ""}, "key 'model': is empty", 1),
                 ({"id": "x", "model": "-"}, "standard input", 1), ({"id": "x", "data": "A"}, "base64", 1), ({"id": "x", "data": "AAA!"}, "character 3", 1),
                 ({"id": "x", "data": "AB=="}, "base64", 1), ({"id": "x", "data": "AAAA", "name": "../x"}, "without a folder", 1),
-                ({**model, "name": "a"}, "with key 'data' alone", 1), ({**model, "options": 3}, "key 'options'", 1), ({**model, "options": [None]}, "word 1", 1),
+                ({**model, "name": "a"}, "only with key 'data'", 1), ({**model, "options": 3}, "key 'options'", 1), ({**model, "options": [None]}, "word 1", 1),
                 ({**model, "options": ["x"]}, "unexpected word 'x'", 1), ({**model, "options": ["-"]}, "unexpected word '-'", 1),
                 ({**model, "options": ["--"] + ["a"]}, "unexpected word 'a'", 1), ({**model, "options": ["-s"] * 1001}, "more than 1000", 1),
                 ({**model, "options": {"sise": 3}}, "did you mean '--size'?", 1), ({**model, "options": {"size": {}}}, "'size'", 1),
@@ -273,7 +273,7 @@ class Refusals(Jobs):
                               "journal": "x", "jobs": "-", "files-from": "in/cube.obj", "resume": True, "isolate": True, "report": "x.html", "json": True,
                               "verbose": True, "dry-run": True, "help": True, "version": True, "save-scene": "out/x.json", "output": "out/x.png",
                               "font": "in/cube.obj", "repeat": 3, "gl-device": "1", "durable": True}.items():
-            self.refuse({"id": 1, "model": "teapot", "options": {option: value}}, f"option '--{option}' is not a job's", 1)
+            self.refuse({"id": 1, "model": "teapot", "options": {option: value}}, f"option '--{option}' is not allowed in a job", 1)
         self.assertEqual(sorted(os.listdir(self.folder / "out")), [])
 
     def test_paths(self):
@@ -328,7 +328,7 @@ class Refusals(Jobs):
         worker = self.start("-j", "1")
         worker.say({"id": "a", "model": "teapot", "options": {"size": 3000, "samples": 16}}, {"id": "a", "model": "teapot", "options": {"size": 8}},
                    {"id": 1, "model": "teapot", "options": {"size": 8}}, {"id": "1", "model": "teapot", "options": {"size": 8}})
-        self.assertEqual(worker.answer(None)["error"], "line 2: key 'id': a job of this id waits or is drawn")
+        self.assertEqual(worker.answer(None)["error"], "line 2: key 'id': another job with this id is waiting or being drawn")
         worker.say({"cancel": "a"})
         worker.answer("a"), worker.answer(1), worker.answer("1")
         worker.say({"id": "a", "model": "teapot", "options": {"size": 8}})
@@ -351,7 +351,7 @@ class Refusals(Jobs):
             self.assertIn(says, done.stderr.decode())
         self.assertIn(b"-j 4 sets", self.run_program("batch", "in", "--jobs", "4").stderr)
         self.assertIn(b"lambent batch --jobs -", self.run_program("in/cube.stl", "--jobs", "-").stderr)
-        self.assertIn(b"goes with --jobs", self.run_program("batch", "in", "--ahead", "4").stderr)
+        self.assertIn(b"requires --jobs", self.run_program("batch", "in", "--ahead", "4").stderr)
         done = self.run_program("batch", "--jobs", "none")
         self.assertEqual((done.returncode, done.stderr), (2, b"lambent: none: cannot read the jobs: No such file or directory\n"))
 

@@ -610,7 +610,7 @@ static void test_layers(void **state)
     assert_true(m->attenuation_color.r == 0.5f && m->attenuation_color.g == 1 && m->attenuation_color.b == 0);
     assert_non_null(strstr(lam_scene_warning(scene, 0),
                            "materials[0].extensions.KHR_materials_specular.specularColorFactor: found -1, which the "
-                           "standard does not allow; 0 is used, and other factors are cut likewise"));
+                           "standard does not allow; 0 is used, and other factors are clamped too"));
     assert_null(lam_scene_warning(scene, 1));
     for (int i = 1; i < 3; i++) {
         lam_material plain = lam_material_default();

@@ -416,8 +416,9 @@ static void test_libraries(void **unused)
     scene = lam_scene_load_memory(text, strlen(text), "m.obj", &params, NULL, &error);
     assert_int_equal(counts.opened, 256);
     assert_int_equal(lam_scene_material_count(scene), 256);
-    assert_string_equal(lam_scene_warning(scene, 0), "m.obj:257: names more than 256 material files; no more are read, "
-                                                     "and their materials are drawn in neutral grey");
+    assert_string_equal(lam_scene_warning(scene, 0),
+                        "m.obj:257: names more than 256 material files; the others are ignored, "
+                        "and their materials are drawn in neutral grey");
     assert_null(lam_scene_warning(scene, 1));
     lam_scene_free(scene);
     free(text);

@@ -245,9 +245,9 @@ static void test_errors(void **unused)
              "a list of linear numbers"),
         WITH("\"gl1\": 1", "gl1: found 1, expected true or false"),
         WITH("\"stage\": \"vertex\", \"shading\": \"phong\"",
-             "stage: Phong shading has the stage fragment; application and vertex go with flat and gouraud"),
+             "stage: Phong shading needs the stage fragment; application and vertex work with flat and gouraud"),
         WITH("\"stage\": \"fragment\", \"shading\": \"gouraud\"",
-             "stage: Gouraud shading has the stages application and vertex; fragment goes with flat and "
+             "stage: Gouraud shading needs the stage application or vertex; fragment works with flat and "
              "phong"),
         WITH("\"environment\": {\"rotation\": 5}", "environment: expected one of faces, equirectangular and builtin"),
         WITH("\"environment\": {\"faces\": [\"a\"]}",
@@ -318,7 +318,7 @@ static void test_errors(void **unused)
               ": inner and outer are given beside cutoff or exponent, expected one pair of them"),
         LIGHT("\"type\": \"spot\", \"direction\": [0, 0, 0]", ".direction: found 0, 0, 0, expected a direction"),
         LIGHT("\"type\": \"point\", \"frame\": \"object\", \"object\": \"cube\"", ".object: no object is named 'cube'"),
-        LIGHT("\"type\": \"point\", \"object\": \"sphere\"", ".object: goes only with \"frame\": \"object\""),
+        LIGHT("\"type\": \"point\", \"object\": \"sphere\"", ".object: is allowed only with \"frame\": \"object\""),
         LIGHT("\"type\": \"point\", \"intensity\": 1e30, \"color\": [1e30, 0, 0]",
               ": point light: diffuse.r is inf, expected a finite number of 0 or more"),
         WITH("\"lights\": {}", "lights: found an object, expected a list of lights, [ … ]"),

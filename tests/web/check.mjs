@@ -174,7 +174,7 @@ const refused = (asked) => {
     return error.message;
   }
 };
-ok(refused({ fragment: 'void main() {}' }).startsWith('no verdict: the names fit no known contract'), 'a shader of no contract is refused', refused({ fragment: 'void main() {}' }));
+ok(refused({ fragment: 'void main() {}' }).startsWith('no verdict: the names match no known contract'), 'a shader of no contract is refused', refused({ fragment: 'void main() {}' }));
 ok(refused({ fragment: 'void main() {}', contract: 'x' }) === "there is no contract 'x'", 'a contract that is not there is refused', refused({ fragment: '', contract: 'x' }));
 const lists = empty.lists();
 ok(lists.contracts.length >= 10 && lists.mistakes.length > 50 && lists.scenes.length > 10, 'the lists', JSON.stringify(lists).slice(0, 200));

@@ -1,8 +1,7 @@
 // json.h: writes JSON values one after the other, on one line.
 //
-// Numbers are written with the fewest digits that read back as the same double, in any locale, so that a camera copied
-// from a report reproduces the picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another
-// number.)
+// Numbers are written with the fewest digits that parse to the same double, in any locale, so that a camera copied from
+// a report reproduces the picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another number.)
 #ifndef JSON_H
 #define JSON_H
 
@@ -21,15 +20,15 @@ struct json {
 void json_open(struct json *json, const char *key, char bracket); // '{' or '['
 void json_close(struct json *json, char bracket);                 // '}' or ']'
 void json_text(struct json *json, const char *key,
-               const char *text); // NULL: null; bytes that are not UTF-8: U+FFFD
-// A sentence of the library, with options in place of its fields (option_names.h); NULL: null.
+               const char *text); // writes null for NULL, U+FFFD for invalid UTF-8
+// Writes a sentence of the library, with fields replaced by options (option_names.h); NULL: null.
 void json_message(struct json *json, const char *key, const char *text);
-void json_number(struct json *json, const char *key, double value); // not finite: null
+void json_number(struct json *json, const char *key, double value); // writes null if it is not finite
 void json_count(struct json *json, const char *key, uint64_t value);
 void json_none(struct json *json, const char *key);
 void json_flag(struct json *json, const char *key, bool value);
 
-// Lists of numbers.
+// Write lists of numbers.
 void json_numbers(struct json *json, const char *key, const double *values, int count);
 void json_vector(struct json *json, const char *key, lam_vec3 v);
 

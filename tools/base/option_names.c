@@ -1,4 +1,5 @@
-// option_names.c: the options that set the library's fields. Its sentences name fields, since a program that uses it has no options.
+// option_names.c: the options that set the library's fields. The sentences of the library name fields, since programs
+// that use it have no options.
 #include "option_names.h"
 
 #include <stdbool.h>
@@ -42,7 +43,8 @@ static size_t put_key(const char *key, char *out)
     return used;
 }
 
-// Writes the option for the field at the start of `text`. Returns the field's length, 0: it is none.
+// Writes the option for the field at the start of `text`. Returns the length of the field, or 0 if the text does not
+// begin with a field.
 static size_t put_option(const char *text, char *out, size_t *used)
 {
     static const char draw[] = "lam_draw_params.";

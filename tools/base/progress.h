@@ -18,7 +18,7 @@ void progress_start(struct progress *progress, const char *model, bool allowed);
 // Sets the fraction of the whole for the next call. NULL means no progress is shown.
 void progress_phase(struct progress *progress, double from, double span);
 
-// The callback of lam_control; `user` is a struct progress.
+// Implements the callback of lam_control; `user` is a struct progress.
 void progress_update(void *user, double share, const char *step);
 
 // Erases the bar.

@@ -23,7 +23,7 @@ uint64_t xxh64_of(const void *bytes, size_t size);
 // Hashes the bytes of a file. Returns false and sets errno if it cannot be read or is not a regular file.
 bool xxh64_file(const char *path, uint64_t *hash);
 
-// Convert to and from "xxh64:0123456789abcdef". The latter returns false if the text has another form.
+// Convert to and from "xxh64:0123456789abcdef". The latter returns false if the text has a different form.
 enum { XXH64_TEXT = 24 };
 void xxh64_print(uint64_t hash, char text[XXH64_TEXT]);
 bool xxh64_parse(const char *text, uint64_t *hash);

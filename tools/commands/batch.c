@@ -27,7 +27,7 @@ static bool check_jobs(int operands, const struct options *o, lam_error *error)
             return complain(error, LAM_BAD_ARGUMENT, "options '--jobs' and '--%s' cannot be used together", others[i]);
     if (o->batch.skip_same && !o->batch.journal)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--skip-same' goes by a journal, with --jobs expected --journal FILE");
+                        "option '--skip-same' needs a journal; with --jobs, name it: --journal FILE");
     return job_check_options(o, error);
 }
 
@@ -36,7 +36,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
     if (o->batch.jobs)
         return check_jobs(operands, o, error);
     if (option_given(o, "ahead") || option_given(o, "line-limit"))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes with --jobs",
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' requires --jobs",
                         option_given(o, "ahead") ? "ahead" : "line-limit");
     if (!operands && !o->batch.lists.count)
         return complain(error, LAM_BAD_ARGUMENT,
@@ -48,11 +48,11 @@ static bool check(int operands, const struct options *o, lam_error *error)
     if (o->picture.term != TERM_AUTO && o->picture.term != TERM_OFF)
         return complain(error, LAM_BAD_ARGUMENT, "batch: option '--term' shows a single picture, but batch draws many");
     if (o->picture.save_scene)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' works only with a single model");
     return job_check_options(o, error);
 }
 
-// --dry-run: prints the picture's path for each model.
+// Prints the picture's path for each model (--dry-run).
 static bool print_mapping(const struct batch_plan *plan, lam_error *error)
 {
     for (size_t i = 0; i < plan->count; i++)

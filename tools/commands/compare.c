@@ -105,7 +105,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     }
     if (!options->picture.background)
         options->picture.background = SHEET_BACKGROUND;
-    // Sheets compare methods of local lighting, so global effects appear only on request.
+    // Sheets compare methods of local lighting, so global effects are drawn only on request.
     if (!option_given(options, "ao"))
         options->draw.occlusion = LAM_OCCLUSION_OFF;
     options->shader.lecture_device = c->sheet.mistakes;
@@ -193,8 +193,8 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     bool ok = shader && !shader->application;
     if (shader && !ok)
         complain(error, LAM_BAD_ARGUMENT,
-                 "options '--stage application' and '--across mistake': shaders draw the sheet, and they compute no "
-                 "light in this stage; expected '--stage vertex' or '--stage fragment'");
+                 "options '--stage application' and '--across mistake': shaders draw the sheet, but in this stage they "
+                 "compute no light; expected '--stage vertex' or '--stage fragment'");
     lam_shader_free(shader);
     lam_scene_free(job.scene);
     options_free(&options);

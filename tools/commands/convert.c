@@ -78,7 +78,7 @@ static bool check(struct convert *c, lam_error *error)
                         "convert needs a file name whose extension selects the format, found '-'");
     if (c->options->convert.thumbnail && strcasecmp(ending(c->output), "glb") != 0)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--thumbnail' goes with an output that ends in .glb, found %.200s", c->output);
+                        "option '--thumbnail' requires an output with the extension .glb, found %.200s", c->output);
     if (c->options->convert.thumbnail && strcmp(c->model, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--thumbnail' reads the model twice, so it cannot read '-'");
     if (!(c->format = find_format(c->output, error)) || !output_check(c->output, "", OUTPUT_NAMED, error))
@@ -88,7 +88,8 @@ static bool check(struct convert *c, lam_error *error)
     return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and the output are the same file", c->output);
 }
 
-// The library writes _ for a letter that OBJ and MTL files cannot name.
+// Returns whether the library writes a given letter of a name as `written`: it writes _ for letters that OBJ and MTL
+// files cannot name.
 static bool is_letter(char given, char written)
 {
     return written == given ||
@@ -107,7 +108,7 @@ static bool is_beside(const struct convert *c, const char *path)
     return is && (strcmp(rest, ".mtl") == 0 || (digits && digits <= 4 && strcmp(rest + 1 + digits, ".png") == 0));
 }
 
-// A file beside the model stays if the model is not there yet: somebody else wrote it.
+// If the model does not exist yet, its companion files are not replaced, because another program wrote them.
 static enum writer_right right_of(void *user, const char *path)
 {
     const struct convert *c = user;
@@ -126,7 +127,7 @@ static bool check_beside(const struct convert *c, const char *path, lam_error *e
                path, c->output);
 }
 
-// Writes the model last: it refers to the files beside it.
+// Writes the model last, because it refers to its companion files.
 static bool write_files(struct convert *c, lam_error *error)
 {
     int count = 0, filled = 0;

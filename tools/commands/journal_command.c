@@ -193,7 +193,7 @@ static void print_json(const struct journal_sum *sum, const struct batch_tally *
 
 // --- written files
 
-// Writes the folder of the following pictures, taken from the line that names it.
+// Writes the folder of the following pictures, copied from the line that states it.
 static void write_folder(FILE *out, const char *line)
 {
     json_t *run = json_loadb(line, strcspn(line, "\n"), 0, NULL), *folder = json_object_get(run, "folder");
@@ -205,7 +205,7 @@ static void write_folder(FILE *out, const char *line)
     json_decref(run);
 }
 
-// Writes one journal of all pictures with the latest line of each, as a run without shards would have written it.
+// Writes one journal of all pictures with the latest line of each, as a run without shards would write it.
 static bool write_merged(const struct journal_sum *sum, size_t pictures, const char *path, lam_error *error)
 {
     char *text = NULL;

@@ -30,7 +30,7 @@ static bool check_together(int count, char **models, const struct options *o, la
                         : o->batch.ahead ? "ahead"
                                          : "line-limit");
     if (o->picture.save_scene && (count > 1 || o->batch.lists.count))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single model, found %s",
+        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' works only with a single model, found %s",
                         o->batch.lists.count ? "a list of models" : "several");
     if (o->picture.save_scene && strcmp(models[0], "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT,
@@ -38,13 +38,13 @@ static bool check_together(int count, char **models, const struct options *o, la
     if (o->picture.save_scene && strcmp(o->picture.save_scene, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' writes a file, expected its name");
     if ((o->batch.resume || o->batch.skip_same) && !o->batch.journal)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes by a journal, expected --journal FILE",
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a journal, expected --journal FILE",
                         o->batch.resume ? "resume" : "skip-same");
     for (int i = 0; i < count; i++) {
         if (!*models[i])
             return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");
         if (strcmp(models[i], "-") == 0 && count > 1)
-            return complain(error, LAM_BAD_ARGUMENT, "'-' (standard input) goes only with a single model");
+            return complain(error, LAM_BAD_ARGUMENT, "'-' (standard input) works only with a single model");
         if (strcmp(models[i], "-") == 0 && isatty(STDIN_FILENO))
             return complain(error, LAM_BAD_ARGUMENT,
                             "standard input is a terminal, expected a model: lambent - < FILE");

@@ -21,7 +21,7 @@ static bool is_model_file(const char *output)
     return false;
 }
 
-// Adds the model formats to the error about an extension that is no picture format.
+// Adds the model formats to the error about an extension that is not a picture format.
 static bool check_ending(const char *output, lam_error *error)
 {
     lam_pixel_format format;

@@ -1,4 +1,4 @@
-// view_windows.c: refuses the viewer, which draws in processes of its own.
+// view_windows.c: rejects the viewer on Windows, because the viewer draws in separate processes.
 #include "command.h"
 
 #include "console.h"

@@ -73,7 +73,7 @@ static void complete_topics(const struct typed_word *typed)
             complete_offer(typed, o->name, "", o->summary);
 }
 
-// Completes operand number `index`, from 0.
+// Completes operand number `index`, counted from 0.
 static void complete_operand(const struct command *command, int index, const char *word)
 {
     struct typed_word typed = whole(word);
@@ -121,7 +121,7 @@ int run_complete(int count, char **words, const struct options *options)
         first = -1;
     command = command ? command : command_table;
     bool only_operands = false;
-    const struct option *waiting = NULL; // an option that expects a value
+    const struct option *waiting = NULL; // an option that still needs a value
     for (int at = 0; at < count - 1; at++) {
         if (at == first)
             continue;

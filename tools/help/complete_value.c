@@ -37,7 +37,7 @@ static struct typed_word after_comma(const struct typed_word *typed)
 static void complete_words(const struct word *words, const struct typed_word *typed)
 {
     for (const struct word *w = words; w->name; w++) {
-        // A name in capitals is a placeholder for the user's text: "light:NAME".
+        // The user replaces a name in capitals with a text: "light:NAME".
         char fixed[64];
         snprintf(fixed, sizeof fixed, "%s", w->name);
         char *colon = strchr(fixed, ':');

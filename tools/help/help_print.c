@@ -92,8 +92,8 @@ void help_option(const struct option *option, const struct command *command, boo
      1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK |                  \
      1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
 
-// A command's help describes its own options, options that are the only accepted ones of their group, and options with
-// a different default.
+// A command's help describes the options that are its own, that are the only accepted options of their group, or that
+// have a different default.
 static bool is_shared(const struct option *o, const struct command *command)
 {
     return command != command_table && SHARED & command->groups & 1ull << o->group &&

@@ -10,15 +10,15 @@ enum { HELP_WIDTH = 100, HELP_COLUMN = 29, HELP_EXAMPLE_COLUMN = 41 };
 // omitted.
 void help_text(const char *text, int indent, int width);
 
-// Prints a row: `left`, then the text from `column` on, wrapped at `width` columns, or on the next line if `left` is
-// too long.
+// Prints a row: Prints `left`, and then the text from `column` on, wrapped at `width` columns. The text begins on the
+// next line if `left` is too long.
 void help_row(const char *left, int column, int width, const char *text);
 
 // Prints an option's row: its summary and default, for `command` if it has its own. With `details`, prints all
 // information about it.
 void help_option(const struct option *option, const struct command *command, bool details);
 
-// Prints the options that a command accepts, by group: its own first; of shared options only the names.
+// Prints the options that a command accepts, by group: its own options first; for shared options only the names.
 void help_options(const struct command *command);
 
 void help_commands(void);   // commands that must be named explicitly

@@ -1,8 +1,8 @@
 // animate.c: --turntable and --sweep: the frames of one model.
 //
-// Each frame is a picture with the options that its words add to the command line. The scene is loaded and marked once,
-// and reset before each frame; it is only loaded again for an option that affects loading (option.loads). The camera
-// and exposure of the first frame are used for all frames.
+// Each frame is a picture drawn with the command line's options, plus the options that the sweeps and the turntable set
+// for that frame. The scene is loaded and marked once, and reset before each frame; it is only loaded again for an
+// option that affects loading (option.loads). The camera and exposure of the first frame are used for all frames.
 #include "animate.h"
 
 #include <stdio.h>
@@ -54,7 +54,7 @@ bool animation_check(const struct options *o, lam_error *error)
                only_with(o, "turntable-light", "--turntable", error);
     if (o->animation.turntable && o->animation.frames)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--frames' is for --sweep alone: --turntable has its own number");
+                        "option '--frames' applies only to --sweep: --turntable sets its own number");
     if (o->batch.view_count > 1 || o->batch.size_count > 1)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs one %s; found several", animation_option(o),
                         o->batch.view_count > 1 ? "--view" : "--size");
@@ -110,7 +110,7 @@ bool animation_is_frame(const struct options *o, const char *pattern, const char
     return strcmp(pattern, path) == 0;
 }
 
-// Returns the name of a frame's file, with the number instead of each {frame}.
+// Returns the name of a frame's file, with each {frame} replaced by the frame number.
 static char *path_of_frame(const struct animation *a, int frame)
 {
     int digits = digits_of(a->count);
@@ -147,7 +147,7 @@ static char up_letter(lam_up up)
     return up == LAM_UP_X || up == LAM_UP_NEGATIVE_X ? 'x' : up == LAM_UP_Z || up == LAM_UP_NEGATIVE_Z ? 'z' : 'y';
 }
 
-// Adds the rotations for fitting the camera: if it circles the model, all of them.
+// Adds the rotations for fitting the camera: all of them if the camera circles the model.
 static bool add_turns(struct animation *a, struct options *o, lam_error *error)
 {
     static const char *const all[] = {"x:0", "y:0", "z:0"};
@@ -178,7 +178,7 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     struct options *o = &a->frame;
     for (int i = 0; i < a->sweep_count; i++) {
         const struct sweep *sweep = &a->sweeps[i];
-        // The camera moves to other angles, starting from the first frame's camera.
+        // In later frames the camera moves to other angles, relative to the first frame's camera.
         bool angle = sweep_is_option(sweep, "azimuth") || sweep_is_option(sweep, "elevation");
         if (sweep_words(sweep, angle ? 0 : frame, a->count, &a->words[i])) {
             words[count++] = a->words[i].option;
@@ -201,7 +201,7 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
 }
 
-// After the first frame: its exposure, and the dim studio added to it, are used for all frames.
+// After the first frame, keeps its exposure, and the dim studio that was added to it, for all later frames.
 static void keep_exposure(const struct job *job, struct options *o)
 {
     if (!job->exposure_fitted)
@@ -282,7 +282,7 @@ static bool find_length(const struct job *job, double *length_s, lam_error *erro
                                      "expected time=FROM..TO");
 }
 
-// Completes a time sweep without numbers, and the number of frames.
+// If a time sweep gives no range, fills in the animation's whole length, and sets the number of frames.
 static bool set_length(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;
@@ -342,7 +342,7 @@ static void extend(lam_vec3 *low, lam_vec3 *high, lam_vec3 a, lam_vec3 b)
     high->z = b.z > high->z ? b.z : high->z;
 }
 
-// If frames pose the model differently: finds one point to rotate about, and one camera, for the box of all poses.
+// If frames pose the model differently, finds one point to rotate about, and one camera, for the box of all poses.
 static bool fit_poses(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;

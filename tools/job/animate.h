@@ -14,7 +14,7 @@ bool animation_run(struct job *job, struct progress *progress, lam_error *error)
 // Returns the number of frames of the options.
 int animation_count(const struct options *o);
 
-// Returns whether a path is the file of one of these frames: `pattern` contains {frame} instead of the number.
+// Returns whether a path is the file of one of these frames: `pattern` is the name with {frame} in place of the number.
 bool animation_is_frame(const struct options *o, const char *pattern, const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-// glass.c: notes about glass: it is tinted over a transparent background, or the drawing method does not show it.
+// glass.c: adds notes about glass: its tint is only correct over white, or the drawing method does not show it.
 #include "job_steps.h"
 
 static bool is_grey(float r, float g, float b) { return r == g && g == b; }
@@ -29,9 +29,8 @@ void job_note_glass(struct job *job, const lam_draw_params *draw)
         return;
     for (int i = 0; i < lam_scene_material_count(job->scene); i++)
         if (colors_light(lam_scene_material(job->scene, i))) {
-            lam_scene_add_warning(job->scene,
-                                  "the transparent picture of coloured glass is right over white; for another "
-                                  "colour behind it, add --background COLOUR");
+            lam_scene_add_warning(job->scene, "the transparent picture of coloured glass is correct over white; for "
+                                              "another colour behind it, add --background COLOUR");
             return;
         }
 }

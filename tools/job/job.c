@@ -55,8 +55,8 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
     return true;
 }
 
-// Returns the crease angle for the library, where 0 means the default: a user's 0 becomes a negligible angle, which
-// splits at every edge.
+// Returns the crease angle for the library, where 0 means the default: a user's 0 becomes a negligible angle, at which
+// normals are split at every edge.
 static double crease_of(const struct options *o)
 {
     return o->shading.crease_angle_deg < 0   ? 0
@@ -138,7 +138,7 @@ static bool draws_once(const struct job *job)
            !job->animation;
 }
 
-// Flat and Gouraud shading ignore most maps.
+// Warns of maps that flat and Gouraud shading ignore.
 static void warn_maps(struct job *job)
 {
     static const lam_map fine[] = {LAM_MAP_NORMAL,   LAM_MAP_BUMP,      LAM_MAP_SPECULAR, LAM_MAP_SHININESS,
@@ -226,7 +226,7 @@ static void warn_color(lam_scene *scene, const char *option, const char *value, 
         lam_scene_add_warning(scene, text);
 }
 
-// Light colours may be above 1: only values of a light that does not fade with distance are suspected to be bytes.
+// Light colours may be above 1, so only lights that do not fade with distance are checked for byte values.
 static void warn_colors(struct job *job)
 {
     const struct options *o = job->options;

@@ -114,11 +114,11 @@ void job_free(struct job *job);
 // Loads and draws; the picture remains in `image`. Output and format are ignored.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
-// The first step of job_run, for commands that draw nothing: loads the model or builds the shape if the job has no
+// Runs the first step of job_run, for commands that draw nothing: loads the model or builds the shape if the job has no
 // scene, and applies the settings of a scene file.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
-// The second step: applies the options for materials, rotations, camera and lights.
+// Runs the second step: applies the options for materials, rotations, camera and lights.
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error);
 
 // Runs both steps and explains one pixel. Returns NULL on failure.

@@ -4,8 +4,8 @@
 
 #include <lambent/lambent.h>
 
-// Returns whether writing `path` would leave the scene's input files unchanged. Fails with LAM_BAD_ARGUMENT. A scene
-// file itself may be replaced by another one (`own`), but not the files that it names.
+// Returns whether writing `path` would leave the scene's input files unchanged. Fails with LAM_BAD_ARGUMENT. With
+// `own`, the scene file itself may be replaced by another scene file, but not the files that it names.
 bool job_check_inputs(const lam_scene *scene, const char *path, bool own, lam_error *error);
 
 // Returns whether both paths lead to the same existing file.

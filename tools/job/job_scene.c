@@ -43,7 +43,7 @@ static void warn_of_own_colors(lam_scene *scene)
 {
     for (int i = 0; i < lam_scene_mesh_count(scene); i++)
         if (lam_scene_mesh(scene, i)->colors) {
-            lam_scene_add_warning(scene, "option '--color': the model has colours of its own, which multiply this one");
+            lam_scene_add_warning(scene, "option '--color': the model's own colours multiply this colour");
             return;
         }
 }
@@ -265,7 +265,7 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
         draw.shading = by_vertex ? LAM_SHADING_GOURAUD : LAM_SHADING_PHONG;
     draw.color = (lam_color_mode)o->picture.color_mode;
     draw.exposure = o->picture.exposure_kind == EXPOSURE_LITERAL ? o->picture.exposure : 0;
-    // Who chooses an exposure or a colour gets it as it is.
+    // If the user chooses an exposure or a colour, the picture uses exactly that value.
     if (o->picture.exposure_kind != EXPOSURE_BY_FILE || o->material.model_color || o->material.materials.count)
         draw.brighten = LAM_BRIGHTEN_OFF;
     draw.rig = rig;

@@ -22,7 +22,7 @@ bool job_light_again(struct job *job, lam_error *error);
 // Allocates job->image. Fails with LAM_LIMIT.
 bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error);
 
-// Draws the arranged scene `count` times and adds the reports to `reports`. `from` and `span` are its part of the
+// Draws the arranged scene `count` times and appends the reports to `reports`. `from` and `span` are its part of the
 // progress.
 bool job_draw_frames(struct job *job, double from, double span, int count, lam_frame_report *reports,
                      struct progress *progress, lam_error *error);

@@ -1,4 +1,4 @@
-// light_markers.c: --show-lights: adds markers at the lights.
+// light_markers.c: implements --show-lights: adds markers at the lights.
 #include "light_markers.h"
 
 #include <math.h>
@@ -64,7 +64,7 @@ static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
     return depth <= 0 || x > kx * depth + radius * sqrt(1 + kx * kx) || y > ky * depth + radius * sqrt(1 + ky * ky);
 }
 
-// Lists lights by name, or else by number from 1: the first few, and the number of the others.
+// Lists the first few lights by name, or else by number, starting at 1, and counts the others.
 struct names {
     char text[160];
     int count, more; // total number, and number of omitted ones

@@ -1,4 +1,4 @@
-// light_markers.h: --show-lights: adds markers at the lights.
+// light_markers.h: implements --show-lights: adds markers at the lights.
 #ifndef LIGHT_MARKERS_H
 #define LIGHT_MARKERS_H
 

@@ -1,5 +1,5 @@
-// model_guess.c: suggestions for a model that cannot be read: another command, another file, or an object found
-// instead.
+// model_guess.c: makes suggestions for a model that cannot be read: another command, a similar file, or the kind of
+// object found instead.
 #include "model_guess.h"
 
 #include <dirent.h>

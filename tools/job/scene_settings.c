@@ -37,7 +37,7 @@ void scene_settings_apply(struct job *job)
     struct options *own = &job->own;
     const lam_picture_settings *s = &job->settings;
     options_drop_settings(own);
-    if (takes_setting(job, LAM_SETTING_SIZE, "size") && !own->picture.has_size) { // a sheet decides its pictures' size
+    if (takes_setting(job, LAM_SETTING_SIZE, "size") && !own->picture.has_size) { // a sheet sets its pictures' size
         own->picture.width = s->width;
         own->picture.height = s->height;
     }
@@ -131,7 +131,7 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     const lam_draw_params *draw = &job->draw;
     lam_picture_settings s = job->settings;
     s.present &= LAM_SETTING_ENVIRONMENT;
-    // A scene file is not brightened: it says how bright it is.
+    // A scene file is not brightened automatically, because it states its exposure.
     const double brightened = job->times.frame.brightened;
     s.present |= draw->exposure != 0 || brightened != 0 || job->file_lights ? LAM_SETTING_EXPOSURE : 0;
     s.present |= draw->tone != LAM_TONE_AUTO ? LAM_SETTING_TONE : 0;

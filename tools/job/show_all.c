@@ -1,4 +1,4 @@
-// show_all.c: --show all: the picture and all terms of its light as layers of one EXR picture.
+// show_all.c: implements --show all: writes the picture and all terms of its light as layers of one EXR picture.
 #include "show_all.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// show_all.h: --show all: the picture and all terms of its light as layers of one EXR picture.
+// show_all.h: implements --show all: writes the picture and all terms of its light as layers of one EXR picture.
 #ifndef SHOW_ALL_H
 #define SHOW_ALL_H
 

@@ -1,5 +1,5 @@
-// batch_isolate.c: runs a pass over the models with a separate process for each. The process sends its results back; if
-// it ends before that, its pictures get the class `crashed`.
+// batch_isolate.c: draws the models of a pass in a separate process each. The process sends its results back; if it
+// ends before that, its pictures get the class `crashed`.
 #include "batch_isolate.h"
 
 #include <errno.h>
@@ -26,13 +26,13 @@
 // Milliseconds between the interrupt of a process and killing it.
 static const double interrupt_ms = 600;
 
-// Returns the time after its limit before a process is killed: the limit again, between half a second and five.
+// Returns how long a process may exceed its time limit before it is killed: the limit again, but at least half a second
+// and at most five.
 static double grace_ms(double limit_s) { return limit_s > 5 ? 5000 : limit_s > 0.5 ? limit_s * 1e3 : 500; }
 
 // --- the process
 
-// The message of a process: this struct, for each picture a `sent_picture`, its journal line and its file, then both
-// texts.
+// A process sends this struct, then for each picture a `sent_picture`, its journal line and its file, then both texts.
 struct sent {
     int code, warnings;
     bool interrupted;
@@ -117,7 +117,7 @@ static bool read_bytes(struct rest *rest, void *to, size_t size)
 {
     if (rest->size < size)
         return false;
-    if (size) // memcpy of nothing must not get NULL
+    if (size) // memcpy must not get NULL even for 0 bytes
         memcpy(to, rest->at, size);
     rest->at += size;
     rest->size -= size;

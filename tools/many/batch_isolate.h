@@ -1,4 +1,4 @@
-// batch_isolate.h: a pass over the models with a separate process for each.
+// batch_isolate.h: draws the models of a pass in a separate process each.
 #ifndef BATCH_ISOLATE_H
 #define BATCH_ISOLATE_H
 

@@ -1,4 +1,4 @@
-// batch_isolate_windows.c: refuses a process for each model: Windows makes no copies of a process.
+// batch_isolate_windows.c: rejects --isolate on Windows: Windows cannot copy a process.
 #include "batch_isolate.h"
 
 #include "console.h"

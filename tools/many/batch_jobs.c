@@ -1,4 +1,4 @@
-// batch_jobs.c: the queue of --jobs: reads jobs as lines of JSON, passes them to workers, and answers them.
+// batch_jobs.c: implements the queue of --jobs: reads jobs as lines of JSON, passes them to workers, and answers them.
 #include "batch_jobs.h"
 
 #include <errno.h>
@@ -157,7 +157,7 @@ static void count(struct batch_jobs *jobs, const lam_error *error, size_t pictur
     pthread_mutex_unlock(&b->lock);
 }
 
-// Rejects a line. `id` is NULL if the line has none or the id belongs to another job.
+// Rejects a line. `id` is NULL if the line has no id or the id belongs to another job.
 static void refuse(struct batch_jobs *jobs, json_t *id, uint64_t line, const char *outcome, const lam_error *reason)
 {
     lam_error error;
@@ -201,12 +201,13 @@ static void cancel(struct batch_jobs *jobs, json_t *id, uint64_t line)
     if (waits) {
         answer_cancelled(jobs, waits, "cancelled");
     } else if (!drawn) {
-        complain(&error, LAM_BAD_ARGUMENT, "key 'cancel': no job of this id waits or is drawn");
+        complain(&error, LAM_BAD_ARGUMENT, "key 'cancel': no job with this id is waiting or being drawn");
         refuse(jobs, NULL, line, "ignored", &error);
     }
 }
 
-// Queues a job. A second job with the same id would be indistinguishable in the answers.
+// Queues a job. If a job with the same id is still in progress, the answers could not be told apart, so the new job is
+// rejected.
 static void hold(struct batch_jobs *jobs, struct batch_job *job, uint64_t line)
 {
     pthread_mutex_lock(&jobs->lock);
@@ -218,7 +219,7 @@ static void hold(struct batch_jobs *jobs, struct batch_job *job, uint64_t line)
         count(jobs, NULL, (size_t)job->plan.view_count);
         return;
     }
-    complain(&error, LAM_BAD_ARGUMENT, "key 'id': a job of this id waits or is drawn");
+    complain(&error, LAM_BAD_ARGUMENT, "key 'id': another job with this id is waiting or being drawn");
     count(jobs, &error, 1);
     refuse(jobs, NULL, line, "refused", &error);
     batch_job_free(job);
@@ -329,7 +330,7 @@ static bool never(const struct batch_jobs *jobs)
     return false;
 }
 
-// Waits for input. The reader of the answers may have closed meanwhile.
+// Waits for input. Meanwhile, the reader of the answers may have closed the pipe.
 static void read_more(struct batch_jobs *jobs, int wait_ms)
 {
     struct pollfd wait[2] = {{.fd = jobs->stream.file, .events = POLLIN}, {.fd = STDOUT_FILENO}};
@@ -434,7 +435,7 @@ bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool wait
 void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit)
 {
     struct batch_job *job = unit->task.job;
-    // Done before the answer, because its reader may then reuse the id.
+    // This happens before the answer is sent, because its reader may then reuse the id.
     pthread_mutex_lock(&jobs->lock);
     list_remove(&jobs->drawing, job);
     pthread_cond_broadcast(&jobs->changed);

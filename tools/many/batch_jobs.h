@@ -16,7 +16,7 @@ void batch_jobs_close(struct batch_jobs *jobs); // NULL is allowed
 // Returns the folders to which files of jobs are restricted.
 const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs);
 
-// Reads the next line, waiting up to `wait_ms`, and accepts, refuses or cancels a job. After an interrupt, or if the
+// Reads the next line, waiting up to `wait_ms`, and accepts, rejects or cancels a job. After an interrupt, or if the
 // batch or the answers have failed, cancels all jobs. Only the main thread may call it.
 void batch_jobs_step(struct batch_jobs *jobs, int wait_ms);
 
@@ -26,7 +26,7 @@ int batch_jobs_wanted(const struct batch_jobs *jobs);
 // Returns whether batch_jobs_step can make progress without input.
 bool batch_jobs_is_ready(const struct batch_jobs *jobs);
 
-// Returns whether no job waits, and none will arrive.
+// Returns whether no job is waiting and none will arrive.
 bool batch_jobs_over(struct batch_jobs *jobs);
 
 // Gets the next waiting job. With `waits`, waits for one. Returns false if there is none. Any thread may call it.

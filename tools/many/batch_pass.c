@@ -165,7 +165,7 @@ static void count(struct batch *b, const struct batch_unit *u, int view)
     }
 }
 
-// Stores the state of a planned picture, and its record for the page.
+// Stores the new state of a picture, and its record for the page.
 static void keep(struct batch *b, struct batch_unit *u, int view)
 {
     size_t at = u->task.model * (size_t)b->plan->view_count + (size_t)view;

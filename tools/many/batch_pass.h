@@ -4,7 +4,7 @@
 
 #include "batch_unit.h"
 
-// Begins a pass. Pass 0 covers all models that are not drawn yet, later passes the failed models that may be retried.
+// Begins a pass. Pass 0 covers all models that have not been drawn, later passes the failed models that may be retried.
 // Returns false if there is nothing to do, or after an interrupt.
 bool batch_begin_pass(struct batch *batch, int pass);
 

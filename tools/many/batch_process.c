@@ -27,7 +27,7 @@ bool batch_answer_add(struct batch_answer *answer, const void *data, size_t size
         answer->data = more;
         answer->capacity = capacity;
     }
-    if (size) // memcpy of nothing must not get NULL
+    if (size) // memcpy must not get NULL even for 0 bytes
         memcpy(answer->data + answer->size, data, size);
     answer->size += size;
     return true;

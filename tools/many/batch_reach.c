@@ -15,7 +15,7 @@
 #include "page_file.h"
 #include "sandbox_start.h"
 
-// Up to this many older pictures are made readable individually; beyond that, their folder is.
+// Up to this many older pictures are made readable one by one; if there are more, their whole folder is.
 enum { SINGLE = 64 };
 
 // Returns whether the whole folder of pictures must be readable, because the journal and the page read pictures again.
@@ -25,7 +25,7 @@ static bool takes_folder(const struct batch *b)
            (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
 }
 
-// Returns the folder of a path, from malloc: "." if it names none.
+// Returns the folder of a path, from malloc: "." if the path names no folder.
 static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -71,7 +71,7 @@ static bool is_within_reach(const char *model, const char *before)
     return same && !scene && lstat(model, &about) == 0 && !S_ISLNK(about.st_mode);
 }
 
-// Adds the page template that is filled with a model. If it is missing, writing a picture reports the error.
+// Adds the page template to the readable files. If it is missing, writing a picture reports the error.
 static void add_page(struct sandbox_paths *paths)
 {
     lam_error error;

@@ -112,8 +112,8 @@ static void warm(const char *path)
         close(file);
 }
 
-// The thread is woken once for as many models as there are workers and not for each, because every wake-up costs them a
-// processor and the lock.
+// The thread is woken once for a group of models as large as the number of workers, because each wake-up costs the
+// workers processor time and the lock.
 static void *read_ahead(void *user)
 {
     struct batch *b = user;
@@ -185,7 +185,7 @@ static void run_threads(struct batch *b, struct worker *workers)
     if (!started && b->jobs) {
         complain(&error, LAM_LIMIT, "no thread can be started");
         batch_stop(b, &error);
-    } else if (!started) { // no thread can be started, so this one works
+    } else if (!started) { // no thread can be started, so this thread draws
         b->drawing = 1;
         work(&workers[0]);
     }
@@ -259,7 +259,7 @@ static void share_threads(struct batch *b)
     b->threads = b->workers == 1 ? b->options->work.threads : threads / b->workers;
 }
 
-// Returns the options common to all pictures in the journal, and the pictures of a model. From malloc; NULL if memory
+// Returns the options that all pictures in the journal share, and the pictures of a model. From malloc; NULL if memory
 // runs out.
 static char *pictures_text(const struct batch *b)
 {
@@ -273,7 +273,7 @@ static char *pictures_text(const struct batch *b)
             plan->pattern                ? plan->pattern
             : b->options->picture.output ? b->options->picture.output
                                          : "");
-    if (plan->by_list) // with a list of another size, models are in other shards
+    if (plan->by_list) // in a list of another size, models are in other shards
         fprintf(out, "shard-by=list of %" PRIu64 " bytes\n", plan->list_bytes);
     for (int i = 0; i < plan->view_count; i++) {
         const struct job_view *v = &plan->views[i];
@@ -331,7 +331,7 @@ static bool has_every_outcome(const struct batch *b)
     return i == pictures;
 }
 
-// Names the pictures that failed repeatedly.
+// Lists the pictures that failed repeatedly.
 static void name_poison(const struct batch *b)
 {
     enum { NAMES = 10 };
@@ -342,7 +342,7 @@ static void name_poison(const struct batch *b)
         if (!failed || picture->attempts < 2 || count++ >= NAMES)
             continue;
         lam_error text;
-        complain(&text, LAM_LIMIT, "%.400s: failed %d times, and is not tried again",
+        complain(&text, LAM_LIMIT, "%.400s: failed %d times and is not retried",
                  b->plan->models[i / (size_t)b->plan->view_count].path, picture->attempts);
         say_error(text.text);
     }
@@ -418,7 +418,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     interrupt_start();
     keep_memory();
     if (b.options->batch.jobs)
-        signal(SIGPIPE, SIG_IGN); // a closed reader of the answers becomes a write error
+        signal(SIGPIPE, SIG_IGN); // if the reader of the answers closes, writing fails
     bool started = start(&b, journal, &error), ok = started && run_passes(&b, &error);
     if (started && ok)
         finish(&b);

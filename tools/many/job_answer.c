@@ -1,4 +1,4 @@
-// job_answer.c: the answers of --jobs.
+// job_answer.c: writes the answers of --jobs.
 #include "job_answer.h"
 
 #include <errno.h>
@@ -42,7 +42,7 @@ void job_answers_fail(struct job_answers *answers, int reason)
 
 // --- writing
 
-// Waits until more bytes can be written. Returns false if nobody reads them after an interrupt.
+// Waits until more bytes can be written. Returns false if no reader has read them for some time after an interrupt.
 static bool wait_writable(double *since_ms)
 {
     struct pollfd wait = {.fd = STDOUT_FILENO, .events = POLLOUT};
@@ -148,7 +148,7 @@ static const char *outcome_of(const struct batch_unit *u)
     return same ? "same" : "written";
 }
 
-// Returns the first failed picture, whose class and sentence apply to the job.
+// Returns the first failed picture, whose class and error message the job also gets.
 static const json_t *failed_record(const struct batch_unit *u)
 {
     for (int i = 0; i < u->picture_count; i++)

@@ -23,7 +23,7 @@ void job_answer_unit(struct job_answers *answers, const struct batch_unit *unit)
 void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, const char *outcome,
                       const lam_error *error);
 
-// Record that nobody reads answers any more, and return whether that is so: errno, or 0.
+// Record that the reader of the answers has gone, and return that reason: errno, or 0.
 void job_answers_fail(struct job_answers *answers, int reason);
 int job_answers_failure(const struct job_answers *answers);
 

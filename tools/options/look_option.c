@@ -1,4 +1,4 @@
-// look_option.c: --look: finds files of options and reads their lines.
+// look_option.c: implements --look: finds files of options and reads their lines.
 #include "look_option.h"
 
 #include <errno.h>
@@ -98,7 +98,7 @@ static char *copy_of_look(const char *name, lam_error *error)
     if (whole && strlen(text) == length)
         return text;
     free(text);
-    complain(error, LAM_BAD_ARGUMENT, "%.200s: not a look: it cannot be read, is longer than 64 KiB, or is no text",
+    complain(error, LAM_BAD_ARGUMENT, "%.200s: not a look: it cannot be read, is longer than 64 KiB, or is not text",
              name);
     return NULL;
 }

@@ -89,8 +89,8 @@ static bool set_back(const struct material_option *option, const char *name, int
     int front = front_of(scene, &object);
     if (front == -2 && !option->named)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--%s': the front of '%.100s' has several materials, so fields without a key cannot be "
-                        "the front's; begin with a material's name: %s gold,…",
+                        "option '--%s': the front of '%.100s' has several materials, so missing keys cannot be copied "
+                        "from it; begin with a material's name: %s gold,…",
                         name, object.name ? object.name : "the model", name);
     object.back_material = add_changed(option, front == -2 ? -1 : front, scene, error);
     return object.back_material >= 0 && lam_scene_set_object(scene, index, &object, error);
@@ -177,7 +177,7 @@ bool material_option_set(const struct material_option *option, bool back, const 
     return found > 0;
 }
 
-// A copy that the mask leaves out everywhere: neither drawn nor in the way of light.
+// Returns a copy of a material that a mask removes everywhere: it is not drawn and does not block light.
 static lam_material clear_copy(lam_material material)
 {
     material.diffuse.a = 0;
@@ -186,7 +186,7 @@ static lam_material clear_copy(lam_material material)
     return material;
 }
 
-// Returns how many objects have the name, or −1 with the error.
+// Returns the number of objects with this name, or −1 and fills the error.
 static int hide_objects(const char *target, lam_scene *scene, lam_error *error)
 {
     int found = 0;
@@ -216,7 +216,7 @@ static int hide_parts(const char *target, lam_scene *scene, lam_error *error)
     return found;
 }
 
-// Objects that show nothing else are hidden as a whole: their box does not count then.
+// An object that shows only this material is hidden as a whole, so that fitting the camera ignores its box.
 static bool hide_objects_of(int material, lam_scene *scene, lam_error *error)
 {
     for (int i = 0; i < lam_scene_object_count(scene); i++)

@@ -20,7 +20,7 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
         option->target = at;
         if (!*at)
             return complain(error, LAM_BAD_ARGUMENT,
-                            "nothing follows '@', expected the name of an object, part or material");
+                            "found nothing after '@', expected the name of an object, part or material");
     }
     lam_material unused = lam_material_default();
     if (!lam_material_parse(option->text, mode, &unused, error))
@@ -57,7 +57,7 @@ void material_option_mirror(struct material_option *option)
     size_t size = strlen(words) + 1, rest = option->target ? strlen(option->target) + 1 : 0;
     if (size + rest > sizeof option->text)
         return;
-    if (option->target) // lies behind the name, in the same text
+    if (option->target) // stored after the name, in the same text
         option->target = memmove(option->text + size, option->target, rest);
     memcpy(option->text, words, size);
 }
@@ -71,7 +71,7 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
     return material;
 }
 
-// Reflected fractions of light have a symbol; emission has none.
+// Colours that are reflected fractions of light have a symbol; emission has none.
 static bool is_fraction(const lam_field *field)
 {
     return (field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA) && field->symbol;
@@ -131,7 +131,7 @@ void materials_warn(lam_scene *scene)
 {
     enum { REPORTED = 3 };
     int over = 0;
-    // In glTF files, Lambent derives these values itself: highlights on rough surfaces keep their energy at any width.
+    // For glTF files, Lambent derives the highlight values itself, so that rough surfaces conserve energy.
     if (strcmp(lam_scene_format(scene), "gltf") == 0)
         return;
     for (int i = 0; i < lam_scene_material_count(scene); i++) {

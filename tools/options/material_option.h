@@ -14,11 +14,12 @@ struct material_option {
 // Parses a text for lam_material_parse, optionally followed by "@TARGET".
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error);
 
-// Returns the keys of the physical metal of a name, "diffuse=…,metallic=1,roughness=0.2", or NULL for other materials.
+// Returns the keys of the physical metal with this name, "diffuse=…,metallic=1,roughness=0.2", or NULL for other
+// materials.
 const char *material_option_metal(const char *name);
 
-// Makes a metal's name alone select the physical metal, which reflects the studio, instead of the row of the classic
-// table.
+// Makes an option that consists only of a metal's name select the physical metal, which reflects the studio, instead of
+// the classic material.
 void material_option_mirror(struct material_option *option);
 
 // Returns `material` as changed by the option.
@@ -28,7 +29,8 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                          lam_error *error);
 
-// Hides the objects of a name, otherwise its parts, otherwise the surfaces of its material (--hide).
+// Hides the objects with this name; if there are none, the parts; if there are none either, the surfaces with a
+// material of this name (--hide).
 bool material_option_hide(const char *target, lam_scene *scene, lam_error *error);
 
 // Adds a warning to the scene for each coefficient above 1.

@@ -253,10 +253,10 @@ struct shader_options {
 
 // The user's own defaults (settings_file.h).
 struct settings_options {
-    const char *file; // NULL: the user's
+    const char *file; // NULL means the user's own file
     bool none;
-    char *values; // texts that `values` of struct options points to; from malloc; of the options that read them
-    const struct options *without; // the same options without the settings; NULL: there are none
+    char *values;                  // the texts to which `values` of struct options points, from malloc
+    const struct options *without; // the same options without the settings, or NULL
 };
 
 // Printed output.

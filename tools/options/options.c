@@ -125,7 +125,8 @@ static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_e
             suggest_also(&nearest, o->name, o->others);
         }
     if (nearest.distance > 0 && is_one_of(typed, model_names))
-        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; a model needs none: lambent MODEL", typed);
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; a model needs no option: lambent MODEL",
+                        typed);
     if (nearest.best)
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?", typed, nearest.best);
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
@@ -140,7 +141,8 @@ static bool unknown_letter(const char *word, char letter, uint64_t groups, lam_e
                         "unknown option '%s'; the size of the picture is --size WIDTHxHEIGHT, such as -s 640x480",
                         word);
     if (is_one_of(typed, model_names))
-        return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'; a model needs none: lambent MODEL", letter);
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'; a model needs no option: lambent MODEL",
+                        letter);
     if (strchr(word, '.') && access(word, F_OK) == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "unknown option '-%c'; for the file '%s' write './%s', or '--' before it", letter, word, word);
@@ -191,7 +193,7 @@ static size_t field_size(const struct option *option)
         return sizeof(double);
     if (option->store == store_text || option->store == store_color)
         return sizeof(const char *);
-    return option->store == store_size ? 2 * sizeof(int) : sizeof(int); // a float is as long
+    return option->store == store_size ? 2 * sizeof(int) : sizeof(int); // works for floats too: they have the same size
 }
 
 void options_drop_settings(struct options *options)

@@ -37,11 +37,10 @@ struct options {
     struct report_options report;
     struct settings_options settings;
 
-    bool given[OPTIONS_MAX];   // for each row of the table: the option is on the command line
-    bool by_look[OPTIONS_MAX]; // and it comes from --look
-    int by_config
-        [OPTIONS_MAX]; // the line of the settings file that it comes from; then it is not given. 0: it does not
-    const char *values[OPTIONS_MAX]; // its last value there; NULL: it takes none
+    bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
+    bool by_look[OPTIONS_MAX];       // whether the option comes from --look
+    int by_config[OPTIONS_MAX];      // the line in the settings file; 0: not from the file
+    const char *values[OPTIONS_MAX]; // the value in the settings file; NULL: no value
 };
 
 // Bits above the group bits: options that a command accepts without the rest of their group.
@@ -125,7 +124,7 @@ struct option {
     // Stores the value (NULL for a switch) at offset `field` of struct options. On failure, error->text describes the
     // mistake without the option's name.
     bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
-    size_t field, has_field;    // has_field is a bool to set as well; 0 if there is none
+    size_t field, has_field;    // a bool to set as well; 0 if there is none
     double min, max;            // for numbers that are not library settings
     uint64_t single;            // TAKES_…, if a command may accept the option without its group
     const char *brief;          // a few words for -h; NULL hides it there
@@ -138,7 +137,7 @@ struct option {
     const lam_setting *setting; // the library's setting that it stores, or NULL
     // The option that takes several values separated by commas, suggested if a value contains a comma. May be NULL.
     const char *several;
-    const char *now;    // the option that replaces this one, which still works but is not listed; or NULL
+    const char *now;    // the option that replaces this obsolete one, or NULL
     const char *former; // the option that formerly had this name, suggested for its words; or NULL
 };
 
@@ -157,7 +156,7 @@ void options_free(struct options *options);
 // Makes an independent copy. Returns false if memory runs out; then there is nothing to free.
 bool options_copy(struct options *to, const struct options *from);
 
-// Takes back what the user's settings file changed, for a scene file: it describes its picture itself.
+// Reverts the changes that the user's settings file made, because a scene file describes its picture completely.
 void options_drop_settings(struct options *options);
 
 // Returns the option of a long name, or NULL if there is no such option.

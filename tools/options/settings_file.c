@@ -1,5 +1,5 @@
-// settings_file.c: reads lambent.json, the user's own defaults. Its keys are keys of scene files; each becomes the value of the option
-// that has the same row in the table of settings.
+// settings_file.c: reads lambent.json, which contains the user's own defaults. Its keys are the keys of scene files.
+// Each sets the option that has the same row in the table of settings.
 #include "settings_file.h"
 
 #include <errno.h>
@@ -18,7 +18,7 @@
 
 enum { FILE_MAX = 1 << 16, NAME_SIZE = 40, KEYS_MAX = 6 };
 
-// The keys of scene files that belong to a group there, or whose option has another name.
+// Scene-file keys that are members of a group, or whose option has a different name.
 static const struct {
     const char *group, *key, *option;
 } grouped[] = {{"image", "size", "size"},
@@ -34,21 +34,21 @@ enum { GROUPED = sizeof grouped / sizeof *grouped };
 
 struct reader {
     struct options *options;
-    const struct options *before; // as the command line and the look left them
+    const struct options *before; // the options of the command line and the look
     const char *path, *text;
-    const json_t *ground_color; // which belongs to the option of "ground"; NULL: none
-    char *values;               // the end of the values' texts
+    const json_t *ground_color; // the ground's colour, set together with "ground", or NULL
+    char *values;               // the end of the stored values
     lam_error *error;
 };
 
-// --- the place of a key
+// --- the position of a key
 
-// Returns the line of a key; `group`: the object that contains it, NULL: the outermost. The text is valid JSON. 1: the key is spelled with
-// escapes.
+// Returns the line of a key in valid JSON text; `group` is the object that contains the key, or NULL for the top level.
+// Returns 1 if the key is written with escapes.
 static int line_of(const char *text, const char *group, const char *key)
 {
     int line = 1, depth = 0;
-    bool inside = false; // of the group
+    bool inside = false; // whether the position is inside the group
     for (const char *at = text; *at; at++) {
         line += *at == '\n';
         depth += (*at == '{' || *at == '[') - (*at == '}' || *at == ']');
@@ -92,7 +92,7 @@ static bool unknown_key(struct reader *r, const char *group, const char *key)
     return wrong(r, group, key, text);
 }
 
-// --- values as texts of options
+// --- values as text for options
 
 static const char *kind_of(const json_t *value)
 {
@@ -108,7 +108,7 @@ static void put_number(FILE *out, const json_t *value)
     fputs(text, out);
 }
 
-// A list of words, or of numbers: the size of a picture, or a linear colour.
+// Writes a list of words, or of numbers: the size of a picture, or a linear colour.
 static bool put_list(FILE *out, const json_t *list, char between)
 {
     size_t i;
@@ -130,7 +130,7 @@ static bool put_list(FILE *out, const json_t *list, char between)
     return numbers ? json_array_size(list) >= 2 && json_array_size(list) <= 4 : true;
 }
 
-// The form that a scene file has for the value of an option.
+// Returns the JSON form that an option's value must have.
 static const char *expected_of(const struct option *option)
 {
     static const char *const of_type[] = {[LAM_SETTING_WORD] = "a text",
@@ -151,7 +151,7 @@ static const char *expected_of(const struct option *option)
     return option->words && strcmp(option->name, "samples") != 0 ? "a text" : "a number";
 }
 
-// Writes the value as it would be on a command line. False: its type is wrong.
+// Writes the value as it would appear on a command line. Returns false if its type is wrong.
 static bool put_value(FILE *out, const struct option *option, const json_t *value)
 {
     const char *expected = expected_of(option);
@@ -172,7 +172,7 @@ static bool put_value(FILE *out, const struct option *option, const json_t *valu
 
 // --- one key
 
-// Returns whether the command line or a look decides the option, or the option that must fit it.
+// Returns whether the command line or a look already sets the option, or an option that it must match.
 static bool is_decided(const struct reader *r, const struct option *option)
 {
     const char *name = option->name, *pair = strcmp(name, "shading") == 0 ? "stage"
@@ -196,7 +196,7 @@ static bool take_value(struct reader *r, const char *group, const char *key, con
     size_t size = 0;
     FILE *out = open_memstream(&made, &size);
     bool ok = out && put_value(out, option, value);
-    ok = out && fclose(out) == 0 && ok && size < FILE_MAX; // the room that is left in `values`
+    ok = out && fclose(out) == 0 && ok && size < FILE_MAX; // the space that is left in `values`
     strcpy(text, ok ? made : "");
     free(made);
     if (!ok) {
@@ -207,7 +207,7 @@ static bool take_value(struct reader *r, const char *group, const char *key, con
         return wrong(r, group, key, "found a file, expected \"sky\" or \"studio\"");
     const char *given = option->value ? text : NULL;
     bool decided = is_decided(r, option) || (!given && json_is_false(value));
-    struct options scratch = *r->options; // a decided value is checked too
+    struct options scratch = *r->options; // an overridden value is checked too
     lam_error found = {0};
     if (given || !decided)
         if (!option->store(option, given, decided ? &scratch : r->options, &found))
@@ -221,7 +221,7 @@ static bool take_value(struct reader *r, const char *group, const char *key, con
     return true;
 }
 
-// "ground": "color" names a colour by its own key, and the option is that colour.
+// Sets the ground. The kind "color" takes its colour from the key "ground_color".
 static bool take_ground(struct reader *r, const json_t *value)
 {
     const struct option *option = option_find("ground");
@@ -234,7 +234,7 @@ static bool take_ground(struct reader *r, const json_t *value)
     return take_value(r, NULL, "ground", option, color ? r->ground_color : value);
 }
 
-// Returns whether the value is a word for the default that options do not have.
+// Returns whether the value is a word for the default for which the option has no word.
 static bool is_plain_default(const lam_setting *setting, const json_t *value)
 {
     const char *word;
@@ -255,7 +255,7 @@ static bool take_key(struct reader *r, const char *group, const char *key, const
         return unknown_key(r, group, key);
     if (strcmp(key, "ground") == 0)
         return take_ground(r, value);
-    if (strcmp(key, "ground_color") == 0) // it has been taken with "ground"
+    if (strcmp(key, "ground_color") == 0) // already handled together with "ground"
         return r->ground_color != NULL;
     if (is_plain_default(lam_draw_setting(lam_draw_setting_find(key)), value))
         return true;
@@ -299,7 +299,7 @@ static bool take_root(struct reader *r, json_t *root)
 
 // --- the file
 
-// Only an absolute path counts: a relative one would be beside a model.
+// A path is accepted only if it is absolute: a relative path could point beside a model.
 static void default_path(char *path, size_t size)
 {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
@@ -381,6 +381,6 @@ bool settings_apply(struct options *options, struct options *before, struct sett
     bool ok = text && (options->settings.values || complain(error, LAM_LIMIT, "out of memory")) &&
               apply_text(&reader, length);
     free(text);
-    options->picture.has_size = before->picture.has_size; // a sheet and a scene file have sizes of their own
+    options->picture.has_size = before->picture.has_size; // sheets and scene files set their own sizes
     return ok;
 }

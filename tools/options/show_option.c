@@ -39,7 +39,7 @@ bool store_show(const struct option *option, const char *value, struct options *
         return complain(error, LAM_BAD_ARGUMENT, "found 'light', expected light:NAME, the light's name or its number");
     if (light && !*light)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "found '%.100s', expected a light's name or its number behind the colon", value);
+                        "found '%.100s', expected a light's name or its number after the colon", value);
     if (show < LAM_OUTPUT_COUNT || strcmp(value, "all") == 0) {
         options->picture.show = value;
         return true;

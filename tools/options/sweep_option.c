@@ -242,7 +242,7 @@ double sweep_value(const struct sweep *sweep, int frame, int count)
     int parts = sweep->stop_count - 1;
     if (parts < 1)
         return sweep->stops[0];
-    int steps = sweep->closed || count < 2 ? count : count - 1; // the steps from the first stop to the last
+    int steps = sweep->closed || count < 2 ? count : count - 1; // the number of steps from the first stop to the last
     int64_t at = (int64_t)frame * parts, part = at / steps, rest = at % steps;
     if (part >= parts)
         return sweep->stops[parts];

@@ -1,5 +1,5 @@
-// without_check.c: replaces the functions of the shader check that tables and the help call, for programs built without
-// it (-Dclassroom=false and the page's module). They report no contracts and no mistakes.
+// without_check.c: replaces the functions of the shader check that tables and the help call, for programs that are
+// built without the check (-Dclassroom=false, and the web page's module). They report no contracts and no mistakes.
 #include <lambent/check.h>
 
 #include <stddef.h>

@@ -76,10 +76,10 @@ bool output_name_check(const char *pattern, unsigned known, lam_error *error)
                             part.length < 60 ? part.length : 60, part.text, list);
     }
     return !*pattern ||
-           complain(error, LAM_BAD_ARGUMENT,
-                    "option '--output': found '%.60s' in the name, a brace without its partner; '%c%c' is a "
-                    "brace alone",
-                    pattern, *pattern, *pattern);
+           complain(
+               error, LAM_BAD_ARGUMENT,
+               "option '--output': found '%.60s' in the name, an unmatched brace; write '%c%c' for a literal brace",
+               pattern, *pattern, *pattern);
 }
 
 const char *output_stem(const char *model, int *length)

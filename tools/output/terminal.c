@@ -46,7 +46,7 @@ static bool check_asked(const struct options *o, bool alone, lam_error *error)
     if (output_is_named(o->picture.output) && strcmp(o->picture.output, "-") != 0 &&
         (!lam_image_format_for(o->picture.output, &format, NULL) || format != LAM_RGBA8))
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--term %s' shows pictures of 8 bits, found -o %.200s, expected .png, .jpg, .webp or "
+                        "option '--term %s' shows only 8-bit pictures, found -o %.200s, expected .png, .jpg, .webp or "
                         ".ppm",
                         word, o->picture.output);
     return true;

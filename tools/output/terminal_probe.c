@@ -79,7 +79,7 @@ static const char *find_attributes(const char *text)
     return NULL;
 }
 
-// LAMBENT_TERM_WAIT: the number of milliseconds to wait for a terminal on a slow connection.
+// Returns LAMBENT_TERM_WAIT, the number of milliseconds to wait for a terminal on a slow connection.
 static int wait_ms(void)
 {
     const char *text = getenv("LAMBENT_TERM_WAIT");

@@ -1,4 +1,4 @@
-// terminal_probe_windows.c: Windows' terminals are not asked for pictures.
+// terminal_probe_windows.c: assumes that terminals on Windows show no pictures: they are not queried.
 #include "terminal.h"
 
 struct terminal terminal_probe(bool asks)

@@ -77,8 +77,8 @@ static bool add_files(const struct job *job, struct page_model *model, lam_error
         if (!beside || (i && !is_below(folder, path))) { // the user may name the model by a link
             ok = complain(
                 error, LAM_UNSUPPORTED,
-                "%s: is outside the folder of %s, and a page contains no files of other folders; copy it there", path,
-                job->model);
+                "%s: is outside the folder of %s, and a page cannot contain files of other folders; copy it there",
+                path, job->model);
             break;
         }
         if (asprintf(&inside, "/%s", name) < 0)

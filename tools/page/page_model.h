@@ -25,17 +25,17 @@ bool page_model_list(const struct job *job, struct page_model *model, lam_error 
 bool page_model_add_environment(const struct options *options, struct page_model *model, lam_error *error);
 void page_model_free(struct page_model *model);
 
-// Returns a sentence about why the page cannot read some of the files. `index` counts the reasons from 0; NULL ends the
-// list.
+// Returns a sentence that explains why the page cannot read some of the files. `index` counts the reasons from 0; NULL
+// ends the list.
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
 // Returns whether an option concerns the picture and has a control in the page. A look is replaced by the options that
 // it sets.
 bool page_model_has_option(const struct option *option);
 
-// Prints the words of the picture's command line as a list in JSON, in which no '<' is left: the model, and an option
-// with its value in one word. `given` contains the options of the command line. Options of the machine (threads,
-// device, limits) and of files to write are left out. Fails with LAM_LIMIT.
+// Prints the words of the picture's command line as a JSON list without '<': the model, and each option with its value
+// in one word. `given` contains the options of the command line. Options about the machine (threads, device, limits)
+// and about output files are omitted. Fails with LAM_LIMIT.
 bool page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model,
                       lam_error *error);
 

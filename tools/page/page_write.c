@@ -1,5 +1,6 @@
-// page_write.c: writes the one-file page with a model. Browsers do not run the model's files and the command line, so
-// the page's policy, which lists its scripts by their hashes, needs no change; web/page/inside.js reads them.
+// page_write.c: writes the one-file page with a model. Browsers do not run the model's files and the command line as
+// scripts, so the page's policy, which lists its scripts by their hashes, needs no change; web/page/inside.js reads
+// them.
 #include "page_write.h"
 
 #include <stdlib.h>
@@ -30,7 +31,7 @@ static bool check(const struct job *job, char **page, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT, "%s: a page needs a model with a name; standard input has none",
                         job->output);
     if (o->picture.show && strcmp(o->picture.show, "all") == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' makes several pictures, and a page shows one");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' draws several pictures, but a page shows one");
     *page = page_file_find(error);
     return *page && output_check(job->output, job->model, output_given(o->picture.output), error);
 }

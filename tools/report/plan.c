@@ -32,7 +32,7 @@ void each_given_option(const struct options *options, option_visit *visit, void 
     for (const struct option *option = option_table; option->name; option++) {
         size_t row = (size_t)(option - option_table);
         const struct texts *texts = texts_of(option, options);
-        bool replaced = option->group == GROUP_SETTINGS; // by what the file says
+        bool replaced = option->group == GROUP_SETTINGS; // replaced by the values in the settings file
         if ((!options->given[row] && !options->by_config[row]) || replaced)
             continue;
         for (int i = 0; texts && i < texts->count; i++)
@@ -60,7 +60,7 @@ void report_plan(FILE *out, const struct job *job)
     fprintf(out, "%s\n", strcmp(job->model, "-") == 0 ? "standard input" : job->model);
     char items[MODEL_COUNTS_SIZE];
     fprintf(out, "  model     %s, %s\n", *format ? format : "shape", model_counts_text(&job->model_counts, items));
-    fprintf(out, "  picture   %s, %s, %dx%d, %d samples a pixel%s\n",
+    fprintf(out, "  picture   %s, %s, %dx%d, %d samples per pixel%s\n",
             strcmp(job->output, "-") == 0 ? "standard output" : job->output, job->format, o->picture.width,
             o->picture.height, planned_samples(o), plan_replaces(job) ? "; replaces the file" : "");
     if (job->frames.count)

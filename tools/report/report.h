@@ -12,12 +12,12 @@ void report_line(const struct job *job);
 // Prints the files read and the time of each step on standard error.
 void report_table(const struct job *job);
 
-// Returns the stream of the JSON report: standard output, or standard error if the picture goes to standard output
-// (then nothing else is written there). Returns NULL if there is no report.
+// Returns the stream of the JSON report: standard output, or standard error if the picture goes to standard output.
+// Returns NULL if there is no report.
 FILE *report_stream(const struct options *options);
 
-// Reports a failure that has no job, such as a wrong command line or a missing device, also as JSON if requested.
-// Returns the exit code.
+// Reports a failure that does not belong to a job, such as a wrong command line or a missing device; also as JSON if
+// requested. Returns the exit code.
 int report_failure(const lam_error *error, const struct options *options);
 
 // Prints one line in the format of docs/report.schema.json. If `job` is NULL, `error` concerns the command line.

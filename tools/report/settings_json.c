@@ -1,4 +1,4 @@
-// settings_json.c: prints the values of the user's settings file as a part of a report.
+// settings_json.c: prints the values of the user's settings file as a section of a report.
 #include "settings_json.h"
 
 bool settings_are_used(const struct options *options)

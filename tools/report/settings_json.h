@@ -1,4 +1,4 @@
-// settings_json.h: the values of the user's settings file that a report contains.
+// settings_json.h: prints the section of a report about the user's settings file.
 #ifndef SETTINGS_JSON_H
 #define SETTINGS_JSON_H
 
@@ -8,7 +8,8 @@
 // Returns whether the settings file changed an option.
 bool settings_are_used(const struct options *options);
 
-// Prints "settings": the options that come from the settings file, with their values; nothing if there are none.
+// Prints "settings", which lists the options from the settings file with their values. Prints nothing if there are
+// none.
 void settings_json(struct json *json, const struct options *options);
 
 // Prints the name and the value of an option.

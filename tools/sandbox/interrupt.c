@@ -43,6 +43,6 @@ void interrupt_finish(void)
 void interrupt_with_parent(pid_t parent)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) // the parent ended before prctl, so that the signal will never come
+    if (getppid() != parent) // the parent ended before prctl, so no signal will come
         _exit(1);
 }

@@ -1,4 +1,5 @@
-// interrupt_windows.c: Ctrl-C sets a flag, so that a run stops cleanly and leaves no partial files. Windows calls the handler in a thread of its own.
+// interrupt_windows.c: sets a flag on Ctrl-C, so that a run stops cleanly and leaves no partial
+// files. Windows calls the handler in a separate thread.
 #include "interrupt.h"
 
 #include <signal.h>
@@ -9,7 +10,7 @@
 static lam_cancel cancel;
 static volatile sig_atomic_t caught;
 
-// A second Ctrl-C ends the program: Windows forgets the handler when it calls it.
+// A second Ctrl-C ends the program, because Windows removes the handler when it calls it.
 static void catch (int number)
 {
     caught = number;

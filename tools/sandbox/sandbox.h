@@ -1,4 +1,4 @@
-// sandbox.h: drops privileges that are not needed to read untrusted files: access to files outside a few folders
+// sandbox.h: drops the privileges that reading untrusted files does not need: access to files outside a few folders
 // (Landlock), to other programs, the network and other processes (a seccomp filter). Dropped privileges cannot be
 // regained. It works on Linux on x86-64 and aarch64; other systems have no sandbox.
 #ifndef SANDBOX_H

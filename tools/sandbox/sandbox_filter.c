@@ -3,9 +3,9 @@
 // slow down other processes, create, rename, remove or change the permissions of files, or mount file systems.
 // https://docs.kernel.org/userspace-api/seccomp_filter.html
 //
-// The filter returns ENOSYS instead of killing the process, because C libraries that try a newer call then fall back to
-// an older one. It is written by hand because it consists of two lists, and libseccomp would be another library to load
-// at every start.
+// The filter returns ENOSYS instead of killing the process, so that C libraries that try a newer call fall back to an
+// older one. It is written by hand because it consists of two lists, and libseccomp would be another library to load at
+// every start.
 #include "sandbox.h"
 
 #if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__))
@@ -273,7 +273,7 @@ static void check(struct program *p, const struct condition *c)
     end(p, SECCOMP_RET_ERRNO | (unsigned)c->error);
 }
 
-// The first list that contains a call decides.
+// The first list that contains a call decides about it.
 static void allow_some(struct program *p, const struct condition *list, size_t count)
 {
     for (size_t i = 0, next; i < count; i = next) {

@@ -1,4 +1,4 @@
-// sandbox_start.h: the sandbox of a command that reads strangers' files: --sandbox and --allow-path.
+// sandbox_start.h: sets up the sandbox of a command that reads untrusted files: --sandbox and --allow-path.
 //
 //     struct sandbox_paths paths = {0};
 //     sandbox_add_input(&paths, model);

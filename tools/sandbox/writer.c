@@ -86,7 +86,7 @@ static struct {
     void *user;
     uint64_t largest;             // the size of contents; 0: unlimited
     pthread_mutex_t lock;         // protects the rule and the list
-    struct own_file own[OWN_MAX]; // the most recent files; earlier ones count as another program's
+    struct own_file own[OWN_MAX]; // the most recent files; older ones count as foreign
     size_t own_count;
 } writing = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
@@ -98,7 +98,7 @@ static bool own_of(const char *path, struct own_file *own)
     return found;
 }
 
-// Returns whether this run wrote the file, which nobody has changed since.
+// Returns whether this run wrote the file and it has not changed since.
 static bool is_of_run(const char *path)
 {
     struct own_file file;
@@ -267,7 +267,7 @@ static _Noreturn void run(int *connections, int count)
     pthread_attr_init(&small);
     pthread_attr_setstacksize(&small, STACK);
     pthread_t threads[THREADS_MAX];
-    int own = count; // this thread serves the connections without a thread of their own
+    int own = count; // this thread serves the connections without own threads
     while (own > 1 && pthread_create(&threads[own - 1], &small, serve_one, &connections[own - 1]) == 0)
         own--;
     serve(connections, own);
@@ -408,8 +408,8 @@ static bool ask(enum action action, const char *path, const lam_bytes *bytes, la
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
 {
     struct stat there;
-    // This process opens pipes and devices that the user names, since a writer that waits for their reader could not be
-    // interrupted.
+    // This process opens pipes and devices that the user names itself, because a writer that waits for a reader could
+    // not be interrupted.
     if (!writer_is_there() || (stat(path, &there) == 0 && !S_ISREG(there.st_mode)))
         return writer_files_save(path, bytes, durable, error);
     return ask(durable ? SAVE_DURABLY : SAVE, path, bytes, error);

@@ -214,7 +214,8 @@ bool draw_dot(struct drawing *d, struct point middle, double radius, uint32_t co
     return true;
 }
 
-// Returns the bytes of the UTF-8 letter at the beginning of a text; 0 if not a letter, or one that XML cannot contain.
+// Returns the number of bytes of the UTF-8 character at the beginning of a text; returns 0 if it is invalid, or a
+// character that XML cannot contain.
 static int letter_bytes(const char *text)
 {
     const unsigned char *at = (const unsigned char *)text;

@@ -60,7 +60,8 @@ bool draw_image(struct drawing *drawing, const lam_image *image, int left, int t
 bool drawing_is_svg(const char *path);
 
 // Returns whether a PNG can show a user's text: the script needs no shaping, and the font contains its characters
-// (`has_font`: the user names a font). Fails with LAM_UNSUPPORTED; the error names the character and recommends an SVG.
+// (`has_font` means that the user selected the font). Fails with LAM_UNSUPPORTED; the error names the character and
+// recommends an SVG.
 bool drawing_check_text(const char *option, const char *text, bool has_font, lam_error *error);
 
 // Writes the page. A file is written completely or not at all; "-" and pipes are written directly.

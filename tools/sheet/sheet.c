@@ -89,9 +89,9 @@ static const struct sheet sheets[] = {
                       .cells = {{"World", {"--light", AT_A_PLACE "world"}},
                                 {"Camera", {"--light", AT_A_PLACE "camera"}},
                                 {"Object", {"--light", AT_A_PLACE "object"}},
-                                {"World, the model turned", {"--light", AT_A_PLACE "world", "--rotate", "y:-60"}},
-                                {"Camera, the model turned", {"--light", AT_A_PLACE "camera", "--rotate", "y:-60"}},
-                                {"Object, the model turned", {"--light", AT_A_PLACE "object", "--rotate", "y:-60"}}}},
+                                {"World, the model rotated", {"--light", AT_A_PLACE "world", "--rotate", "y:-60"}},
+                                {"Camera, the model rotated", {"--light", AT_A_PLACE "camera", "--rotate", "y:-60"}},
+                                {"Object, the model rotated", {"--light", AT_A_PLACE "object", "--rotate", "y:-60"}}}},
     [SHEET_SURFACES] = {.name = "surfaces",
                         .title = "Three kinds of surfaces",
                         .columns = 3,
@@ -209,7 +209,7 @@ static bool add_mistake(struct sheet *sheet, const char *name, lam_error *error)
         return complain(error, LAM_LIMIT, "option '--across': more than %d pictures", CELLS_MAX);
     struct cell *cell = &sheet->cells[sheet->count++];
     *cell = (struct cell){.mistake = name};
-    snprintf(cell->caption, sizeof cell->caption, "%s", name ? name : "As it should be");
+    snprintf(cell->caption, sizeof cell->caption, "%s", name ? name : "Correct");
     return true;
 }
 
@@ -255,7 +255,7 @@ static void title_of(const char *option, char *title, size_t size)
                 {"opacity", "opacity"},
                 {"projection", "projections"},
                 {"reflection", "reflection models"},
-                {"reflectivity", "shares of the environment that surfaces reflect"},
+                {"reflectivity", "reflectivities of surfaces"},
                 {"rig", "sets of lights"},
                 {"samples", "samples per pixel"},
                 {"segments", "numbers of segments"},

@@ -29,7 +29,7 @@ static bool is_given(const struct sheet *sheet, const struct options *options, c
     return false;
 }
 
-// Returns whether the command line lets the model decide about a default.
+// Returns whether the command line leaves a default to the model.
 static bool is_open(const struct sheet *sheet, const struct options *options, const struct sheet_default *one)
 {
     bool light = strcmp(one->option, "--light") == 0;

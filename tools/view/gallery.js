@@ -1,5 +1,5 @@
-// gallery.js: the gallery of a folder: pictures of the models that are seen first, search, order, keys. What is searched and the order stay for the tab, so that
-// a model's page leads back to the same list.
+// gallery.js: the gallery of a folder: pictures of the models that are seen first, search, order, keys. The search and
+// the sort order are kept for the browser tab, so that a model's page leads back to the same list.
 const list = document.querySelector('ul'), items = [...list.children], search = document.getElementById('search'), order = document.getElementById('order');
 const count = document.getElementById('count'), AT_ONCE = 4;
 

@@ -22,7 +22,7 @@
 #include "picture_json.h"
 #include "view_words.h"
 
-static lam_cancel cancel; // cancels the current request; global for the signal handler
+static lam_cancel cancel; // cancels the current request; global: a signal handler
 
 static void cancel_request(int number)
 {

@@ -11,7 +11,7 @@ enum MHD_Result view_events_answer(struct view_connection *connection);
 // Informs all listeners that the file with this path in the page has changed.
 void view_events_changed(struct view *view, const char *path);
 
-// Sends a comment from time to time, since a closed page is only detected by sending.
+// Sends a comment at intervals, since only sending reveals that a page was closed.
 void view_events_keep(struct view *view);
 
 // Sends a comment to one listener.

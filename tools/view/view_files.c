@@ -33,7 +33,7 @@ bool view_files_start(struct view_files *files, const char *operand, bool is_fol
         files->prefix[--length] = 0;
     bool root = !*files->prefix || strcmp(files->prefix, "/") == 0;
     if (root)
-        *files->prefix = 0; // "/" and a path of the page would have two slashes
+        *files->prefix = 0; // otherwise a page's path would have two slashes
     files->folder = open(root ? "/" : files->prefix, O_PATH | O_DIRECTORY | O_CLOEXEC);
     return files->folder >= 0 ||
            complain(error, LAM_CANNOT_READ, "%s: cannot open its folder: %s", operand, strerror(errno));
@@ -52,7 +52,7 @@ void view_files_free(struct view_files *files)
     *files = (struct view_files){.folder = -1};
 }
 
-// Returns whether a list of endings separated by spaces has one.
+// Returns whether a space-separated list of extensions contains the given one.
 static bool has_ending(const char *endings, const char *ending)
 {
     for (size_t length; *endings; endings += length, endings += strspn(endings, " ")) {
@@ -95,8 +95,8 @@ static int open_below(const struct view_files *files, const char *path, int flag
     if (file >= 0 || errno != ENOSYS)
         return file;
 #endif
-    // Before Linux 5.6: between the check and open() the file may be replaced by a link that leads out; only the
-    // sandbox, if active, refuses it.
+    // Before Linux 5.6, a link that leads outside may replace the file between the check and open(); then only an
+    // active sandbox prevents access.
     char *whole = view_files_path(files, path);
     int found = whole && is_below(files, whole) ? open(whole, flags) : -1;
     free(whole);
@@ -109,7 +109,7 @@ static bool is_regular(int file)
     return fstat(file, &about) == 0 && S_ISREG(about.st_mode);
 }
 
-// Returns the file of --environment of a path in the page, or NULL if it is none.
+// Returns the file of --environment for a path in the page, or NULL if there is none.
 static const char *environment_of(const struct view_files *files, const char *path)
 {
     static const char top[] = "/.environment/";

@@ -11,7 +11,7 @@ struct view_files {
     char *prefix;       // the path of the page's "/" on this machine: "models", "."
     char *model;        // the model's path in the page; NULL if a folder is shown
     char *model_path;   // the model's own path, which may be a link to another folder
-    char **environment; // files of --environment, which may lie anywhere; "/.environment/N-NAME" in the page, N from 1
+    char **environment; // files of --environment, in any folder; "/.environment/N-NAME" in the page, N from 1
     int environment_count;
 };
 

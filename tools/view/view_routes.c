@@ -101,7 +101,7 @@ static int number_of(const struct view_connection *c, const char *key)
     return text && *text && !*end && number >= 0 && number < 1 << 20 ? (int)number : -1;
 }
 
-// Starts a task. Its end answers the connection.
+// Starts a task. When the request is finished, the connection is answered.
 static enum MHD_Result begin(struct view_connection *c, enum view_kind kind, const char *words, size_t size,
                              const char *client)
 {
@@ -209,7 +209,7 @@ static enum MHD_Result answer_page(struct view_connection *c)
     return view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", page->text, page->size, VIEW_BORROWED);
 }
 
-// Returns the part of an address after a prefix, a path in the page.
+// Returns the rest of an address after a prefix, which is a path in the page.
 static const char *path_after(const char *address, const char *word)
 {
     size_t length = strlen(word);

@@ -170,7 +170,7 @@ static void wait_for_something(const struct view *view)
             wait[count++] = (struct pollfd){.fd = view->tasks.processes[i].from, .events = POLLIN};
     const nfds_t first = count;
     for (struct view_connection *c = view->connections; c && connection_count < CONNECTIONS_MAX; c = c->next)
-        if (c->task || (c->listener && c->listener->suspended)) { // the library does not poll it
+        if (c->task || (c->listener && c->listener->suspended)) { // the library does not poll the connection
             waiting[connection_count++] = c;
             wait[count++] = (struct pollfd){.fd = c->socket->file, .events = POLLRDHUP};
         }

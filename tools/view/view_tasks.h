@@ -42,7 +42,7 @@ void view_tasks_start(struct view_tasks *tasks, const struct view_files *files, 
 struct view_task *view_tasks_add(struct view_tasks *tasks, const struct view_request *request, const char *words,
                                  const char *client, void *user);
 
-// Discards a task that nobody waits for.
+// Discards a task whose result is no longer needed.
 void view_tasks_drop(struct view_tasks *tasks, struct view_task *task);
 
 // Assigns waiting tasks to processes and reads results. Must be called when one of the processes' files is readable,

@@ -13,8 +13,9 @@ struct view_words {
     char *environment;
 };
 
-// Parses words of the page. The options of pictures alone are taken; `limits` has the others. `out` is valid until view_words_free, which
-// the caller calls in any case, after options_free. Errors: LAM_BAD_ARGUMENT, LAM_CANNOT_READ (a file that is not served), LAM_LIMIT.
+// Parses the words of the page. Only options about pictures are accepted; `limits` provides all other options. `out` is
+// valid until view_words_free, which the caller calls in any case, after options_free. Errors: LAM_BAD_ARGUMENT,
+// LAM_CANNOT_READ (a file that is not served), LAM_LIMIT.
 bool view_words_parse(struct view_words *w, const char *text, size_t size, const struct view_files *files,
                       const struct options *limits, struct options *out, lam_error *error);
 void view_words_free(struct view_words *w);

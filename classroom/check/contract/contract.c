@@ -98,7 +98,7 @@ bool lam_check_role_row(int row, lam_check_role *out)
     return true;
 }
 
-// Names of generated vertex shaders (default_vertex_shader.c), which every contract knows.
+// The names in generated vertex shaders (default_vertex_shader.c), which are part of every contract.
 static const struct contract_name default_vertex_names[] = {
     {"lambent_position", SEMANTIC_POSITION, true, "vec3", "", NULL, LAM_FRAME_OBJECT, -1},
     {"lambent_normal", SEMANTIC_NORMAL, true, "vec3", "", NULL, LAM_FRAME_OBJECT, -1},

@@ -67,7 +67,7 @@ struct contract_constant {
 // The lighting of a contract's shaders with metalness and roughness. The defaults are glTF 2.0's, appendix B; other
 // forms are recognised, and accepted if they are as correct (fault_table.c).
 enum masking {
-    MASKING_SMITH,  // Smith's for GGX, height-correlated
+    MASKING_SMITH,  // Smith's masking for GGX, height-correlated
     MASKING_SCHLICK // Schlick's approximation, k = (roughness + 1)²/8
 };
 enum diffuse_share {
@@ -130,7 +130,7 @@ struct contract {
     // these names. May be NULL.
     const char *prefix_vertex, *prefix_fragment;
     const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL if not stated
-    bool has_attenuation;    // attenuation has names or constants
+    bool has_attenuation;    // attenuation uses names or constants
     bool material_strengths; // colours and their strengths are separate
     bool any_strengths;      // shaders have their own strengths and colours, and the best fit to their pictures is used
     // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The texts are rewritten
@@ -161,8 +161,8 @@ const struct contract_varying *contract_varying(const struct contract *contract,
 // Returns the contract's name most similar to an unknown one, or NULL if none is similar.
 const char *contract_nearest(const struct contract *contract, const char *name);
 
-// Returns the name that the shaders use for a semantic: their own, else the contract's, else NULL. A material's colours
-// may be multiplied by the light's.
+// Returns the name that the shaders use for a semantic: their own, else the contract's, else NULL. A name may mean
+// the product of a material's colour and the light's.
 const char *contract_name_used(const struct contract *contract, enum uniform_semantic semantic,
                                const struct declarations *vertex, const struct declarations *fragment);
 

@@ -1,8 +1,8 @@
 // maps.h: the maps of a shader in a reference scene: one texel, which differs between scenes, so that filters, wraps
 // and levels of detail have no effect.
 //
-// A shader that reads a map instead of a number gets the number as the texel. A shader that multiplies both gets a
-// factor and a texel whose product is the number; neither of them is 1, and they differ.
+// If a shader reads a map instead of a number, the texel is the number. If a shader multiplies a factor by a map, the
+// factor and the texel are two different numbers other than 1, whose product is the number.
 #ifndef MAPS_H
 #define MAPS_H
 
@@ -13,14 +13,14 @@ static inline bool is_map(enum uniform_semantic semantic)
     return semantic >= SEMANTIC_BASE_COLOR_MAP && semantic <= SEMANTIC_EMISSION_MAP;
 }
 
-// Returns the bit for reference_scene.maps and .factors.
+// Returns the bit of a map in reference_scene.maps and .factors.
 static inline unsigned map_bit(enum uniform_semantic map) { return 1u << (map - SEMANTIC_BASE_COLOR_MAP); }
 
 // The numbers of a material that a map can multiply.
 enum map_number { NUMBER_BASE_COLOR, NUMBER_METALLIC, NUMBER_ROUGHNESS, NUMBER_OCCLUSION, NUMBER_EMISSION };
 
-// Returns the factor of such a number: 1 if the map replaces the number, the number itself if there is no map. `whole`
-// is the product of factor and texel.
+// Returns the factor that multiplies the texel: 1 if the map replaces the number, the number itself if there is no map.
+// `whole` is the product of factor and texel.
 float map_factor(const struct reference_scene *scene, enum map_number number, float whole);
 
 // Returns the texel of a map as the sampler returns it.

@@ -93,7 +93,7 @@ static bool has_word(const struct name_words *a, const struct name_words *b, int
     return false;
 }
 
-// Returns whether a word of each, in one class, contradict each other.
+// Returns whether two words, one of each name and both of one class, contradict each other.
 static bool contradict(const struct name_words *a, const struct name_words *b)
 {
     for (int i = 0; i < a->count; i++)
@@ -104,8 +104,8 @@ static bool contradict(const struct name_words *a, const struct name_words *b)
     return false;
 }
 
-// Returns the share of all words that both names contain. Sets `telling` to whether one of these means more than a
-// position, a matrix or a colour.
+// Returns the share of all words that both names contain. Sets `telling` to whether one of the shared words says more
+// than that the name is a position, a matrix or a colour.
 static double shared_words(const struct name_words *a, const struct name_words *b, bool *telling)
 {
     int shared = 0;

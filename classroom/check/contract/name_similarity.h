@@ -1,4 +1,4 @@
-// name_similarity.h: estimates the likelihood that one name of a shader was meant instead of another: by spelling, by
+// name_similarity.h: estimates how likely it is that one name of a shader was meant instead of another, by spelling, by
 // sound, and by role.
 #ifndef NAME_SIMILARITY_H
 #define NAME_SIMILARITY_H

@@ -13,7 +13,7 @@ static struct uniform_value vector(lam_vec3 v, float w)
     return (struct uniform_value){{(float)v.x, (float)v.y, (float)v.z, w}};
 }
 
-// Returns the factor of a colour that a map multiplies.
+// Returns the factor that a map multiplies to give a colour.
 static struct uniform_value color_factor(const struct reference_scene *s, enum map_number number, lam_rgb c,
                                          float alpha)
 {
@@ -21,7 +21,8 @@ static struct uniform_value color_factor(const struct reference_scene *s, enum m
         {map_factor(s, number, c.r), map_factor(s, number, c.g), map_factor(s, number, c.b), alpha}};
 }
 
-// Returns a colour divided by the base colour map's texel, which will multiply it, such as the diffuse light's.
+// Returns a colour, such as the diffuse light's, divided by the base colour map's texel, by which the shader will
+// multiply it.
 static struct uniform_value without_texel(const struct reference_scene *s, struct uniform_value c)
 {
     const float base[] = {s->diffuse.r, s->diffuse.g, s->diffuse.b};
@@ -68,7 +69,8 @@ static struct uniform_value light_position(const struct reference_light *light, 
                                                 : vector(mat4_point(to, light->position), 1);
 }
 
-// Returns cosine of the cutoff and exponent; for shaders with two angles a hard edge at the cutoff, or none.
+// Returns the cosine of the cutoff and the exponent; for shaders with two angles, returns a hard edge at the cutoff, or
+// none.
 static struct uniform_value cone(const struct reference_light *light)
 {
     if (light->cutoff_deg <= 0)
@@ -77,8 +79,8 @@ static struct uniform_value cone(const struct reference_light *light)
     return (struct uniform_value){{cosine, light->exponent, cosine, 1e5f}};
 }
 
-// Published shaders with metalness and roughness divide by pi. Lambent's lights include pi: a white surface that faces
-// a light of 1 is 1.
+// Published shaders with metalness and roughness divide by pi. Lambent's light intensities include pi: a white surface
+// that faces a light of intensity 1 has the value 1.
 static float light_scale(const struct reference_scene *s) { return s->is_radiance ? (float)PI : 1; }
 
 // Returns the inverse transpose of the matrix from the model's space.
@@ -187,7 +189,7 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return cone(light);
     case SEMANTIC_CUTOFF:
         return number(cone(light).v[0]);
-    case SEMANTIC_OUTER_CUTOFF: // nothing between the two angles, so that every form of a soft edge is the hard one
+    case SEMANTIC_OUTER_CUTOFF: // no width between the two angles: all soft edges are hard
         return number(cone(light).v[0] - (light->cutoff_deg > 0 ? 1e-6f : 0.1f));
     case SEMANTIC_SPOT_EXPONENT:
         return number(light->exponent);

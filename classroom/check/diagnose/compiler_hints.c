@@ -93,7 +93,7 @@ static const struct {
     {"fma", 400, 320, "write a * b + c"},
 };
 
-// Without a version line, a precision statement means WebGL.
+// Without a version line, a precision statement implies WebGL.
 static bool is_es(const struct declarations *d)
 {
     return strcmp(d->profile, "es") == 0 || d->version == 100 || (!d->version && declarations_uses(d, "precision"));
@@ -205,8 +205,8 @@ void compiler_hints_for_message(struct diagnostics *diagnostics, const struct de
     }
     if (strstr(message, "include") && strchr(message, '<'))
         diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
-                        "GLSL has no #include: three.js replaces it by its own code, which the check does not have; "
-                        "write the needed code yourself");
+                        "GLSL has no #include: three.js replaces it with its own code, which the check does not have; "
+                        "write this code yourself");
     if (strstr(message, " field ") && quoted_name(message, name))
         hint_member(diagnostics, d, file, line, name);
     if (strstr(message, "no matching function") && (strstr(message, "(int") || strstr(message, ", int")))
@@ -333,7 +333,7 @@ static void hint_globals(struct diagnostics *diagnostics, const struct declarati
             for (int k = i + 1; k < d->word_count && strcmp(d->words[k].text, ";") != 0; k++)
                 if (declarations_find(d, DECLARED_UNIFORM, d->words[k].text))
                     diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, d->words[i].line,
-                                    "GLSL ES initialises globals with constants only: assign '%s' in main()",
+                                    "GLSL ES can initialise globals only with constants: assign '%s' in main()",
                                     d->words[i - 1].text);
 }
 

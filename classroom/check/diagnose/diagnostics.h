@@ -13,7 +13,7 @@ struct diagnostics {
     bool failed; // out of memory
 };
 
-// Adds a message once; a repeated one and those past a fixed count are dropped.
+// Adds a message once; drops repeated messages and messages beyond a fixed count.
 __attribute__((format(printf, 5, 6))) void diagnostics_add(struct diagnostics *diagnostics,
                                                            lam_check_diagnostic_kind kind, const char *file, int line,
                                                            const char *format, ...);

@@ -7,8 +7,9 @@
 
 #include "shader_interface.h"
 
-// The switches. The fault shader queries each with is(NAME). Switches up to MEAN_DISTANCE concern normals, spaces and lengths, those
-// up to USE_ACES the written colour, the others the terms (fault_shader.c compiles no code for groups that are off).
+// The switches. The fault shader tests each switch with is(NAME). Switches up to MEAN_DISTANCE concern normals, spaces
+// and lengths, those up to USE_ACES the written colour, the others the terms (fault_shader.c compiles no code for
+// groups that are off).
 // clang-format off
 #define FAULT_BITS(X) \
     X(LONG_NORMAL) X(LONG_NORMAL_VERTEX) X(LONG_EYE) X(LONG_LIGHT) X(RAW_HALF) X(HALF_LONG) \
@@ -80,7 +81,7 @@ enum fault_where {
     WHERE_WORLD = 128,       // lighting in world space
     WHERE_WORLD_LIGHT = 256, // lights in world space, lighting in eye space
     WHERE_STRENGTHS = 1024,  // colours and their strengths are separate
-    WHERE_FOUR = 512,        // vectors of four components may be lit: a varying is a vec4, or the vertices are lit
+    WHERE_FOUR = 512,        // lit vectors may have four components: a varying is a vec4, or the vertices are lit
     WHERE_CLASSIC = 2048,    // highlights with an exponent
     WHERE_PHYSICAL = 4096,   // metalness and roughness
     WHERE_SCHLICK = 8192,    // the contract's masking is Schlick's
@@ -111,8 +112,8 @@ enum fault_maps {
     MAPS_TANGENTS = 2048,         // tangents are an attribute
     MAPS_SIGN = 4096,             // the tangents include the sign of the bitangent
     MAPS_DERIVATIVES = 8192,      // dFdx occurs in the fragment shader
-    MAPS_UP = 16384,              // v goes up if u goes right
-    MAPS_DOWN = 32768,            // v goes down if u goes right
+    MAPS_UP = 16384,              // v increases upwards if u increases to the right
+    MAPS_DOWN = 32768,            // v increases downwards if u increases to the right
     MAPS_NO_BASE = 65536,         // the shader reads no map of the base colour
     MAPS_OCCLUSION_READ = 131072, // an occlusion map, with or without an ambient term
     MAPS_NO_OCCLUSION = 262144,   // no occlusion map
@@ -135,7 +136,7 @@ struct fault {
     unsigned maps;                // bits of fault_maps
     float factor;                 // the factor of the exponent, or 0
     enum fault_fit fit;
-    bool rare;       // not reported beside another fault with the same pictures
+    bool rare;       // not reported together with another fault with the same pictures
     bool style;      // not a mistake, but a form that is as correct as the reference
     bool whole_term; // one or more terms are missing completely
     unsigned demand; // bits of contract_demand: a mistake only if the contract requires one of them, else a style

@@ -61,7 +61,7 @@ bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_er
 }
 
 // Returns whether a candidate explains no more than its parent, which lacks the last fault, in the first `count` scenes
-// that this fault changes, so that it is not worth pursuing.
+// that this fault changes. Such a candidate is not worth pursuing.
 static bool is_idle(const struct state *t, const struct candidate *c, const struct candidate *parent, const int *order,
                     int count)
 {

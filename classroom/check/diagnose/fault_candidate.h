@@ -42,8 +42,8 @@ struct state {
     struct fault_search *s;
     struct fault_measure m;
     struct outcome *outcomes; // one for each row of the table
-    // Each scene without faults, in the measured pixels. Because these are few, more of them than the tolerance allows
-    // may differ in a scene that passes.
+    // The difference of each scene without faults, in the measured pixels. Because few pixels are measured, more of
+    // them than the tolerance allows may differ in a scene that passes.
     struct difference without[MAX_SCENES];
 };
 
@@ -78,7 +78,7 @@ bool outcome_find_spoils(struct state *t, struct outcome *o, lam_error *error);
 // Returns the result of a row of the table.
 struct outcome *outcome_of(const struct state *t, const struct fault *row);
 
-// Combines faults that each explain scenes of their own, starting with those that explain most. With `all`, they must
+// Combines faults that each explain different scenes, starting with the faults that explain most. With `all`, they must
 // explain every picture. Otherwise faults are added while they explain further scenes and contradict none.
 bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_error *error);
 

@@ -25,7 +25,7 @@ uniform vec3 tint;                   // multiplies a tinted highlight
 uniform float light_capacity;        // of the shader under test
 uniform float opacity, shininess;
 uniform float exponent_factor, exponent_constant; // of a wrong exponent; 0: none
-uniform mat4 to_lighting, to_clip; // from the model's space to that of the lighting, and from there to clip space
+uniform mat4 to_lighting, to_clip; // model space to lighting space, lighting space to clip space
 uniform mat4 to_eye_space;         // from the space of the lighting
 uniform vec4 eye_position;         // in the space of the lighting, w 1
 uniform vec4 eye_axis;             // from the scene to the eye, if that were infinitely far away; w 0

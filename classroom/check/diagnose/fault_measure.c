@@ -144,7 +144,7 @@ fault_set fault_measure_with(const fault_set *set, const struct found_fault *fau
 
 // --- fitting an exponent
 
-// Returns the difference in a scene if the exponent is multiplied, or replaced, by 2^x.
+// Returns the difference in a scene when the exponent is multiplied by 2^x, or replaced by it.
 static bool try_exponent(struct fault_measure *t, int scene, const fault_set *base, const struct fault *row,
                          double exponent, double *mean, lam_error *error)
 {

@@ -17,7 +17,7 @@
 
 // Mean differences: the rounding error of an exact explanation in one scene, and the difference between equal pictures.
 static const double max_exact_scene = 1e-4, same_mean = 1e-5;
-// The smallest change of a scene's mean difference, by one fault alone, that counts as a change.
+// The smallest change in a scene's mean difference that counts when one fault is applied alone.
 static const double min_change = 1e-6;
 
 // --- one fault
@@ -76,7 +76,7 @@ static bool measure_outcome(struct state *t, struct outcome *o, bool all, lam_er
     return true;
 }
 
-// Tries each fault of the table alone, as long as it explains each scene. `best` is the best one that explains
+// Tries each fault of the table alone, until it fails to explain a scene. `best` is the best one that explains
 // everything.
 static bool try_each(struct state *t, struct candidate *best, lam_error *error)
 {
@@ -103,7 +103,7 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
             continue;
         if (!candidate_try(t, &c, no_limit, error))
             return false;
-        // Of faults with equal pictures, the first in the table is used.
+        // If several faults have equal pictures, the first in the table is used.
         if (c.fits && c.mean <= max_ratio_explained * s->before &&
             (!best->fits || c.mean < 0.5 * best->mean - same_mean))
             *best = c;
@@ -150,7 +150,7 @@ static bool try_forms(struct state *t, struct candidate *best, lam_error *error)
 
 // --- the result
 
-// Finds the faults that draw the same pictures if they replace member `i` of a complete explanation.
+// Finds the faults that draw the same pictures as member `i` of a complete explanation.
 static bool find_also(struct state *t, const struct candidate *best, int i, struct found_fault *found, lam_error *error)
 {
     for (int m = 0; m < fault_count && found->also_count < MAX_ALSO; m++) {

@@ -8,11 +8,11 @@
 
 enum { BEAM = 6 };
 
-// As fractions of the difference without faults:
-// the most that may remain after two faults to make a search for three worthwhile
+// As fractions of the difference without faults: the largest remainder after two faults for which a search for three is
+// worthwhile
 static const double max_score_for_a_third = 0.75;
 static const double min_gain = 0.03;  // the least that each further fault must explain
-static const double max_rival = 1.25; // a rival may leave this many times as much over all scenes
+static const double max_rival = 1.25; // a rival's remainder over all scenes may be this many times as large
 static const double max_exact =
     2e-4; // the rounding error of an exact explanation, as a mean difference over all scenes
 
@@ -52,8 +52,8 @@ static bool reduce(struct state *t, struct candidate *c, lam_error *error)
     return true;
 }
 
-// Returns whether a fault is the only explanation of some scene: no other fault explains it and leaves about as little
-// over all scenes.
+// Returns whether a fault is the only explanation of some scene: no other fault explains it with a similarly small
+// remainder over all scenes.
 static bool is_the_one(struct state *t, const struct outcome *o, lam_error *error, bool *ok)
 {
     for (int k = 0; k < t->m.differ_count; k++) {
@@ -172,7 +172,7 @@ bool sets_try(struct state *t, struct candidate *best, lam_error *error)
         struct candidate c = {.members = {o->fault}, .count = 1, .mean = o->mean, .score = o->score};
         memcpy(c.parts, o->parts, sizeof c.parts);
         candidate_rebuild(&c);
-        // A candidate that spoils a scene is not part of an explanation, and must not displace another.
+        // A candidate that spoils a scene is not part of an explanation, so it must not displace another candidate.
         bool near = beam_count < BEAM || is_better(&c, &beam[BEAM - 1]);
         if (near && !outcome_find_spoils(t, o, error))
             return false;

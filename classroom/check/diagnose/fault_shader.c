@@ -13,7 +13,7 @@
 
 enum switch_group { GROUP_VECTORS, GROUP_OUTPUT, GROUP_TERMS, GROUP_COUNT };
 
-// The variant of a program. Its constants are part of the text, so that it computes only the parts that a picture
+// The variant of a program. Its constants are part of the source, so that it computes only the terms that a picture
 // needs; a software driver would compute both sides of every branch.
 struct specialization {
     bool in_vertex, physical, phong, products, ambient_by_light, flat, two_sided;
@@ -235,7 +235,7 @@ void fault_shader_close(struct fault_shader *m)
     free(m);
 }
 
-// Sets the values of a uniform, `each` floats for each element, as far as the program reads it.
+// Sets the values of a uniform, `each` floats per element, for the elements that the program reads.
 static void set(struct fault_shader *m, const char *name, int count, int each, const float *numbers)
 {
     int input = place_input(m->program, name, false);
@@ -394,7 +394,8 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_color(m, "bare_ka", reference_scene->ambient, 1);
     set_color(m, "bare_kd", reference_scene->diffuse, 1);
     set_color(m, "bare_ks", reference_scene->specular, 1);
-    // In contracts with separate strengths and colours, one of the two is confused; in the others, the products are.
+    // In contracts with separate strengths and colours, the fault swaps one of the two; in the others, it swaps the
+    // products.
     bool apart = interface->contract->material_strengths;
     set_color(m, "kd_with_ks", apart ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);
     set_color(m, "ks_with_kd", apart ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);

@@ -1,7 +1,7 @@
 // fault_table.c: the table of known mistakes, their explanations and corrections.
 //
 // Most occur in lectures and tutorials (docs/mistakes.md shows them). Of two mistakes with the same picture, the more
-// common one is first. Rows with the same id are forms of one mistake and are adjacent.
+// common one comes first. Rows with the same id are forms of one mistake and are adjacent.
 //
 // Longer than 600 lines: one table.
 #include "fault.h"

@@ -85,7 +85,7 @@ static const char *to_lighting(const struct line *line)
     return name ? name : is_world(line) ? "model" : "gl_ModelViewMatrix";
 }
 
-// Writes the matrices from there to clip space.
+// Writes the matrices from the space of the lighting to clip space.
 static void put_to_clip(struct line *line)
 {
     const char *projection = own_name(line, SEMANTIC_PROJECTION), *view = own_name(line, SEMANTIC_VIEW);

@@ -5,7 +5,7 @@
 
 #include "fault_shader.h"
 
-// Everything that determines a picture of the fault shader.
+// All inputs that determine a picture of the fault shader.
 struct render_key {
     int scene;                            // index in reference_scenes
     uint64_t contract, declared, numbers; // the contract's hash; of shader_interface; shader_constants_hash

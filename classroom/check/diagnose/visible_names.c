@@ -15,7 +15,7 @@ static bool is_identifier(const struct declarations *d, int i)
     return isalpha((unsigned char)first) || first == '_';
 }
 
-// Words that may precede a name without being its type.
+// Returns whether a word may precede a name without being its type.
 static bool is_keyword(const struct declarations *d, int i)
 {
     static const char *const words[] = {"return",    "else",      "do",      "in",        "out",    "inout", "uniform",

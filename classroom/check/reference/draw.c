@@ -183,10 +183,10 @@ static bool draw_scene(struct shader_run *run, const struct reference_scene *sce
 
 // --- shaders that loop forever
 
-// Software drivers leave an endless loop after some ten thousand iterations and continue with the current values. Such
-// a shader is recognised by its processor time, over all threads: a correct shader takes a hundredth of the limit. The
-// limit depends on the machine's speed: it is a multiple of the time for a sum of dependent terms, measured in
-// intervals so short that at least one of them is not interrupted.
+// Software drivers leave an endless loop after some ten thousand iterations and continue with the current values. The
+// check recognises such a shader by its processor time, over all threads: a correct shader takes a hundredth of the
+// limit. The limit depends on the machine's speed: it is a multiple of the time for a sum of dependent terms, measured
+// in intervals so short that at least one of them is not interrupted.
 static double seconds(clockid_t clock)
 {
     struct timespec t;

@@ -1,5 +1,5 @@
-// draw_request.c: the request and its result as bytes. Both sides are the same program, so structs are copied as they
-// are. The result is validated nevertheless, because its process has run untrusted shaders.
+// draw_request.c: the request and its result as bytes. The program that reads the bytes is the program that wrote them,
+// so structs are copied unchanged. The result is validated nevertheless, because its process has run untrusted shaders.
 #include "draw_request.h"
 
 #include <stdlib.h>

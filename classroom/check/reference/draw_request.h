@@ -20,7 +20,7 @@ struct draw_result {
     int state;                          // enum draw_state
     int group_counts[MAX_LIGHT_GROUPS]; // for each list of lights, the number of lights that the driver uses
     char driver[128];
-    bool refused_vertex, refused_fragment; // DRAWN_REFUSED: the ones that do not compile
+    bool refused_vertex, refused_fragment; // DRAWN_REFUSED: those that do not compile
     // the log of the vertex shader or the linker; for DRAWN_SLOW the scene's name
     char log[4096];
     char fragment_log[4096];

@@ -61,7 +61,7 @@ static void delete_objects(struct gl_place *t)
     gl->DeleteRenderbuffers(1, &t->depth);
 }
 
-// Frees the context. At rest another context may be current; the objects are freed with their own.
+// Frees the context. If the context is at rest, another context may be current; its objects are freed with it.
 static void close(void *place)
 {
     struct gl_place *t = place;

@@ -1,4 +1,4 @@
-// place.c: the meshes for a painter, made on first use.
+// place.c: makes the meshes for a painter on first use.
 #include "place.h"
 #include "contract.h"
 

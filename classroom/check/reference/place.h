@@ -1,4 +1,4 @@
-// place.h: a painter's context, with the reference meshes drawn so far.
+// place.h: a painter's context, and the reference meshes drawn so far.
 #ifndef PLACE_H
 #define PLACE_H
 
@@ -7,7 +7,7 @@
 enum { MAX_TEXTURE_COORDINATES = 2, MAX_FACTORS = 2 };
 
 struct place {
-    lam_check_painter painter; // a copy, because a cache may keep the context longer than the caller's
+    lam_check_painter painter; // a copy: a cache may keep the context longer
     void *place;               // the painter's context; NULL if not open
     int size;
     char renderer[128];

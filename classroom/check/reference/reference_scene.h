@@ -1,5 +1,5 @@
-// reference_scene.h: the reference scenes, each of which tests one feature, as scenes for the CPU device and as values
-// for a shader's uniforms.
+// reference_scene.h: the reference scenes, each of which tests one feature. They are available as scenes for the CPU
+// device and as values for a shader's uniforms.
 #ifndef REFERENCE_SCENE_H
 #define REFERENCE_SCENE_H
 
@@ -8,7 +8,8 @@
 
 enum { MAX_SCENE_LIGHTS = 4, MESH_COUNT = 9 };
 
-// A patch is the plane with a rotated texture. There are four: as is, with u mirrored, with v downward, and with both.
+// A patch is the plane with a rotated texture. There are four: unchanged, with u mirrored, with v downward, and with
+// both.
 enum reference_mesh {
     MESH_TEAPOT,
     MESH_SPHERE,
@@ -89,8 +90,8 @@ struct reference_scene {
     // exactly a unit vector, as in filtered maps.
     lam_vec3 bump;
     lam_rgb emission; // the colour of an emission map
-    // For shaders that read maps: the maps (map_bit), and the ones with a separate factor. Factor times texel is the
-    // number above.
+    // For shaders that read maps: the bits (map_bit) of the maps, and of the maps with a separate factor. Factor times
+    // texel is the number above.
     unsigned maps, factors;
     float occlusion;    // the value of an occlusion map
     bool encoded_maps;  // contract.maps

@@ -47,7 +47,7 @@ static int ambient_choices(const struct shader_interface *r, unsigned terms, uns
                (light && is_fixed(&d->ambient_color));
     unsigned complete =
         light || is_fixed(&d->light_ambient) || !names(r, SEMANTIC_AMBIENT_LIGHT) ? 0 : EXPECT_WHITE_AMBIENT_LIGHT;
-    bool constant = d->ambient_strength.given && !declared; // the exercise has it as a number
+    bool constant = d->ambient_strength.given && !declared; // the exercise uses a number for it
     int count = 0;
     if (terms ? terms & LAM_CHECK_TERM_AMBIENT : declared || constant)
         out[count++] = complete;
@@ -71,7 +71,7 @@ static int diffuse_choices(const struct shader_interface *r, unsigned terms, uns
     int count = 0;
     if (!terms || terms & LAM_CHECK_TERM_DIFFUSE)
         out[count++] = complete;
-    // The light's colour alone may be used for a highlight.
+    // The light's colour may be used only for the highlight.
     if (terms ? !count : !declared || (!surface && !declares(r, SEMANTIC_LIGHT_SPECULAR)))
         out[count++] = EXPECT_NO_DIFFUSE;
     return count;
@@ -97,7 +97,7 @@ static int specular_choices(const struct shader_interface *r, unsigned terms, un
         if (light_open && declares(r, SEMANTIC_LIGHT_COLOR))
             out[count++] = white | EXPECT_SPECULAR_LIGHT_AS_DIFFUSE;
         out[count++] = white | (light_open ? EXPECT_WHITE_SPECULAR_LIGHT : 0);
-        if (!surface && d->specular_color.source == COLOR_OF_DIFFUSE) { // both are correct, tinted or not
+        if (!surface && d->specular_color.source == COLOR_OF_DIFFUSE) { // both forms are correct, tinted or not
             out[count] = out[count - 1] | EXPECT_WHITE_SPECULAR;
             count++;
         }

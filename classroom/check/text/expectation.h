@@ -26,11 +26,11 @@ enum expectation {
 enum { MAX_EXPECTATIONS = 16 };
 
 // Stores the possible expectations, bits of enum expectation, starting with the largest number of terms. `terms` has
-// the required bits of lam_check_term; 0 means the terms that the declarations show. Returns the number of
+// the required bits of lam_check_term; 0 means the terms that the declarations suggest. Returns the number of
 // expectations, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
-// Returns whether a fault of the table is not a mistake because the declarations leave its choice open: some of the
+// Returns whether a fault of the table is not a mistake because the declarations leave the choice open: some of the
 // possible expectations include the change, and others do not.
 bool expectation_permits(const struct shader_interface *interface, unsigned terms, const char *fault);
 

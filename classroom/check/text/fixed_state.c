@@ -48,8 +48,8 @@ static bool has_word(const char *text, const char *word)
     return false;
 }
 
-// Declares a state with the members that one of the texts uses, identically in both: undeclared members are not
-// expected.
+// Declares a state with the members that at least one of the two texts uses, identically in both: terms of undeclared
+// members are not expected.
 static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
 {
     size_t at = strlen(out);
@@ -81,7 +81,7 @@ char *fixed_state_rewrite(const char *text, const char *other, bool *ok)
     }
     if (!names)
         return NULL;
-    // After the version, which has to be first; the lines keep their numbers.
+    // The declarations follow the version line, which has to be first; the lines keep their numbers.
     const char *version = strstr(text, "#version"), *rest = version ? version + strcspn(version, "\n") : text;
     int line = version ? 1 : 0;
     for (const char *c = text; c < rest; c++)

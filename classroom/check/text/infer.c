@@ -11,7 +11,7 @@
 #include "number.h"
 
 enum { MAX_CHAIN = 8, MAX_DEPTH = 8, MAX_SPACES = 4 };
-// The time grows with their product; real shaders are far below these limits.
+// The time grows with the product of these numbers; real shaders are far below the limits.
 enum { MAX_WORDS = 30000, MAX_DECLARED = 500, MAX_STEPS = 100000 };
 
 struct inference {
@@ -22,7 +22,7 @@ struct inference {
     bool has_model, has_model_view, has_eye, has_light, has_normal_matrix;
     json_t *attributes, *uniforms, *undeclared;
     const char *space, *light_space; // eye, world, object
-    bool guessed;                    // a role was found by exclusion
+    bool guessed;                    // a role was guessed by elimination
     bool engine;                     // an engine sets the values of its names
     bool all;                        // inputs with unknown roles get the role `zero`
     char *reason;
@@ -62,7 +62,7 @@ static const char *last_part(const char *name)
     return dot ? dot + 1 : name;
 }
 
-// Removes parts without meaning from a name: u_, a leading u before a capital, Matrix, Mat.
+// Removes meaningless parts from a name: u_, a leading u before a capital, Matrix, Mat.
 static void core_of(const char *name, char out[64])
 {
     size_t length = 0;
@@ -84,7 +84,7 @@ static const struct declaration *uniform_of(const struct declarations *d, const 
     return declarations_find(d, DECLARED_UNIFORM, name);
 }
 
-// Returns the word after `name =` in the last assignment before word `before`, or −1 if there is none.
+// Returns the index of the word after `name =` in the last assignment before word `before`, or −1 if there is none.
 static int assignment_of(const struct declarations *d, const char *name, int before)
 {
     for (int i = before - 2; i >= 0; i--)
@@ -241,7 +241,7 @@ static bool reads_w(const struct inference *f, const char *name)
     return false;
 }
 
-// Returns whether `-name` occurs, so that it is a direction away from the light.
+// Returns whether `-name` occurs, which means that it is a direction away from the light.
 static bool is_negated(const struct inference *f, const char *name)
 {
     const struct declarations *sides[] = {f->vertex, f->fragment};
@@ -272,7 +272,8 @@ static bool find_vector(struct inference *f, const struct declaration *item)
     unsigned uses = paint ? 0 : uses_of(f->vertex, name) | uses_of(f->fragment, name);
     bool geometric = uses != 0;
     if (!paint && uses && has(last, "half"))
-        return cannot(f, "the half vector '%s' (%s) is of a distant viewer, and the check has none", name, item->type);
+        return cannot(f, "the half vector '%s' (%s) belongs to a distant viewer, which the check does not support",
+                      name, item->type);
     if (!paint && has(last, "eye cam view") && !light && !has(last, "dir")) {
         f->has_eye = true;
         give(f->uniforms, name, "eye_position", item->type, f->space);
@@ -343,7 +344,7 @@ static bool find_number(struct inference *f, const struct declaration *item)
     else if (has(last, "metal rough atten range radius falloff gamma expos near far"))
         role = NULL;
     if (!role)
-        return cannot(f, "the check does not know what '%s' (%s) is for", name, item->type);
+        return cannot(f, "the check does not know the purpose of '%s' (%s)", name, item->type);
     give(f->uniforms, name, role, item->type, NULL);
     return true;
 }
@@ -360,7 +361,7 @@ static bool find_role(struct inference *f, const struct declaration *item)
     }
     if (json_object_get(f->uniforms, item->name))
         return true;
-    if (!used || strcmp(item->type, "uint") == 0) { // but a driver may know it
+    if (!used || strcmp(item->type, "uint") == 0) { // a driver may still recognise the attribute
         give(f->uniforms, item->name, "zero", strcmp(item->type, "uint") == 0 ? "int" : item->type, NULL);
         return true;
     }
@@ -481,7 +482,7 @@ static int find_spaces(const struct inference *f, const char *out[MAX_SPACES][2]
     int count = 0;
     const bool built_in = !f->chain_count;
 #define SPACES(lit, light) (out[count][0] = (lit), out[count++][1] = (light))
-    if (f->has_eye && (f->has_model || f->engine)) { // in eye space the eye is at 0, so nobody passes its position
+    if (f->has_eye && (f->has_model || f->engine)) { // in eye space the eye is at 0, so no input passes its position
         SPACES("world", "world");
         SPACES("world", "object");
     } else if (f->has_eye) {
@@ -522,7 +523,7 @@ static bool infer(struct inference *f, int guess)
     bool fixed = declarations_uses(f->vertex, "ftransform") || declarations_uses(f->vertex, "gl_Vertex");
     if (f->vertex->word_count > MAX_WORDS || f->fragment->word_count > MAX_WORDS || f->vertex->count > MAX_DECLARED ||
         f->fragment->count > MAX_DECLARED)
-        return cannot(f, "the %s are longer than the check reads%s", "texts", "");
+        return cannot(f, "the %s are longer than the limit of the check%s", "texts", "");
     for (int i = 0; i + 1 < f->vertex->word_count; i++)
         if (is(f->vertex, i, "gl_Position") && is(f->vertex, i + 1, "="))
             follow(f, i + 2, MAX_DEPTH);
@@ -579,7 +580,7 @@ char *contract_infer(const struct declarations *vertex, const struct declaration
     if (infer(&f, guess)) {
         json_t *root =
             json_pack("{s:i, s:s, s:s, s:s, s:s, s:O, s:O, s:O}", "contract", 1, "name", "inferred", "title",
-                      f.guessed ? "inferred from the shaders, in part by exclusion" : "inferred from the shaders",
+                      f.guessed ? "inferred from the shaders, partly by elimination" : "inferred from the shaders",
                       "space", f.space, "strengths", "any", "attributes", f.attributes, "uniforms", f.uniforms,
                       "undeclared", f.undeclared);
         json_object_set_new(root, "constants",

@@ -1,7 +1,7 @@
 // infer.h: makes a contract from a pair of shaders: the role of each input is inferred from its use, its type, and the
 // words in its name.
 //
-// The result is a guess: the contract allows any strengths, and its verdict is only used if the pictures confirm it
+// The result is a guess: the contract allows any strengths, and its verdict counts only if the pictures confirm it
 // (check_fit.c).
 #ifndef INFER_H
 #define INFER_H
@@ -9,9 +9,9 @@
 #include "contract.h"
 
 // Returns the text of contract number `guess` (0, 1, …) for the shaders, from malloc. The guesses differ in the spaces
-// that the text leaves open. Returns NULL if there is no such guess; for the first guess, `reason` then names the input
-// that cannot be set, and is "" otherwise. `engine` is a contract whose prefix the texts lack, or NULL. With `all`,
-// inputs with unknown roles get the role `zero`, and `reason` names the first of them.
+// that the text does not determine. Returns NULL if there is no such guess; for the first guess, `reason` then names
+// the input for which no value is known, and is "" otherwise. `engine` is a contract whose prefix the source texts
+// lack, or NULL. With `all`, inputs with unknown roles get the role `zero`, and `reason` names the first of them.
 char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
                      const struct contract *engine, int guess, bool all, char *reason, size_t capacity);
 

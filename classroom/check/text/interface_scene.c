@@ -101,8 +101,8 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
                      LIGHT_SPECULAR);
 }
 
-// With metalness and roughness there is no separate strength: a scene that shows only the ambient term has dark lights
-// instead.
+// With metalness and roughness there is no separate strength: if a scene shows only the ambient term, its lights are
+// dark instead.
 static void adapt_physical(const struct shader_interface *r, struct reference_scene *s)
 {
     const struct contract_defaults *d = &r->defaults;
@@ -215,7 +215,7 @@ static unsigned kind_bit(lam_light_type type)
     return type == LAM_LIGHT_DIRECTIONAL ? NEED_DIRECTIONAL : type == LAM_LIGHT_SPOT ? NEED_SPOT : NEED_POINT;
 }
 
-// Returns a group that can have a light and has space for it, or −1. `taken` contains the used elements.
+// Returns a group that can have a light and has space for it, or −1. `taken` marks the used elements.
 static int find_group(const struct shader_interface *r, lam_light_type type, const int taken[MAX_LIGHT_GROUPS])
 {
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)

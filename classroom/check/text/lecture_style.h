@@ -1,5 +1,5 @@
-// lecture_style.h: the lighting of a shader printed by `lambent shader --style lecture`, read from its words. It reads
-// the lines of src/glsl/lecture.glsl, also with one of the known mistakes in them.
+// lecture_style.h: reads the lighting of a shader printed by `lambent shader --style lecture` from its words. It
+// recognises the lines of src/glsl/lecture.glsl, also if they contain a known mistake.
 #ifndef LECTURE_STYLE_H
 #define LECTURE_STYLE_H
 

@@ -1,5 +1,5 @@
-// own_texts.h: the texts that a check uses: line ends are normalised, and the fixed state of GLSL 110 and 120 is an
-// input.
+// own_texts.h: the source texts that a check uses: line ends are normalised, and the fixed state of GLSL 110 and 120 is
+// declared as inputs.
 #ifndef OWN_TEXTS_H
 #define OWN_TEXTS_H
 
@@ -10,8 +10,8 @@ struct own_texts {
     char *lines[2], *rewritten[2]; // allocated with malloc; NULL if not needed
 };
 
-// Makes them from the texts of a program, which must outlive them. Returns false on failure: LAM_LIMIT. The caller
-// frees them in any case.
+// Makes the texts from the source texts of a program, which must outlive them. Returns false on failure: LAM_LIMIT. The
+// caller frees them in any case.
 bool own_texts_make(const char *vertex, const char *fragment, struct own_texts *out, lam_error *error);
 void own_texts_free(struct own_texts *texts);
 

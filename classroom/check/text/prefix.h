@@ -1,4 +1,4 @@
-// prefix.h: completes texts as an engine does before it compiles them (three.js' ShaderMaterial).
+// prefix.h: completes shader texts as an engine does before it compiles them (three.js' ShaderMaterial).
 #ifndef PREFIX_H
 #define PREFIX_H
 

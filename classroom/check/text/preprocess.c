@@ -179,7 +179,7 @@ struct argument {
 };
 
 // Parses the arguments after a function-like macro's name. Returns the number of tokens up to the closing bracket, or 0
-// if it is not called.
+// if no opening bracket follows the name.
 static int read_arguments(const struct token *t, int count, struct argument arguments[MAX_PARAMETERS], int *found)
 {
     int depth = 0;
@@ -221,8 +221,8 @@ static void substitute(struct preprocessor *p, const struct macro *m, const stru
     }
 }
 
-// The name of a number, such as LIGHT_SPOT, is kept unless it is the size of an array, because it is more meaningful
-// than the number.
+// The name of a number, such as LIGHT_SPOT, is kept because it is more meaningful than the number, unless it is the
+// size of an array.
 static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 {
     const struct declarations *d = p->d;

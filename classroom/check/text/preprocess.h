@@ -4,8 +4,9 @@
 
 #include "declarations.h"
 
-// Stores the words of the text, and the version of its #version line, in `d`. It accepts wrong texts: unknown parts are
-// unchanged, and a text that expands to more than half a million words ends there. Returns false if memory runs out.
+// Stores the words of the text, and the version of its #version line, in `d`. It accepts invalid texts: unknown parts
+// are unchanged, and a text that expands to more than half a million words is truncated there. Returns false if memory
+// runs out.
 bool preprocess(struct declarations *d, const char *text);
 
 #endif

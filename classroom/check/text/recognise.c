@@ -7,8 +7,8 @@
 
 #include "name_similarity.h"
 
-// Returns points for a declared name: a name of the contract counts more than an accepted synonym, and another type a
-// little less.
+// Returns points for a declared name: a name of the contract scores more than an accepted synonym, and a different type
+// scores slightly less.
 static int points_of(const struct contract *contract, const struct declaration *item, bool attribute)
 {
     const struct contract_name *n = contract_find(contract, item->name, attribute, NULL);
@@ -109,8 +109,8 @@ static const struct declaration *find_either(const struct declarations *vertex, 
     return item ? item : find_uniform_or_attribute(fragment, name, false);
 }
 
-// Returns the name of the contract that an unknown one probably means: it has the same kind and a similar type, and is
-// not declared itself. Returns NULL if there is none.
+// Returns the name of the contract that an unknown name probably means: it has the same kind and a similar type,
+// and the shader does not declare it. Returns NULL if there is none.
 static const struct contract_name *meant_by(const struct contract *contract, const struct declarations *vertex,
                                             const struct declarations *fragment, const struct declaration *item)
 {

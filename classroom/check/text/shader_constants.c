@@ -165,7 +165,7 @@ void shader_constants_find(struct shader_interface *r)
 
 // --- numbers without a name
 
-// Colours and strengths are found by trying; directions and exponents have other names.
+// Colours and strengths are found by trial; directions and exponents are recognised by their names.
 static bool is_vector(enum uniform_semantic semantic)
 {
     return semantic == SEMANTIC_LIGHT_AMBIENT || semantic == SEMANTIC_LIGHT_COLOR ||

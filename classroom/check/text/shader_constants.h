@@ -10,11 +10,12 @@ void shader_constants_find(struct shader_interface *interface);
 
 enum { MAX_NUMBERS = 12 };
 
-// Lists the meanings that the contract allows for a number and for which no number was found. Returns their count.
+// Lists the meanings that the contract allows for a number and for which the shaders contain no number. Returns their
+// count.
 int shader_constants_open(const struct shader_interface *interface, enum uniform_semantic out[SEMANTIC_COUNT]);
 
-// Lists the different numbers, or vec3 of numbers, that may have a meaning in the text of the shader that lights.
-// Returns their count; at most MAX_NUMBERS are listed.
+// Lists the distinct numbers, or vec3 of numbers, that may have a meaning in the source of the shader that computes the
+// lighting. Returns their count; at most MAX_NUMBERS are listed.
 int shader_constants_values(const struct shader_interface *interface, enum uniform_semantic semantic,
                             double out[MAX_NUMBERS][3]);
 

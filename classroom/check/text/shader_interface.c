@@ -93,8 +93,9 @@ static bool is_material(enum uniform_semantic semantic)
            (is_map(semantic) && semantic != SEMANTIC_BASE_COLOR_MAP);
 }
 
-// Returns whether a shader computes lighting: it declares a uniform of a material or light. A shader that only has the
-// colour of the surface may multiply it with light from the vertex shader; for printed shaders this is true of any map.
+// Returns whether a shader computes lighting: it declares a uniform of a material or light. A shader that declares only
+// the colour of the surface may multiply it by light from the vertex shader; for printed shaders this also applies to
+// any map.
 static bool is_lit(const struct shader_interface *r, const struct declarations *d)
 {
     bool colored = false;
@@ -177,8 +178,8 @@ static bool is_flat(const struct declarations *fragment)
 }
 
 // Finds the lighting of a shader printed by `lambent shader` from its functions. Lambert's lobe is ignored: the other
-// lobes call it, and alone it is the contract's own model without a highlight. The last row wins, since a coat has
-// GGX's lobe over another base.
+// lobes call it, and alone it is the contract's own model without a highlight. If several rows match, the last one is
+// used, since a coat has GGX's lobe over another base.
 static void find_printed(struct shader_interface *r)
 {
     static const struct {
@@ -310,7 +311,7 @@ static void add_light_name(struct shader_interface *r, const struct declarations
     group->count = count > group->count ? count : group->count;
     if (is_used(d, item->name))
         group->kinds |= kind_of(n->semantic, r->contract->any_strengths ? n->type : item->type);
-    // A direction alone makes the light directional; with a position it is the axis of a spot.
+    // A light with only a direction is directional; if it also has a position, the direction is the axis of a spot.
     bool direction = n->semantic == SEMANTIC_LIGHT_DIRECTION || n->semantic == SEMANTIC_LIGHT_TRAVEL;
     if (direction && is_used(d, item->name))
         group->has_direction = true;
@@ -336,7 +337,7 @@ static void find_lights(struct shader_interface *r)
         }
         all |= group->count ? group->kinds : 0;
     }
-    if (!all) // the position is in a generated vertex shader, or a constant of the exercise
+    if (!all) // the position is in the vertex shader, or is a constant
         r->groups[placeless < 0 ? 0 : placeless] = (struct light_group){
             .count = 1, .kinds = r->contract->supports & (NEED_POINT | NEED_DIRECTIONAL), .list = false};
 }

@@ -1,5 +1,5 @@
-// shader_interface.h: the interface of a pair of shaders: their declarations, their contract, and the part of it that
-// they have names for.
+// shader_interface.h: the interface of a pair of shaders: their declarations, their contract, and the features of it
+// that their names can express.
 #ifndef SHADER_INTERFACE_H
 #define SHADER_INTERFACE_H
 
@@ -17,7 +17,8 @@ struct shader_interface {
     const struct contract *contract;
     uint64_t declared, used; // bit i: a shader declares a uniform of semantic i, and reads it
     uint64_t constants;      // bit i: it has a constant of semantic i
-    // The maps that they read (map_bit), and the maps whose factor they also declare. A map declares its number.
+    // The maps that they read (map_bit), and the maps whose factor they also declare. A number with a map counts as
+    // declared.
     unsigned maps, factors;
     bool has_tangents; // tangents are attributes, so the frame of a normal map does not require derivatives
     // The contract's values, or the numbers that the shaders contain.

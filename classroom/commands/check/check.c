@@ -73,7 +73,7 @@ static bool find_submissions(struct check_command *c, int operand_count, char **
     const struct options *o = c->options;
     if (o->check.class_folder && operand_count)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--class' names a folder, and '%.100s' is a shader besides; expected one of them",
+                        "option '--class' names a folder, but '%.100s' names a shader too; expected one of them",
                         operands[0]);
     c->batch.in_class = o->check.class_folder != NULL;
     c->batch.count = o->check.class_folder

@@ -58,7 +58,7 @@ char *check_read_text(const char *path, lam_error *error);
 
 struct check_result {
     const struct check_submission *submission;
-    lam_check_report report; // valid if error.code is 0
+    lam_check_report report; // contains a verdict if error.code is 0
     lam_error error;         // why there is no verdict
     lam_error sheet_error;   // why there is no sheet
     char *sheet;             // the sheet's path; NULL if none was requested or drawn
@@ -134,7 +134,7 @@ void check_page_free(struct check_page *page); // accepts NULL
 bool check_sheet(const lam_check_report *report, const char *shader, const struct options *options, const char *path,
                  lam_error *error);
 
-// --- checking many (check_batch.c)
+// Runs many checks (check_batch.c)
 
 struct check_batch {
     const struct options *options;

@@ -159,7 +159,8 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
         if (lstat(paths[i], &found) != 0 || !S_ISDIR(found.st_mode))
             continue;
         if (depth == MAX_DEPTH) {
-            if (!add(f, name_of(top, paths[i], false), NULL, NULL, "the folder lies too deep: it was not searched"))
+            if (!add(f, name_of(top, paths[i], false), NULL, NULL,
+                     "the folder is nested too deeply, so it was not searched"))
                 ok = complain(error, LAM_LIMIT, "out of memory");
             continue;
         }

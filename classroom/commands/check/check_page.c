@@ -198,8 +198,8 @@ static void write_page(FILE *file, struct check_page *page, const char *title)
             style);
     html_text(file, title);
     fprintf(file,
-            "</h1><p>%d submissions, checked by <code>lambent check</code>. A scene that matches the reference is "
-            "a point; point at its name for the differences.</p>\n",
+            "</h1><p>%d submissions, checked by <code>lambent check</code>. Each scene that matches the reference "
+            "scores one point. Move the pointer over its name to see the differences.</p>\n",
             page->count);
     put_counts(file, "Verdicts", page->verdicts, sizeof page->verdicts / sizeof *page->verdicts, page->count);
     put_counts(file, "Mistakes", page->mistakes, MAX_COUNTED, page->count);

@@ -9,7 +9,7 @@ const char *check_verdict_text(lam_check_verdict verdict)
     case LAM_CHECK_DIFFERS:
         return "differs from the reference";
     case LAM_CHECK_REFUSED:
-        return "is refused: it does not compile or link";
+        return "does not compile or link";
     case LAM_CHECK_ENDLESS:
         return "does not end: it exceeded its time";
     case LAM_CHECK_CRASHES:
@@ -25,7 +25,7 @@ const char *check_verdict_text(lam_check_verdict verdict)
 const char *check_scene_word(const lam_check_scene *scene)
 {
     if (!scene->passes && scene->maximum == 0 && !scene->not_numbers)
-        return "black, no points"; // a black picture earns nothing, even if it is equal
+        return "black, no points"; // a black picture scores no points, even if it matches
     return scene->passes ? "same" : "differs";
 }
 

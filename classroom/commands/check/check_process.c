@@ -118,7 +118,7 @@ static void *watch_memory(void *unused)
     return unused;
 }
 
-// Sets two limits. The used memory is watched, and allocations are bounded with a margin for the stacks of the driver's
+// Sets two limits. It watches the used memory, and limits allocations with a margin for the stacks of the driver's
 // threads, which allocate more than they use.
 static void bound_memory(const char *bytes)
 {

@@ -36,12 +36,12 @@ void check_print_no_finding(FILE *file, const lam_check_report *r)
 {
     unsigned long long tried = (unsigned long long)r->tried;
     if (r->search_stopped)
-        fprintf(file,
-                "No explanation among %llu mistakes and sets of them; there the search ended, and --search-limit sets "
-                "its limit.",
-                tried);
+        fprintf(
+            file,
+            "None of %llu mistakes and sets of mistakes explains it; the search ended at its limit (--search-limit).",
+            tried);
     else if (tried)
-        fprintf(file, "No known mistake explains it, of %llu mistakes and sets of them that were tried.", tried);
+        fprintf(file, "None of the %llu known mistakes and sets of mistakes that were tried explains it.", tried);
     else
         fputs("No known mistake explains it.", file);
 }

@@ -149,7 +149,7 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
     return ok;
 }
 
-// Draws dots where curves fall below the level, and numbers above them, in several rows if they would overlap.
+// Draws dots where curves fall below the level, and prints numbers above them, in several rows if they would overlap.
 static bool draw_marks(const struct plot *plot, const struct layout *at, struct drawing *d, lam_error *error)
 {
     double u = at->unit, taken[CURVES_MAX] = {0}; // the right end of each row of numbers
@@ -189,7 +189,7 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
 }
 
 // Draws a curve's line in the legend. If the curve falls below 1/255 outside the axis, the plot has no dot for it, and
-// the legend states the point.
+// the legend gives the value.
 static const char *legend_of(const struct plot *plot, const struct curve *curve, char text[LEGEND_SIZE])
 {
     snprintf(text, LEGEND_SIZE, "%s", curve->label);

@@ -165,7 +165,7 @@ uint64_t call_layer_limit(const struct call_control *call)
     return or_default(given, bytes ? LAM_LAYERS_BASE + bytes / LAM_LAYER_BYTES : UINT64_MAX);
 }
 
-// Returns the end of the sentence about a limit that follows from the size of the files, unless the caller set the
+// Returns the end of the sentence about a limit that depends on the size of the files, or "" if the caller set the
 // limit.
 static const char *for_files(const struct call_control *call, uint64_t given, char text[48])
 {

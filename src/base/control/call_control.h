@@ -25,8 +25,8 @@ struct call_control {
 void call_start(struct call_control *call, const lam_control *control);
 
 // Returns false if the call must end: it was cancelled, it exceeded its time, or its control sets a field that this
-// version does not know. Cheap enough for every few thousand items (about 25 ns); any thread may call it. `call` may be
-// NULL.
+// version does not know. It is cheap enough to call every few thousand items (about 25 ns), from any thread. `call` may
+// be NULL.
 bool call_should_continue(struct call_control *call);
 
 // Fills the error with the reason why call_should_continue returned false, and returns false.

@@ -164,7 +164,7 @@ static bool grow(struct file_bytes *bytes, size_t used, struct call_control *cal
     return true;
 }
 
-// Reads a pipe, a terminal or a device to its end. Some devices have none (/dev/zero).
+// Reads a pipe, a terminal or a device to its end. Some devices never end (/dev/zero).
 static bool read_stream(int file, const char *path, bool fresh, struct call_control *call, struct file_bytes *out,
                         lam_error *error)
 {
@@ -245,8 +245,8 @@ static int open_beneath(const char *path, size_t folder)
     return open(path, OPEN_FLAGS | O_NOFOLLOW);
 }
 
-// Opens a regular file and never opens other kinds of paths. Returns −1 on error. If `shown` is NULL, the path is from
-// the user.
+// Opens a regular file; paths of other kinds are never opened. Returns −1 on error. If `shown` is NULL, the path comes
+// from the user.
 static int open_regular(const char *path, size_t folder, const char *shown, struct stat *about, lam_error *error)
 {
     const char *advice = shown ? "" : " (- is standard input)";

@@ -20,7 +20,7 @@ struct file_bytes {
 
 // Reads a regular file, or standard input for "-". Folders, pipes, devices and sockets are never opened, because
 // opening one can block forever or have side effects. `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such
-// file, not a regular file, a read error, the file was shortened meanwhile), LAM_LIMIT, LAM_CANCELLED.
+// file, not a regular file, a read error, the file was shortened while it was read), LAM_LIMIT, LAM_CANCELLED.
 bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out,
                lam_error *error);
 
@@ -40,7 +40,7 @@ bool file_check_regular(const char *path, lam_error *error);
 // itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
-// A large file that any thread may read in parts.
+// A large file whose parts any thread may read.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
 struct file_parts {
     int file;
@@ -62,8 +62,7 @@ void file_release(struct file_bytes *bytes);
 // still owns them.
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
-// Writes a file completely or not at all, and leaves no temporary file, even if a signal ends the process meanwhile
-// (file_write.c). It keeps the read and write permissions of an existing file but removes execute permission. A
+// Writes a file completely or not at all, and leaves no temporary file, even if a signal ends the process during the call (file_write.c). It keeps the read and write permissions of an existing file but removes execute permission. A
 // symbolic link is kept, and its target is replaced. A path that is not a regular file (/dev/stdout, a pipe) is written
 // directly. With `durable`, the file and its folder are on disk when the call returns, so that a power failure leaves
 // the old file or the new one. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the errors of `call`: LAM_CANCELLED,
@@ -71,7 +70,7 @@ bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
                 lam_error *error);
 
-// Writes a file by a given method, for tests. FILE_NAMED is the method for file systems without unnamed files.
+// Writes a file by the given method, for tests. FILE_NAMED is the method for file systems without unnamed files.
 enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // FILE_DURABLE is a flag
 bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);

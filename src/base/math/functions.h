@@ -60,7 +60,7 @@ LANE_FN num log2_of(num x)
     return b.exponent + (1.5f * b.rest + log2_remainder(b.rest));
 }
 
-// Computes 2^y within 2.5e-7 relative. It is 0 below −126 and for NaN; y above 127.5 counts as 127.5.
+// Computes 2^y with a relative error of at most 2.5e-7. It is 0 below −126 and for NaN; y above 127.5 counts as 127.5.
 LANE_FN num exp2_of(num y)
 {
     num x = min_of(y, num_of(127.5f));
@@ -121,7 +121,7 @@ LANE_FN num unit_power(num base, num exponent)
     return unit_power_of(unit_power_logarithm(base, unit_parts_of(base), exponent));
 }
 
-// Like unit_power, for any base ≥ 0. Results above 2^127.5 become about 2^127.5.
+// Works like unit_power, for any base ≥ 0. Results above 2^127.5 become about 2^127.5.
 LANE_FN num power(num base, num exponent)
 {
     struct two_parts y = scaled_log2(binary_parts_of(base), min_of(exponent, num_of(1.0e30f)));

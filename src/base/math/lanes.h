@@ -432,7 +432,7 @@ static const uint8_t packed_bytes[16][16] __attribute__((unused)) = {
 #undef NO_LANE
 #endif
 
-// Compress: stores the lanes selected by `bits` (bit i: lane i) consecutively, in order; LANES elements must be
+// Stores the lanes selected by `bits` (bit i: lane i) consecutively, in order; LANES elements must be
 // writable. Returns their number.
 LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 {
@@ -456,7 +456,7 @@ LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 #endif
 }
 
-// Gathers: lane i is from[at[i]]; at < 2³¹.
+// Gathers elements: lane i is from[at[i]]; at < 2³¹.
 LANE_FN inum igather(const int32_t *from, inum at)
 {
 #if LANES == 1

@@ -30,7 +30,7 @@ static double reduce(double x, int *quarter)
     return ((x - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3;
 }
 
-// The Taylor series; the first omitted term is below 2⁻⁵³ of the result for |x| ≤ π/4.
+// Sums the Taylor series; the first omitted term is below 2⁻⁵³ of the result for |x| ≤ π/4.
 static double sine_series(double x)
 {
     double z = x * x;

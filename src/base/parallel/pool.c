@@ -21,7 +21,7 @@ struct pool {
     int busy;       // workers that have not yet finished the round
     bool closing;
 
-    // The round's work.
+    // The work of the current round.
     pool_task *task;
     void *user;
     size_t count;

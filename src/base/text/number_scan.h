@@ -29,7 +29,7 @@ static inline unsigned number_digit_count(uint64_t eight)
 // Returns the value of the first `count` of eight bytes, all digits.
 static inline uint64_t number_digits_value(uint64_t eight, unsigned count)
 {
-    // Shifted to the end, so that zeros lead, in two steps, since a shift by 64 is undefined.
+    // The digits are shifted to the end, with zeros in front; in two steps, since a shift by 64 is undefined.
     uint64_t v = (eight - 0x3030303030303030u) << 4 * (8 - count) << 4 * (8 - count);
     // Neighbours are joined as ten times the first plus the second: 8 digits to 4 pairs to 2 quads to 1 number. One
     // product does both, since 10 · 2⁸ + 1 adds ten times the lower byte to the upper one.

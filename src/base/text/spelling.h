@@ -4,7 +4,7 @@
 
 #include <lambent/base.h>
 
-// A search for the word of the interface that a typed word means, by lam_word_distance.
+// A search for the known name that a typed word means, by lam_word_distance.
 struct spelling {
     const char *word;    // as typed
     const char *nearest; // the nearest word so far, or NULL
@@ -17,7 +17,7 @@ void spelling_try(struct spelling *spelling, const char *candidate);
 // is that near.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
-// Returns the word of the interface among `words` that a typed word means, or NULL if none is near.
+// Returns the known name among `words` that a typed word means, or NULL if none is close enough.
 const char *meant_word(const char *word, const char *const *words, int count);
 
 #endif

@@ -1,4 +1,4 @@
-// vocabulary.c: measures the distance of a typed word from a word of the interface, and lists synonyms.
+// vocabulary.c: computes the edit distance between a typed word and a known name, and lists synonyms.
 #include <lambent/base.h>
 
 #include <stddef.h>
@@ -7,7 +7,7 @@
 enum { LENGTH_MAX = 63 };
 
 // Common synonyms, separated by spaces, in lower case with '-' between words. The program suggests them, but does not
-// accept them. If a name occurs in several rows, the rows that are valid at that position apply.
+// accept them. If a name occurs in several rows, the rows for the current context apply.
 static const struct {
     const char *word, *others;
 } vocabulary[] = {
@@ -111,7 +111,7 @@ static const struct {
     {"teapot", "utah"},
 };
 
-// Converts a word to lower case, with '-' for '_' and ' '. Returns false if it is too long.
+// Converts a word to lower case, and replaces '_' and ' ' with '-'. Returns false if it is too long.
 static bool simplify(const char *word, char out[LENGTH_MAX + 1])
 {
     size_t length = strnlen(word, LENGTH_MAX + 1);

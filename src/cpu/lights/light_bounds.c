@@ -60,7 +60,7 @@ static void make_keys(const struct frame *frame, struct sort_key *keys)
     }
 }
 
-// A stable radix sort by key, 11 bits at a time from the lowest.
+// Sorts by key with a stable radix sort, 11 bits at a time from the lowest.
 static void sort_keys(struct sort_key *keys, struct sort_key *other, int count)
 {
     for (int shift = 0; shift < 3 * PASS_BITS; shift += PASS_BITS) {
@@ -164,7 +164,7 @@ static void fill_light(const struct bound_rows *w, int i, const struct frame_lig
     w->inverse_range[i] = light->inverse_range;
 }
 
-// Adds a light that reaches nothing, because its cone excludes every direction.
+// Adds a light that reaches no point, because its cone excludes every direction.
 static void fill_padding(const struct bound_rows *w, int i)
 {
     static const struct frame_light nothing = {.attenuation = {1, 0, 0}};

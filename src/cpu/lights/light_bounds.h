@@ -16,7 +16,7 @@ enum {
 // Lights with a range come first, in Morton order (1966), followed by the others. Rows are padded to a multiple of
 // LIGHTS_IN_GROUP with lights that reach nothing.
 struct light_bounds {
-    int count, capacity;      // number of lights; including the padding of the last group
+    int count, capacity;      // number of lights, without and with the padding of the last group
     const uint32_t *number;   // index in the frame
     const float *position[3]; // eye space; of a directional light the direction to it
     const int32_t *far;       // −1 for a directional light, otherwise 0

@@ -44,7 +44,7 @@ struct thread_bins {
     struct slab_list clipped;
     uint32_t clipped_count;
     uint64_t triangles_binned;
-    uint64_t work; // units that were not yet added
+    uint64_t work; // units that have not yet been added
 };
 
 // Allocate a block for one more bin, or memory for one more clipped triangle. They return NULL if memory runs out; the

@@ -14,8 +14,8 @@ struct corner {
 // folded.
 enum { PLANES = 6, CORNERS_MAX = 3 << PLANES };
 
-// Returns the distance to a plane times a positive number; ≥ 0 inside. Near and far come first, so that w > 0 holds for
-// the guard band.
+// Returns the distance to a plane times a positive number; ≥ 0 inside. Near and far planes come first, so that w > 0
+// when the guard band is tested.
 static float distance(const struct raster_frame *raster, const struct corner *c, int plane)
 {
     float dx = c->x - 0.5f * (float)raster->frame->width * c->w;

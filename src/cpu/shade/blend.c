@@ -7,7 +7,7 @@
 //  alpha = a + A·(1 − a)
 //
 //
-// The sum goes from the nearest layer to the farthest, with the fraction of light that the previous layers let through.
+// The layers are summed from the nearest to the farthest, each weighted by the fraction of light that the previous layers let through.
 // The remaining fraction is the weight of the opaque surface or the background.
 #include "blend.h"
 

@@ -41,7 +41,7 @@ uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragmen
                       const struct layer_rows *rows, struct blend_scratch *scratch, const struct tile_part *part,
                       struct pixel_sums *sums, struct recorder *recorder);
 
-// Used instead of sorting and blending: puts the nearest fragment of each sample into the tile's visibility buffer.
+// Replaces sorting and blending: puts the nearest fragment of each sample into the tile's visibility buffer.
 void show_layers(const struct sample_pattern *pattern, const struct fragments *fragments, const struct layer_rows *rows,
                  struct tile_samples *samples);
 

@@ -6,7 +6,7 @@
 
 #include <lambent/mesh.h>
 
-// A corner at the position, and its triangle seen from there.
+// A corner at the position, and its triangle relative to that position.
 struct fan_corner {
     uint32_t corner;
     uint32_t smoothing_group;

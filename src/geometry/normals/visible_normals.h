@@ -29,7 +29,7 @@ static inline uint32_t visible_element(const struct visible_normals *visible, si
     return visible->elements[3 * (size_t)rank_bitset_rank(&visible->triangles, triangle) + k];
 }
 
-// The means of the work. No bit of the result depends on them.
+// The resources of the computation. The result does not depend on them.
 struct normals_work {
     struct scratch_memory scratch; // saves fresh memory; all zero: there is none
     int lanes;                     // floats at a time, at most

@@ -51,7 +51,7 @@ static uint32_t hash_of(const uint32_t numbers[NUMBERS])
     return (uint32_t)hash;
 }
 
-// Radix sort by hash; items with equal hashes stay in order. DIGITS is odd, so the result is in `other`.
+// Sorts by hash with a radix sort; items with equal hashes stay in order. DIGITS is odd, so the result is in `other`.
 static void sort_by_hash(struct hashed_item *items, struct hashed_item *other, uint32_t count)
 {
     for (int digit = 0; digit < DIGITS; digit++) {

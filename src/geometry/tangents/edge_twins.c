@@ -22,7 +22,7 @@ static void join(uint32_t *twin, const uint64_t *out, uint32_t out_count, const 
     }
 }
 
-// Lists the corners by welded number. Returns the largest number of corners of one number.
+// Lists the corners by welded number. Returns the largest number of corners that share one welded number.
 static uint32_t list_corners(struct edge_twins *edges, const struct corner_weld *weld, size_t corners,
                              const uint8_t *flags, unsigned left_out)
 {

@@ -1,4 +1,4 @@
-// jpeg.c: JPEG's row in the table of formats; reads with libjpeg-turbo and its accurate integer transform,
+// jpeg.c: defines JPEG's row in the table of formats; reads with libjpeg-turbo and its accurate integer transform,
 // bit-identical on every processor.
 #include "codec.h"
 #include "fail.h"
@@ -83,9 +83,9 @@ static bool charge_coefficients(struct reader *reader, lam_error *error)
     return reader->charged || call_memory_error(call, bytes, error);
 }
 
-// Converts cyan, magenta, yellow and black inks of one row to RGBA, without a colour profile: the product of the light
-// that an ink and black transmit. 255 means no ink in files with Adobe's marker, a convention of Photoshop that every
-// program follows; otherwise 0 does.
+// Converts one row of cyan, magenta, yellow and black ink values to RGBA, without a colour profile: each channel is the
+// product of the light that its ink and the black ink transmit. 255 means no ink in files with Adobe's marker, a
+// convention of Photoshop that every program follows; otherwise 0 does.
 static void mix_inks(uint8_t *row, size_t width, bool inverted)
 {
     const unsigned flip = inverted ? 0 : 255;
@@ -142,7 +142,7 @@ static bool fail_jump(const struct reader *reader, lam_error *error)
     return fail(error, LAM_CANNOT_READ, "%s: JPEG: %s", reader->file->name, reader->message);
 }
 
-// The function that libjpeg returns to by longjmp; none of its own variables change meanwhile.
+// Calls setjmp, so that libjpeg returns here by longjmp; none of its local variables change between the two calls.
 static bool decode_or_jump(struct reader *reader, lam_image *image, lam_error *error)
 {
     return setjmp(reader->out) == 0 ? decode(reader, image, error) : fail_jump(reader, error);

@@ -76,7 +76,7 @@ static bool fail_jump(const struct writer *writer, lam_error *error)
     return fail(error, LAM_LIMIT, "JPEG: %s", message);
 }
 
-// The function that libjpeg returns to by longjmp; none of its own variables change meanwhile.
+// Calls setjmp, so that libjpeg returns here by longjmp; none of its local variables change between the two calls.
 static bool encode_or_jump(struct writer *writer, lam_error *error)
 {
     return setjmp(writer->out) == 0 ? encode(writer, error) : fail_jump(writer, error);

@@ -203,7 +203,7 @@ static bool fail_encoding(const WebPPicture *picture, const struct sink *sink, l
                 picture->height, (int)picture->error_code);
 }
 
-// Lossless, keeping the colours of fully transparent pixels, or lossy at a quality.
+// Configures lossless encoding that keeps the colours of fully transparent pixels, or lossy encoding at a quality.
 bool webp_configure(const struct webp_library *webp, const lam_image *image, const lam_save_params *params,
                     struct call_control *call, WebPConfig *config, WebPPicture *picture, lam_error *error)
 {

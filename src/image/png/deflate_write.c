@@ -100,7 +100,7 @@ static void store(struct storing *storing, uint8_t byte)
     storing->left--;
 }
 
-// For strips that codes would make longer: noise, and pictures with few pixels.
+// For strips that compression would make longer: noise, and pictures with few pixels.
 static uint8_t *put_stored(const struct deflate *deflate, uint8_t *out)
 {
     struct storing storing = {out, stream_bytes(deflate), 0};

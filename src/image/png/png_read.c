@@ -1,4 +1,5 @@
-// png_read.c: PNG's row in the table of formats; reads with libspng, and the pixels of common files with png_whole.c.
+// png_read.c: defines PNG's row in the table of formats; reads with libspng, and the pixels of common files with
+// png_whole.c.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"

@@ -114,7 +114,7 @@ static inline void store_pixel(uint8_t *at, wide8 v)
     memcpy(at, &bytes, 4);
 }
 
-// Written so that compilers emit the vector instructions.
+// Returns the smaller number in each lane. Written so that compilers emit the vector instructions.
 static inline wide8 min8(wide8 x, wide8 y)
 {
     for (int i = 0; i < 8; i++)

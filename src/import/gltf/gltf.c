@@ -51,7 +51,7 @@ static bool report_skipped(struct gltf *gltf)
                    gltf->without_positions);
     if (gltf->cut_factors)
         scene_warn(scene, "%s: %s: found %g, which the standard does not allow; %g is used%s", name, gltf->cut_factor,
-                   gltf->cut_from, gltf->cut_to, gltf->cut_factors > 1 ? ", and other factors are cut likewise" : "");
+                   gltf->cut_from, gltf->cut_to, gltf->cut_factors > 1 ? ", and other factors are clamped too" : "");
     if (gltf->flattened)
         scene_warn(scene, "%s: not drawn: meshes flattened by a node's scale of 0 (%zu)", name, gltf->flattened);
     return true;

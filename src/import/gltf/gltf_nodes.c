@@ -103,7 +103,7 @@ static bool order_nodes(struct gltf *gltf)
 }
 
 // Marks the roots of the requested scene: the caller's, else the file's default, else the first. A file without scenes
-// is drawn as a whole. Some files list nodes that are not roots; their parents place them.
+// is drawn as a whole. Some files list nodes that are not roots; these nodes are placed by their parents.
 static bool mark_roots(struct gltf *gltf)
 {
     const char *wanted = gltf->source->params->scene;

@@ -305,7 +305,7 @@ static int statement_of(const uint8_t *at, const uint8_t *end)
     return map || text_is_word(at, end, "decal") ? OTHER_MAP : UNKNOWN;
 }
 
-// Reads a colour (only the first three numbers of one with an alpha), or a number, which is clamped to its range.
+// Reads a colour (only the first three numbers of a colour with alpha), or a number, which is clamped to its range.
 static void read_material_field(struct reader *reader, int index, const uint8_t *at, const uint8_t *end)
 {
     const lam_field *field = lam_material_field(index);

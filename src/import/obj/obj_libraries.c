@@ -1,6 +1,6 @@
-// obj_libraries.c: reads the material files that an OBJ file names. Each is read once, however often and in whatever
-// form it is named, and at most OBJ_LIBRARIES_MAX names are tried: a small file cannot make the program read many large
-// files.
+// obj_libraries.c: reads the material files that an OBJ file names. Each file is read once, however often and in
+// whatever form it is named, and at most OBJ_LIBRARIES_MAX names are tried, so that a small file cannot make the
+// program read many large files.
 #include "obj.h"
 
 #include "fail.h"
@@ -60,8 +60,8 @@ static bool take(struct obj *obj, const char *name, const uint8_t *at, enum atte
     if (*attempt == LEFT_OUT && !libraries->left_out) {
         libraries->left_out = libraries->missing = true;
         scene_warn(obj->scene,
-                   "%s:%zu: names more than %d material files; no more are read, and their materials are drawn in "
-                   "neutral grey",
+                   "%s:%zu: names more than %d material files; the others are ignored, and their materials are drawn "
+                   "in neutral grey",
                    obj->source->name, obj_line_number(obj, at), OBJ_LIBRARIES_MAX);
     }
     return true;

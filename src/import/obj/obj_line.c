@@ -18,8 +18,8 @@ size_t obj_line_number(struct obj *obj, const uint8_t *at)
     return lines;
 }
 
-// The expected text if pass two finds more elements than pass one counted.
-static const char changed[] = "the text of a moment ago: the file has changed while it was read";
+// The text that messages expect if pass two finds more elements than pass one counted.
+static const char changed[] = "the same text as before: the file changed while it was read";
 
 // Fills the reader's error: "found 'x', expected …". Returns NULL.
 static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at, const char *expected)

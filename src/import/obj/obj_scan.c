@@ -39,7 +39,7 @@ const uint8_t *obj_next_word_slow(const uint8_t *at, const uint8_t *end)
             at++;
         if (at >= end)
             return end;
-        if (*at == '#') // a comment ends with its line and cannot be continued
+        if (*at == '#') // a comment extends to the end of its line
             return newline_or(at, end);
         if (*at != '\\' || !obj_at_word_end(at))
             return at;

@@ -19,8 +19,8 @@ enum { SAMPLE = 1024 }; // bytes that are inspected
 static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
 // ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the start. "solid" alone is
-// not enough: many binary files begin with it too. A file with a zero byte is text if the words of a facet surround the
-// byte; the text reader then reports the byte.
+// not enough: many binary files begin with it too. A file with a zero byte counts as text if the byte is between the
+// words of a facet; the text reader then reports the byte.
 static bool looks_ascii(const uint8_t *bytes, size_t size)
 {
     const uint8_t *end = bytes + (size < SAMPLE ? size : SAMPLE), *at = bytes;

@@ -10,8 +10,8 @@
 //  endsolid NAME
 //
 //
-// Keywords may be in upper or lower case, with line breaks between any words, because programs differ; a name ends with
-// its line. The facets' normals are ignored: they follow from the corners, and some programs write nan.
+// Keywords may be in upper or lower case, with line breaks between any words, because programs differ; a name extends
+// to the end of the line. The facets' normals are ignored: they follow from the corners, and some programs write nan.
 #include "stl.h"
 #include "fail.h"
 #include "number.h"

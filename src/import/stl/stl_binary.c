@@ -117,8 +117,8 @@ static bool color_chunk(void *user, size_t index, lam_error *error)
 
 // Returns whether facets have colours, and sets dialect and fallback. If the header contains "COLOR=", they are
 // colours, unless all words are zero: the header's colour then applies to the whole file (*uniform). Otherwise they
-// have if some words have bit 15 set and all others are zero or equal, which is a default; more varied words are not
-// colours.
+// have colours if some words have bit 15 set and all others are zero or equal, which is a default; more varied words
+// are not colours.
 static bool colors_of(struct reader *reader, const struct words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";

@@ -1,4 +1,5 @@
-// threemf_extensions.c: lists the extensions for which a model declares name spaces, and checks the required ones.
+// threemf_extensions.c: records the namespaces that a model declares for extensions, and checks the required
+// extensions.
 #include "threemf_model.h"
 
 #include "fail.h"
@@ -28,7 +29,7 @@ static const struct known {
     {CONSORTIUM "productionalternatives/2021/04", LAM_EXTENSION_IGNORED},
 };
 
-// A prefix and its name space, declared by the model element.
+// A prefix and its namespace, declared by the model element.
 struct declared {
     const char *prefix, *uri;
 };

@@ -46,7 +46,7 @@ struct model_reader {
     struct threemf *file;
     struct threemf_part *part;
     bool is_root;
-    struct threemf_rows spaces; // name spaces declared by the model element (threemf_extensions.c)
+    struct threemf_rows spaces; // namespaces declared by the model element (threemf_extensions.c)
     bool in_model;              // inside the model element
     // The current object.
     struct threemf_object *object;
@@ -86,7 +86,7 @@ struct display_wish {
 // Remembers that a base material uses the display properties that its element or its group names.
 bool model_want_display(struct threemf_xml *xml, const char *const *attributes, int material, uint32_t index);
 
-// threemf_extensions.c: records a name space, and checks the extensions that the model element requires.
+// threemf_extensions.c: records a namespace, and checks the extensions that the model element requires.
 void extensions_declare(struct threemf_xml *xml, const char *prefix, const char *uri);
 bool extensions_check(struct threemf_xml *xml, const char *const *attributes);
 

@@ -35,7 +35,7 @@ struct expat_library {
 enum { DEPTH_MAX = 256, TOKEN_BYTES = 1 << 20, SPACES_MAX = 256 };
 enum { AT_ROOT = -1, SKIPPED = -2 };
 
-// A name space prefix, which is valid inside the element that declares it.
+// A namespace prefix, which is valid inside the element that declares it.
 struct declaration {
     size_t prefix; // where its text begins in xml_parser.prefixes; "" means names without a prefix
     enum threemf_namespace space;
@@ -49,7 +49,7 @@ struct xml_parser {
     int depth;
     int rows[DEPTH_MAX + 1];                      // the table's row of each open element; rows[0] is AT_ROOT
     bool failed;                                  // the error is filled
-    enum threemf_namespace spaces[DEPTH_MAX + 1]; // the name spaces of the open elements
+    enum threemf_namespace spaces[DEPTH_MAX + 1]; // the namespaces of the open elements
     struct threemf_rows declarations, prefixes;   // struct declaration, char
 };
 
@@ -124,7 +124,8 @@ bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...)
 
 // --- name spaces
 //
-// This file resolves them, because expat rejects undeclared prefixes, which occur in samples of the 3MF consortium.
+// This file resolves prefixes itself, because expat rejects undeclared ones, which occur in samples of the 3MF
+// consortium.
 
 static enum threemf_namespace space_of_uri(const char *uri)
 {
@@ -139,7 +140,7 @@ static bool declare(struct threemf_xml *xml, const char *prefix, const char *uri
     struct xml_parser *parser = xml->parser;
     size_t length = strlen(prefix) + 1, begin = parser->prefixes.count;
     if (parser->declarations.count == SPACES_MAX)
-        return threemf_xml_fail(xml, "found more than %d name spaces", SPACES_MAX);
+        return threemf_xml_fail(xml, "found more than %d namespaces", SPACES_MAX);
     struct declaration *row = threemf_add(xml->file, &parser->declarations, sizeof *row);
     if (!row || !threemf_reserve(xml->file, &parser->prefixes, 1, begin + length))
         return false;
@@ -151,7 +152,7 @@ static bool declare(struct threemf_xml *xml, const char *prefix, const char *uri
     return true;
 }
 
-// Finds the name space of an element's or attribute's name. Returns false if its prefix is not declared.
+// Finds the namespace of an element's or attribute's name. Returns false if its prefix is not declared.
 static bool find_space(const struct xml_parser *parser, const char *name, enum threemf_namespace *out)
 {
     const char *colon = strchr(name, ':');
@@ -175,8 +176,8 @@ static bool refuse_prefix(struct threemf_xml *xml, const char *name)
                             shown_name(name, shown));
 }
 
-// Reads the declarations of an element and finds its name space. An undeclared prefix is an error; with --lenient it
-// means the name space of the parent element.
+// Reads the declarations of an element and finds its namespace. An undeclared prefix is an error; with --lenient it
+// means the namespace of the parent element.
 static bool take_spaces(struct threemf_xml *xml, const char *name, const char *const *attributes,
                         enum threemf_namespace *out)
 {

@@ -35,7 +35,7 @@ struct threemf_xml {
     const struct threemf_element *elements;
     int element_count;
     void *user;
-    // Called for each declared name space prefix. NULL if not needed.
+    // Called for each declared namespace prefix. NULL if not needed.
     void (*declare)(struct threemf_xml *xml, const char *prefix, const char *uri);
     struct threemf_rows *text; // receives the text of the current element; NULL if the text is skipped
     struct xml_parser *parser; // the parser of threemf_xml.c
@@ -54,7 +54,7 @@ bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...) __attrib
 
 // Returns the value of an attribute without a prefix, or NULL if the element does not have it.
 const char *threemf_attribute(const char *const *attributes, const char *name);
-// Does the same for an attribute in a name space, at the start of its element.
+// Does the same for an attribute in a namespace, at the start of its element.
 const char *threemf_attribute_of(const struct threemf_xml *xml, const char *const *attributes,
                                  enum threemf_namespace space, const char *name);
 // Gets a whole number from 0 to INT32_MAX. Sets *found to whether the attribute exists. If `found` is NULL, the

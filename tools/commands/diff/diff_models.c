@@ -194,7 +194,8 @@ static bool check(const struct model_diff *diff, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--files-from' does not apply to diff, which compares folders");
     if (o->picture.show && strcmp(o->picture.show, "all") == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' draws several pictures of a model, and diff one");
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--show all' draws several pictures of a model, but diff draws one");
     return job_check_options(o, error) &&
            (!diff->page || strcmp(diff->page, "-") == 0 || output_check(diff->page, "", OUTPUT_NAMED, error));
 }

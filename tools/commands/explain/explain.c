@@ -149,7 +149,7 @@ static bool check(const struct job *job, const char *pixel, int *x, int *y, lam_
         return complain(error, LAM_BAD_ARGUMENT,
                         "standard input is a terminal, expected a model: lambent explain - X,Y < FILE");
     if (o->report.dry_run)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--dry-run' does not go with explain");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--dry-run' does not apply to explain");
     if (o->picture.show)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--show' has no effect on explain, which prints all terms of a pixel");

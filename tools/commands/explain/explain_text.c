@@ -62,9 +62,9 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
         if (!layers || f->surface.anisotropy == 0) {
             row_number(4, "D(h)", (double)l->distribution,
                        "share of microfacets that face h: α² / (π (|n × h|² + (n·h)² α²)²)");
-            row_number(4, "V", (double)l->visibility, "how many of them are in sight of light and eye");
+            row_number(4, "V", (double)l->visibility, "share of microfacets visible from light and eye");
         }
-        row_color(4, "F", l->fresnel, "how much they reflect: f0 + (1 − f0) (1 − v·h)⁵");
+        row_color(4, "F", l->fresnel, "their reflectance: f0 + (1 − f0) (1 − v·h)⁵");
         snprintf(remark, sizeof remark, "%sπ D(h) V max(n·l, 0)%s", gate,
                  layers && f->surface.anisotropy > 0 ? ", stretched along the surface" : "");
         row_number(4, "S", (double)(layers ? layers->S : l->S), remark);
@@ -112,7 +112,7 @@ static void print_cone(const lam_explained_light *l, const lam_light *given)
     row_number(4, "c", c, "(−l)·axis");
     if (given->outer_rad > 0) {
         const double inner = cos((double)given->inner_rad), outer = cos((double)given->outer_rad);
-        row_number(4, "cos inner", inner, "of the half angle up to which the light is even");
+        row_number(4, "cos inner", inner, "of the half angle within which the light is uniform");
         row_number(4, "cos outer", outer, "of the half angle at which it ends");
         snprintf(remark, sizeof remark, "%sclamp((c − cos outer) / max(0.001, cos inner − cos outer), 0, 1)²",
                  l->spot > 0 ? "" : "outside of the cone, c ≤ cos outer: ");
@@ -466,7 +466,7 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
         printf("\n");
     if (f->ground == LAM_GROUND_SHADOW) {
         row_number(2, "light received", (double)f->received, "luminance of the sum: 0.2126 r + 0.7152 g + 0.0722 b");
-        row_number(2, "unobstructed", (double)f->unobstructed, "that without shadows and occlusion");
+        row_number(2, "unobstructed", (double)f->unobstructed, "the same without shadows and occlusion");
         row_number(2, "taken away",
                    f->unobstructed > f->received ? 1 - (double)f->received / (double)f->unobstructed : 0,
                    "1 − received / unobstructed");
@@ -479,7 +479,7 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
                                                : "the sum");
     if (f->color.a != 1)
         row_number(2, "alpha", (double)f->color.a,
-                   f->ground == LAM_GROUND_SHADOW ? "taken away · the share to which the ground has not faded out"
+                   f->ground == LAM_GROUND_SHADOW ? "blocked share · the ground's fade-out"
                    : f->ground                    ? "the share to which the ground has not faded out"
                                                   : "opacity · the vertex colour's alpha");
     bool veiled = false;

@@ -24,7 +24,7 @@
 
 // --- the command line
 
-// Makes the folder of --pictures before anything is drawn: without it every picture would fail.
+// Makes the folder of --pictures before drawing starts, because without the folder every picture would fail.
 static bool make_pictures_folder(const struct options *o, lam_error *error)
 {
     const char *folder = o->hash.pictures;
@@ -52,7 +52,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT,
                         "hash: expected either -o FILE, to write hashes, or --check FILE, to compare them");
     if (o->hash.update && !o->hash.check)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--update' goes with --check FILE, whose hashes it renews");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--update' requires --check FILE, whose hashes it replaces");
     if (o->hash.check && strcmp(o->hash.check, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--check' reads a file, found '-'");
     if (o->picture.output && !output_is_named(o->picture.output))
@@ -64,10 +64,11 @@ static bool check(int operands, const struct options *o, lam_error *error)
                         "standard input");
     if (o->work.device != DEVICE_AUTO && o->work.device != DEVICE_CPU)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--device': hashes are of the pictures of the CPU device, which are the same on every "
-                        "machine");
+                        "option '--device': only pictures of the CPU device are hashed, because they are identical on "
+                        "every machine");
     if (o->picture.show && strcmp(o->picture.show, "all") == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--show all' draws several pictures, and a hash is of one");
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--show all' draws several pictures, but each hash is for one picture");
     return job_check_options(o, error) && make_pictures_folder(o, error);
 }
 
@@ -168,7 +169,7 @@ struct result {
     size_t counts[STATE_COUNT];
 };
 
-// Writes the names in one state, as a JSON list or as one line each.
+// Prints the names in one state, as a JSON list or one per line.
 static void tell_state(const struct hash_run *run, json_t *const *records, enum state state, struct json *json,
                        struct result *result)
 {
@@ -202,7 +203,7 @@ static void tell_state(const struct hash_run *run, json_t *const *records, enum 
         json_close(json, ']');
 }
 
-// Fills `now` with the drawn models. Failed models get the hash 0, since they are not missing.
+// Fills `now` with the hashes of the drawn models. A failed model gets the hash 0, because it is not missing.
 static bool take_hashes(struct hash_run *run, json_t *const *records, lam_error *error)
 {
     run->now = (struct hash_file){.entries = calloc(run->plan.count + 1, sizeof *run->now.entries)};
@@ -302,9 +303,9 @@ static int finish(void *user, json_t *const *records, size_t failed)
         if (written)
             printf("written to %s%s%s\n", run->path, rows ? "; old and new pictures: " : "", rows ? run->sheet : "");
     }
-    if (ok && writes && blocked && json.file != stderr) // where nothing else is printed
-        say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok leaves them out\n",
-                  run->path, failed);
+    if (ok && writes && blocked && json.file != stderr) // a hint is useful only without other output
+        say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok omits them\n", run->path,
+                  failed);
     if (!ok)
         return report_failure(&error, o);
     bool differs = result.counts[STATE_CHANGED] + result.counts[STATE_MISSING] + result.counts[STATE_NEW];
@@ -316,7 +317,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
 
 // --- the run
 
-// First reports a different version or different options, since they may explain changes.
+// Reports a different version or different options first, since they may explain changes.
 static bool say_head(const struct hash_run *run, lam_error *error)
 {
     char *now = hash_options_text(run->options, run->path);
@@ -324,8 +325,8 @@ static bool say_head(const struct hash_run *run, lam_error *error)
         return complain(error, LAM_LIMIT, "out of memory");
     bool says = !run->options->report.quiet;
     if (says && strcmp(run->then.version, lam_version()) != 0)
-        say_plain("lambent: %s is of version %s, and this is %s: pictures may differ for that reason\n", run->path,
-                  run->then.version, lam_version());
+        say_plain("lambent: %s was written by version %s, and this is %s: pictures may differ for that reason\n",
+                  run->path, run->then.version, lam_version());
     if (says && strcmp(run->then.options, now) != 0)
         say_plain("lambent: %s was made with the options '%s', and these are '%s': pictures differ for that reason\n",
                   run->path, run->then.options, now);

@@ -24,14 +24,14 @@ struct hash_run {
     atomic_int *rows;        // the number of pictures kept for the sheet of --update
 };
 
-// Copies the options of the command line to `own`, with the file's options if no option of the command line changes the
-// picture. `own` refers to the text *kept. The caller frees both, even after a failure. Fails with LAM_CANNOT_READ or
-// LAM_LIMIT.
+// Copies the options of the command line to `own`. If no option of the command line changes the picture, adds the
+// options in the file. `own` refers to the text *kept. The caller frees both, even after a failure. Fails with
+// LAM_CANNOT_READ or LAM_LIMIT.
 bool hash_options_take(const struct hash_file *file, const char *path, const struct options *given, struct options *own,
                        char **kept, lam_error *error);
 
-// Returns the options that change the picture, as a command line, from malloc; files that they name are relative to the folder of the
-// file of hashes (`path`). Returns NULL if memory runs out.
+// Returns the options that change the picture as a command line, from malloc; the files that they name become relative
+// to the folder of the hash file (`path`). Returns NULL if memory runs out.
 char *hash_options_text(const struct options *options, const char *path);
 
 // hash_sheet.c

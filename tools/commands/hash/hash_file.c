@@ -65,7 +65,7 @@ static bool unescape(char *name)
     return true;
 }
 
-// Reads "pixels:0123456789abcdef": the XXH64 of pixels. "xxh64:" means a file's bytes.
+// Reads "pixels:0123456789abcdef", the XXH64 of pixels. The prefix "xxh64:" would mean a hash of the file's bytes.
 static bool pixels_parse(const char *text, uint64_t *hash)
 {
     char of_file[XXH64_TEXT];

@@ -1,11 +1,11 @@
-// hash_file.h: the file that `lambent hash` writes and reads: a head, and a line for each picture.
+// hash_file.h: the file that `lambent hash` writes and reads: a header, and a line for each picture.
 //
 //     lambent hashes 1
 //     version 0.9.0
 //     options --size 256
 //     pixels:0123456789abcdef  models/koala.obj
 //
-// A name is relative to the file's folder; in it "\\" means a backslash, "\n" for a line end and "\r" for a carriage return.
+// A name is relative to the file's folder; in it, "\\" means a backslash, "\n" a line end and "\r" a carriage return.
 #ifndef HASH_FILE_H
 #define HASH_FILE_H
 

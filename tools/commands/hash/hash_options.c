@@ -36,10 +36,10 @@ static int split(char *text, char **words)
     return count;
 }
 
-// The options of the picture that name files: an environment names one or six, a look one. Both may be built in.
+// The picture options that name files: an environment names one or six files, a look one. Both may also be built in.
 static const char *const of_files[] = {"environment", "look"};
 
-// Writes the value of such an option with each path changed by `map`, which returns it from malloc.
+// Writes the value of such an option, with each path replaced by the result of `map`, which is from malloc.
 static bool put_paths(FILE *out, const char *name, const char *value, const char *file,
                       char *(*map)(const char *file, const char *path))
 {
@@ -139,7 +139,7 @@ bool hash_options_take(const struct hash_file *file, const char *path, const str
     char *words[WORDS_MAX], *now = hash_options_text(given, path);
     bool wanted = now && !*now && *file->options, ok = now && options_copy(own, given);
     free(now);
-    // Each path may get longer by the folder of the file.
+    // Each path may get longer by the length of the file's folder.
     size_t length = strlen(file->options), room = length + 1 + (length + 1) * (strlen(path) + 2);
     *kept = ok && wanted ? malloc(room) : NULL;
     if (*kept)
@@ -155,7 +155,7 @@ bool hash_options_take(const struct hash_file *file, const char *path, const str
     // A look may name an environment.
     ok = ok && (!own->shading.environment || may_name(path, "environment", own->shading.environment, given, &reason));
     now = ok ? hash_options_text(own, path) : NULL;
-    ok = now && strcmp(now, file->options) == 0; // nothing else: no output, no files
+    ok = now && strcmp(now, file->options) == 0; // changes the hash file only: no output, no other files
     free(now);
     return ok || complain(error, LAM_CANNOT_READ,
                           "%.300s:3: found '%.100s', expected options that change the picture%s%.200s", path,

@@ -84,7 +84,7 @@ int run_info(int operand_count, char **operands, const struct options *options)
         if (!*operands[i])
             complain(&error, LAM_BAD_ARGUMENT, "a model's name is empty");
         else if (strcmp(operands[i], "-") == 0 && operand_count > 1)
-            complain(&error, LAM_BAD_ARGUMENT, "'-' (standard input) goes only with a single model");
+            complain(&error, LAM_BAD_ARGUMENT, "'-' (standard input) works only with a single model");
         else if (strcmp(operands[i], "-") == 0 && isatty(STDIN_FILENO))
             complain(&error, LAM_BAD_ARGUMENT, "standard input is a terminal, expected a model: lambent info - < FILE");
     }

@@ -41,7 +41,7 @@ static json_t *parse(const char *line, size_t size, lam_error *error)
     json_t *root = json_loadb(line, size, JSON_REJECT_DUPLICATES, &reason);
     if (!root) {
         complain(error, LAM_BAD_ARGUMENT, "expected JSON: %.160s (byte %d)", reason.text, reason.position);
-        for (char *c = error->text; *c; c++) // it may repeat bytes of the line
+        for (char *c = error->text; *c; c++) // the message may repeat bytes of the line
             *c = (unsigned char)*c < 0x7F ? *c : '?';
     } else if (!json_is_object(root)) {
         complain(error, LAM_BAD_ARGUMENT, "expected a job, an object of JSON, found %s", kind_of(root));
@@ -129,11 +129,11 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
         return complain(error, LAM_BAD_ARGUMENT,
                         "expected either key 'model', a file or a shape's name, or key 'data', its bytes");
     if (model && name)
-        return refuse(error, "name", "goes with key 'data' alone");
+        return refuse(error, "name", "is allowed only with key 'data'");
     if (name && (strlen(name) > NAME_MAX_BYTES || strchr(name, '/')))
         return refuse(error, "name", "expected a file's name without a folder, of at most 1000 bytes");
     if (model && strcmp(model, "-") == 0)
-        return refuse(error, "model", "standard input has the jobs; a model's bytes go into key 'data'");
+        return refuse(error, "model", "standard input contains the jobs; send a model's bytes in key 'data'");
     if (model && lam_shape_find(model) < 0 && !job_roots_have(rules->roots, model, false, error))
         return false;
     if (data && !read_bytes(job, json_object_get(root, "data"), error))
@@ -141,7 +141,7 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
     return batch_plan_add(&job->plan, model ? model : name ? name : "model", NULL, error);
 }
 
-// Reads the target of the pictures: a name for the options. Pictures in an answer have names too, for their format.
+// Reads the output option: the name for the pictures. Pictures in an answer have names too, which select their format.
 static bool read_output(struct batch_job *job, const json_t *root, lam_error *error)
 {
     const char *output, *format;
@@ -149,7 +149,7 @@ static bool read_output(struct batch_job *job, const json_t *root, lam_error *er
     if (!text_of(root, "output", &output, error) || !text_of(root, "format", &format, error))
         return false;
     if (output && format)
-        return refuse(error, "format", "is for pictures in the answer; the name of a file has its format");
+        return refuse(error, "format", "applies only to pictures in the answer; the name of a file selects its format");
     if (output && strcmp(output, "-") == 0)
         return refuse(error, "output", "without it the picture is part of the answer");
     if (output && output_name_is_pattern(output) && output_name_has(output, "frame"))

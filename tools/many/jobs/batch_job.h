@@ -30,11 +30,11 @@ struct batch_job_rules {
     bool has_keys;                 // whether there is a journal
 };
 
-// The kind of a line. REFUSED: it is invalid; `error` contains the reason.
+// The kind of a line. LINE_REFUSED means that the line is invalid; `error` contains the reason.
 enum batch_line { LINE_JOB, LINE_CANCEL, LINE_REFUSED };
 
-// Parses a line of JSON. Sets *id to the id of the job, or of the job to cancel, also for refused jobs; NULL if there
-// is none. The caller calls json_decref, and frees the job.
+// Parses a line of JSON. Sets *id to the id of the job, or of the job to cancel, also for refused jobs; NULL if
+// there is none. The caller calls json_decref, and frees the job.
 enum batch_line batch_job_read(const char *line, size_t size, const struct batch_job_rules *rules,
                                struct batch_job **job, json_t **id, lam_error *error);
 

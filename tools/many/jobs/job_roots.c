@@ -50,8 +50,8 @@ static bool is_below(const struct job_roots *roots, const char *real)
     return false;
 }
 
-// Returns the real path of a path, or of its nearest existing parent folder. Returns NULL if there is none, or if the
-// missing part is more than folders to be created: "..", or a broken link.
+// Returns the real path of a path, or of its nearest existing parent folder. Returns NULL if there is no such folder,
+// or if the missing part is more than folders to be created: "..", or a broken link.
 static char *resolve(const char *path, bool *exists)
 {
     char *real = realpath(path, NULL), *copy = real ? NULL : strdup(path);

@@ -22,8 +22,8 @@ struct job_stream {
 bool job_stream_read(struct job_stream *stream);
 
 // Gets a complete line, without its end; at the end of the stream also an incomplete one. It is valid until the next
-// call. TOO_LONG: the line exceeded the limit; its bytes are not kept. NONE means there is no complete line yet, or the
-// stream has ended.
+// call. TOO_LONG means that the line exceeded the limit; its bytes are discarded. NONE means there is no complete line
+// yet, or the stream has ended.
 enum job_line { JOB_LINE_NONE, JOB_LINE_WHOLE, JOB_LINE_TOO_LONG };
 enum job_line job_stream_next(struct job_stream *stream, const char **text, size_t *size);
 

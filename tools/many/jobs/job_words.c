@@ -123,7 +123,8 @@ void job_words_free(char **words, int count)
 
 // --- from words to options
 
-// Returns whether an option concerns only the picture: limits, processors and written files are set for the worker.
+// Returns whether an option concerns only the picture: the worker's own options set limits, processors and output
+// files.
 static bool fits(const struct option *option)
 {
     static const char *const others[] = {"output", "save-scene", "durable"};
@@ -142,7 +143,7 @@ static bool check(const struct options *given, lam_error *error)
         if (!given->given[option - option_table] || fits(option))
             continue;
         bool output = strcmp(option->name, "output") == 0;
-        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is not a job's: %s", option->name,
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is not allowed in a job: %s", option->name,
                         output ? "key 'output' names its picture" : "it is allowed only on the worker's command line");
     }
     return true;

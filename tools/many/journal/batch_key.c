@@ -1,4 +1,4 @@
-// batch_key.c: the hash of everything that determines a picture.
+// batch_key.c: computes the hash of everything that determines a picture.
 #include "batch_key.h"
 
 #include <errno.h>
@@ -15,8 +15,8 @@
 // Options in other groups that affect the picture.
 static const char *const also[] = {"files-inside", "device", "gl-device", "texture-filter", NULL};
 
-// Options of the picture's groups that do not affect it; sides and sizes are separate for each picture, and a look is
-// replaced by its options.
+// Options of the picture's groups that are not part of the text: sides and sizes are stored for each picture, and a
+// look is replaced by its options.
 static const char *const without[] = {"output", "save-scene", "size", "view", "durable", "look", NULL};
 
 static bool is_in(const char *const *names, const char *name)
@@ -219,7 +219,8 @@ uint64_t batch_key(const struct batch_key_parts *p)
     xxh64_add_text(&hash, lam_version());
     xxh64_add_text(&hash, lam_build_info());
     xxh64_add_text(&hash, p->options);
-    // A scene file's own settings apply if the command line has none, so the key includes which options were typed.
+    // A scene file's own settings apply only if the command line sets none, so the key includes which options were
+    // typed.
     for (int i = 0; strcmp(p->format, "scene") == 0 && option_table[i].name; i++)
         if (p->parsed->given[i] && changes_picture(&option_table[i]))
             xxh64_add_text(&hash, option_table[i].name);

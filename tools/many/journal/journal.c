@@ -216,11 +216,10 @@ static bool check_options(const char *path, const char *then, const char *option
     if (!same)
         batch_options_difference(then, now, difference);
     free(now);
-    return same ||
-           complain(error, LAM_BAD_ARGUMENT,
-                    "option '--resume': the journal %.100s is of other options: %.300s; without --resume all is "
-                    "drawn anew",
-                    path, difference);
+    return same || complain(error, LAM_BAD_ARGUMENT,
+                            "option '--resume': the journal %.100s was written with other options: %.300s; without "
+                            "--resume, lambent draws everything again",
+                            path, difference);
 }
 
 // Continues an existing journal.
@@ -395,7 +394,7 @@ void journal_begin(struct journal *j, int slot, int process, const char *model)
     else
         length = 0;
     host_name(text.host);
-    // If writing fails, resuming a killed run does not draw its models first.
+    // If writing fails and the run is killed, --resume does not draw its models first.
     if (pwrite(j->running, &text, offsetof(struct slot, model) + length + 1, (off_t)slot * SLOT) < 0)
         return;
 }
@@ -411,7 +410,7 @@ void journal_each_running(const struct journal *j,
     }
 }
 
-// Writes the line that ends a run. If that fails, the run looks as if it was killed at its very end.
+// Writes the line that ends a run. If that fails, the run looks as if it had been killed at its very end.
 static void end_run(struct journal *j)
 {
     lam_error error;
@@ -429,7 +428,7 @@ void journal_close(struct journal *j, bool done, bool interrupted)
         end_run(j);
     if (j->file >= 0)
         close(j->file);
-    if (j->was_running && (j->begun ? !interrupted : !j->was_slots)) // locked by this run, and of no use to a later one
+    if (j->was_running && (j->begun ? !interrupted : !j->was_slots)) // locked by this run, and useless to a later run
         writer_remove(j->running_path);
     if (j->running >= 0)
         close(j->running);

@@ -12,8 +12,8 @@
 
 struct journal;
 
-// The mode of opening a journal. START: an existing journal is renamed to FILE.before. RESUME and SAME: it is read, and
-// lines are appended; RESUME requires the same options.
+// The mode of opening a journal. START: an existing journal is renamed to FILE.before. RESUME and SAME read the
+// existing journal and append lines to it; RESUME requires the same options.
 enum journal_way { JOURNAL_START, JOURNAL_RESUME, JOURNAL_SAME };
 
 // The contents of the line that begins a run.

@@ -108,7 +108,7 @@ static void begin_run(struct journal_part *part, const json_t *record)
     part->pictures = (size_t)json_integer_value(json_object_get(record, "pictures"));
     part->shard = (struct batch_shard){0};
     if (shard)
-        batch_shard_of(shard, &part->shard, &error); // journals are not written by hand
+        batch_shard_of(shard, &part->shard, &error); // cannot fail: only Lambent writes journals
     part->ended = false;
 }
 
@@ -146,8 +146,9 @@ static bool check_together(const struct journal_part *a, const struct journal_pa
         return complain(error, LAM_BAD_ARGUMENT, "%.200s and %.200s belong to different batches: %d shards, and %d",
                         a->path, b->path, a->shard.count, b->shard.count);
     if (!a->shard.count || a->shard.number == b->shard.number)
-        return complain(error, LAM_BAD_ARGUMENT, "%.200s and %.200s are of %s; a sum is of the shards of one batch",
-                        a->path, b->path, a->shard.count ? "the same shard" : "two batches");
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "%.200s and %.200s belong to %s; expected different shards of one batch", a->path, b->path,
+                        a->shard.count ? "the same shard" : "two batches");
     if (strcmp(a->options, b->options) == 0)
         return true;
     batch_options_difference(a->options, b->options, difference);

@@ -46,18 +46,18 @@ static bool check_together(const struct options *o, lam_error *error)
                             sides[i]);
     const char *wants = o->batch.resume ? "resume" : o->batch.skip_same ? "skip-same" : NULL;
     if (wants && o->batch.journal && strcmp(o->batch.journal, "none") == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' goes by a journal, and '--journal none' has none",
+        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a journal, but '--journal none' disables it",
                         wants);
     if (o->batch.resume && o->batch.skip_same)
         return complain(
             error, LAM_BAD_ARGUMENT,
             "options '--resume' and '--skip-same' cannot be used together; --skip-same also continues a killed run");
     if (o->batch.shard_by == SHARD_BY_LIST && !o->batch.shard)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by' goes with --shard K/N");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by' requires --shard K/N");
     if (o->batch.size_count && option_given(o, "size"))
         return complain(error, LAM_BAD_ARGUMENT, "option '--size': found one size and several");
     if (o->picture.save_scene && (o->batch.view_count > 1 || o->batch.size_count > 1))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' goes only with a single picture");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' works only with a single picture");
     return true;
 }
 

@@ -57,8 +57,8 @@ static bool set_index(struct batch_shard *shard, const char *variable, long inde
     return true;
 }
 
-// Accepts a complete job array: from 0 or 1 on, without gaps. An array resubmitted for some of its tasks
-// (--array=17,23) reports fewer tasks, and would redistribute all models.
+// Accepts a complete job array: from 0 or 1 on, without gaps. An array that is resubmitted for some of its tasks
+// (--array=17,23) reports fewer tasks, which would redistribute all models.
 static bool slurm_array(struct batch_shard *shard, lam_error *error)
 {
     long id, first, last, count, step;
@@ -80,7 +80,7 @@ static bool slurm_array(struct batch_shard *shard, lam_error *error)
     return set_index(shard, task_id, (id - first) / step, count, error);
 }
 
-// `count` 0: from the environment.
+// A `count` of 0 is replaced by the number in the environment.
 static bool from_environment(struct batch_shard *shard, long count, lam_error *error)
 {
     const char *const names[] = {task_id, completion, rank}, *found = NULL;
@@ -98,7 +98,7 @@ static bool from_environment(struct batch_shard *shard, long count, lam_error *e
                         "option '--shard auto': none of %s, %s and %s is set; name the shard, --shard K/N", task_id,
                         completion, rank);
     long index, ranks;
-    if (found == rank) { // mpirun knows their number: another number would skip models
+    if (found == rank) { // mpirun reports the number: another would skip models
         if (!read_variable(rank, &index, error) || !read_variable("OMPI_COMM_WORLD_SIZE", &ranks, error))
             return false;
         if (ranks < 1 || ranks > SHARDS_MAX || (count && ranks != count))
@@ -159,7 +159,7 @@ char *batch_shard_name(const char *path, const char *root)
             slash--;
         bool up = length == 2 && at[0] == '.' && at[1] == '.';
         if (up && end > name && strncmp(slash, "..", (size_t)(end - slash)) != 0) {
-            end = slash > name ? slash - 1 : name; // removes the folder before it
+            end = slash > name ? slash - 1 : name; // removes the folder before the ".."
         } else if (length && !(length == 1 && *at == '.')) {
             if (end > name)
                 *end++ = '/';
@@ -230,8 +230,8 @@ bool batch_shard_check_folder(const char *path, const struct batch_shard *shard,
         int count = ours ? batch_shard_count_of(found) : 0;
         if (count && count != shard->count)
             ok = complain(error, LAM_BAD_ARGUMENT,
-                          "option '--shard': %.200s%.200s is of a run with %d shards, and this run has %d; continue "
-                          "with %d, or move the journals away",
+                          "option '--shard': %.200s%.200s belongs to a run with %d shards, and this run has %d; "
+                          "continue with %d, or move the journals away",
                           slash ? folder : "", found, count, shard->count, count);
     }
     if (list)

@@ -4,7 +4,7 @@
 
 #include "options.h"
 
-// Shard `number` of `count`, from 1. All zero: no shards.
+// Shard `number` of `count`, counted from 1. All zero means no shards.
 struct batch_shard {
     int number, count;
 };
@@ -17,7 +17,7 @@ bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *erro
 // without ".", "..", doubled slashes and a leading slash. Returns NULL if memory runs out.
 char *batch_shard_name(const char *path, const char *root);
 
-// Returns the shard of a name, from 1: XXH64 of its bytes, modulo `count`, plus 1.
+// Returns the shard of a name, counted from 1: XXH64 of its bytes, modulo `count`, plus 1.
 int batch_shard_of_name(const char *name, int count);
 
 // Returns the path of a shard's own file, from malloc: "lambent-017-of-300.jsonl" for "lambent.jsonl". Returns NULL if

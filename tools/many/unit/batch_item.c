@@ -48,7 +48,7 @@ static bool sees_nothing(const struct job *job)
     return job->written && !frame->pixels_covered && !frame->edges_drawn;
 }
 
-// Returns whether a sentence begins with the name, with its control characters as '?'.
+// Returns whether a sentence begins with the name, in which control characters are replaced by '?'.
 static bool names(const char *sentence, const char *name)
 {
     for (; *name; name++, sentence++) {
@@ -59,7 +59,8 @@ static bool names(const char *sentence, const char *name)
     return *sentence == ':';
 }
 
-// Adds the model's name to a sentence of the library without it, and replaces the remaining limit by the user's.
+// Adds the model's name to a sentence of the library that lacks it, and replaces the remaining limit with the limit
+// that the user set.
 static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -83,7 +84,7 @@ struct files {
     int count;
     char (*hashes)[XXH64_TEXT];
     const char **texts; // the texts of the hashes
-    bool changed;       // since the model was read; the hashes then do not describe the picture
+    bool changed;       // changed since it was read, so the hashes are of other files
 };
 
 // Returns whether a file may have changed after `start`, a time of the file systems' clock.
@@ -386,7 +387,8 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         result->record_count = 0;
         return;
     }
-    // Markers of lights are objects of the scene and depend on the camera, so each picture then reads the model itself.
+    // Markers of lights are objects of the scene and depend on the camera, so with markers each picture reads the model
+    // itself.
     int together = item->options->shading.show_lights ? 1 : item->view_count;
     for (int i = 0; i < item->view_count; i += together) {
         struct batch_item part = *item;

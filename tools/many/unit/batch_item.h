@@ -13,12 +13,12 @@ struct batch_item {
     const char *options_text; // the options as text for the keys; NULL if records have no keys
     bool has_records;         // whether records are needed
     const char *model;
-    bool leads_out;               // the model itself; `model` is then its name; NULL means a file
+    bool leads_out;               // the model is a link out of its folder (batch_plan.h)
     const lam_bytes *model_bytes; // the model itself, named by `model`; NULL if it is a file
     const struct job_view *views; // the views of the pictures
     char *const *outputs;         // the paths of the pictures
     lam_bytes *contents;          // receive the pictures; NULL if they are written to the paths
-    const int *attempts;          // the number of the attempt for each, from 1
+    const int *attempts;          // the attempt number of each picture, starting at 1
     int view_count;
     bool several;                // the command line has several views or sizes
     bool makes_folders;          // also create the folders of explicitly named pictures

@@ -15,14 +15,14 @@ enum picture_outcome {
     PICTURE_WRITTEN,
     PICTURE_SAME,          // --skip-same
     PICTURE_BEFORE,        // --resume: an earlier run has written it
-    PICTURE_FAILED,        // failed, but may be tried again
-    PICTURE_FAILED_BEFORE, // in an earlier run, and is not tried again
+    PICTURE_FAILED,        // failed, but may be retried
+    PICTURE_FAILED_BEFORE, // failed in an earlier run and is not retried
 };
 
 struct batch_picture {
     uint8_t outcome;   // enum picture_outcome
     uint8_t class;     // if it failed: its index in tally.classes
-    uint16_t attempts; // tries so far, earlier runs included
+    uint16_t attempts; // attempts so far, including earlier runs
 };
 
 struct batch_job;
@@ -37,7 +37,7 @@ struct batch_task {
 };
 
 struct batch {
-    const struct batch_plan *plan; // without models where jobs come
+    const struct batch_plan *plan; // contains no models if jobs arrive by --jobs
     const struct options *options;
     bool is_batch;
     char *options_text;          // NULL if there are no keys
@@ -54,14 +54,14 @@ struct batch {
     struct batch_picture *pictures; // the pictures of all models in order
     json_t **records;               // the same for the page; NULL if there is no page
     bool *taken;                    // for each model, whether this pass has given it to a worker
-    size_t next;                    // model that this pass looks at next
+    size_t next;                    // the next model that this pass considers
     size_t read_from;               // the position of the thread that reads ahead
-    int drawing;                    // workers that are not done
+    int drawing;                    // the number of busy workers
     struct batch_tally tally;
     struct batch_texts texts;
     int code; // the highest exit code
     bool interrupted;
-    bool failed; // the journal cannot be written: nothing more is begun
+    bool failed; // the journal cannot be written: nothing more starts
 };
 
 // Returns the pictures' states of a model of the batch's plan.
@@ -70,7 +70,7 @@ static inline struct batch_picture *batch_pictures_of(const struct batch *b, siz
     return b->pictures + model * (size_t)b->plan->view_count;
 }
 
-// Reports an error after which nothing more is begun. Any thread.
+// Reports an error after which no further model is started. Any thread.
 void batch_stop(struct batch *batch, const lam_error *error);
 
 #endif

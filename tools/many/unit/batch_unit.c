@@ -159,7 +159,7 @@ bool batch_unit_look(struct batch_unit *u, const struct batch *b)
     bool open = false;
     for (int i = 0; i < u->task.plan->view_count; i++) {
         struct batch_picture *picture = &u->pictures[i];
-        // A model that this run has already tried is tried again regardless of the journal.
+        // A model that this run has already tried is retried regardless of the journal.
         bool asks = picture->outcome == PICTURE_OPEN && picture->attempts == 0 && b->journal &&
                     b->way != JOURNAL_START && !u->contents;
         json_t *record = asks ? journal_find(b->journal, u->outputs[i]) : NULL;
@@ -198,7 +198,7 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
                                .views = views,
                                .outputs = outputs,
-                               .contents = u->contents, // all pictures are open in this case
+                               .contents = u->contents, // in this case all pictures are open
                                .makes_folders = task->job != NULL,
                                .attempts = attempts,
                                .view_count = count,

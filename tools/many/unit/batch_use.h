@@ -1,4 +1,4 @@
-// batch_use.h: the interface for commands that draw many models for another purpose than writing pictures, such as
+// batch_use.h: the interface for commands that draw many models for a purpose other than writing pictures, such as
 // hashes and comparisons.
 //
 // They share the loop over the models with its workers, processes, sandbox, messages and counts. The findings about

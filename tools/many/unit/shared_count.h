@@ -19,7 +19,7 @@ static inline void shared_count_free(atomic_int *count)
         munmap(count, sizeof *count);
 }
 
-// Counts one of at most `most`. Returns false if all of them are taken.
+// Takes one of at most `most` places. Returns false if all of them are taken.
 static inline bool shared_count_take(atomic_int *count, int most) { return atomic_fetch_add(count, 1) < most; }
 
 #endif

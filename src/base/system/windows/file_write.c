@@ -1,5 +1,4 @@
-// file_write.c: writes whole files on Windows, so that a reader sees either the old file or the new one. The bytes go to a file
-// beside it, which then gets its name.
+// file_write.c: writes whole files on Windows, so that a reader sees either the old file or the new one. The bytes are written to a temporary file in the same folder, which is then renamed.
 #include "file.h"
 
 #include "fail.h"
@@ -14,7 +13,7 @@
 
 enum { PIECE = 1 << 20 };
 
-// False with errno; ECANCELED: the call must end.
+// Returns false and sets errno on failure; ECANCELED means that the call must end.
 static bool write_all(int file, const uint8_t *at, size_t left, struct call_control *call)
 {
     while (left) {
@@ -31,7 +30,7 @@ static bool write_all(int file, const uint8_t *at, size_t left, struct call_cont
     return true;
 }
 
-// Writes to `name`, a new file or a device, which is removed if that fails and it `is_new`.
+// Writes to `name`, a new file or a device; if writing fails and the file `is_new`, removes it.
 static bool write_to(const char *name, bool is_new, const void *data, size_t size, bool durable,
                      struct call_control *call)
 {

@@ -1,4 +1,4 @@
-// files.c: POSIX's functions for files and folders, by Windows' own.
+// files.c: POSIX functions for files and folders, implemented with the Windows API.
 #include "names.h"
 
 #include <dirent.h>
@@ -66,7 +66,7 @@ FILE *windows_fopen(const char *path, const char *mode)
 
 static struct timespec time_of(uint64_t ticks)
 {
-    // 100 ns from 1601 on; Unix counts from 1970.
+    // Counted in units of 100 ns from 1601; Unix time starts in 1970.
     const int64_t since_1601 = 11644473600;
     return (struct timespec){(time_t)((int64_t)(ticks / 10000000) - since_1601), (long)(ticks % 10000000 * 100)};
 }
@@ -94,7 +94,7 @@ static int stat_handle(HANDLE handle, struct windows_stat *about)
     return 0;
 }
 
-// A handle for what its name tells; INVALID_HANDLE_VALUE with errno.
+// Opens a handle that only queries a file's attributes; returns INVALID_HANDLE_VALUE and sets errno on failure.
 static HANDLE open_name(const char *path)
 {
     wchar_t *wide = wide_path(path);
@@ -136,7 +136,7 @@ int windows_access(const char *path, int mode)
 
 char *realpath(const char *path, char *buffer)
 {
-    enum { SIZE = 32768 }; // Windows' longest path
+    enum { SIZE = 32768 }; // the longest path in Windows
     HANDLE handle = open_name(path);
     wchar_t *wide = handle != INVALID_HANDLE_VALUE ? malloc(SIZE * sizeof *wide) : NULL;
     DWORD length = wide ? GetFinalPathNameByHandleW(handle, wide, SIZE, FILE_NAME_NORMALIZED) : 0;
@@ -230,8 +230,7 @@ ssize_t pwrite(int file, const void *data, size_t size, off_t at)
 int flock(int file, int operation)
 {
     (void)operation;
-    OVERLAPPED end = {.Offset = 0,
-                      .OffsetHigh = 0x40000000}; // a byte that no file has: a lock keeps others from reading
+    OVERLAPPED end = {.Offset = 0, .OffsetHigh = 0x40000000}; // a byte past the end of any file, so that reads work
     return LockFileEx((HANDLE)_get_osfhandle(file), LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &end)
                ? 0
                : fail_with_errno();

@@ -1,4 +1,5 @@
-// memory.c: pages.h and available_memory.h for Windows: large blocks of memory, and the memory available to this process.
+// memory.c: implements pages.h and available_memory.h for Windows: large blocks of memory, and the memory available to
+// this process.
 #include "available_memory.h"
 #include "pages.h"
 
@@ -10,7 +11,7 @@ enum { PAGE = 4096 };
 
 static size_t whole_pages(size_t bytes) { return bytes ? (bytes + PAGE - 1) / PAGE * PAGE : PAGE; }
 
-// Windows promises memory when it is asked for it, and finds it at the first touch.
+// Windows commits memory at the request, and provides physical memory at the first touch.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)
@@ -49,7 +50,7 @@ uint64_t memory_of_groups(const char *root)
     return UINT64_MAX;
 }
 
-// A job of Windows limits a process as a control group does.
+// A job object of Windows limits a process as a control group does.
 uint64_t lam_memory_available(void)
 {
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits;

@@ -1,11 +1,11 @@
-// names.c: names of files between UTF-8 and Windows' UTF-16, and errors as POSIX numbers them.
+// names.c: converts file names between UTF-8 and UTF-16, and Windows errors to POSIX error numbers.
 #include "names.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <windows.h>
 
-// Longer paths are absolute and begin with "\\?\" (MAX_PATH, less a name of 8.3 letters for a folder).
+// Longer paths must be absolute and begin with "\\?\" (MAX_PATH minus an 8.3 name, the limit for folders).
 enum { LONG_PATH = 248 };
 
 static wchar_t *full_path(wchar_t *path)

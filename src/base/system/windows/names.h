@@ -1,15 +1,16 @@
-// names.h: names of files between UTF-8 and Windows' UTF-16.
+// names.h: converts file names between UTF-8 and UTF-16.
 #ifndef WINDOWS_NAMES_H
 #define WINDOWS_NAMES_H
 
 #include <stddef.h>
 #include <wchar.h>
 
-// Returns a path for Windows' functions, from malloc: with backslashes, and absolute if it is long. NULL with errno.
+// Returns a path for the Windows API, from malloc: with backslashes, and absolute if it is long. Returns NULL and sets
+// errno on failure.
 wchar_t *wide_path(const char *path);
-// Returns UTF-8 from malloc, with slashes for backslashes if `is_path`. NULL: out of memory.
+// Returns UTF-8 text from malloc; with `is_path`, replaces backslashes with slashes. Returns NULL if memory runs out.
 char *narrow_text(const wchar_t *text, int is_path);
-// Sets errno by GetLastError(), and returns −1.
+// Sets errno from GetLastError(), and returns −1.
 int fail_with_errno(void);
 
 #endif

@@ -1,4 +1,4 @@
-// posix.c: functions of POSIX and GNU that mingw-w64 lacks: strings, processors, waits.
+// posix.c: implements functions of POSIX and GNU that mingw-w64 lacks: strings, processors, waits.
 #include <errno.h>
 #include <pthread.h>
 #include <sched.h>
@@ -54,7 +54,7 @@ char *strsep(char **text, const char *separators)
 const char *windows_strerror_r(int reason, char *buffer, size_t size)
 {
     (void)buffer, (void)size;
-    return strerror(reason); // in memory of the thread
+    return strerror(reason); // stored per thread
 }
 
 // --- the machine

@@ -1,4 +1,5 @@
-// program.c: where a program for Windows starts: its words become UTF-8, its streams carry bytes, and then main() runs.
+// program.c: the entry point of a program for Windows: converts the arguments to UTF-8, makes the streams binary, and
+// then calls main().
 #include "names.h"
 
 #include <fcntl.h>
@@ -13,7 +14,7 @@ static UINT before; // the console's code page
 
 static void restore_console(void) { SetConsoleOutputCP(before); }
 
-// Backslashes of the words become slashes: the program knows folders by these alone.
+// Backslashes in arguments become slashes, because the program recognises folders only by slashes.
 int wmain(int count, wchar_t **wide)
 {
     char **words = calloc((size_t)count + 1, sizeof *words);

@@ -1,7 +1,7 @@
-// streams.c: streams in memory, lines of streams, and waiting for pipes.
+// streams.c: memory streams, reading of lines, and waiting for pipes.
 //
-// Windows' streams cannot call a program's functions: a stream in memory is a temporary file, which Windows keeps in its cache
-// and removes when it is closed. fflush and fclose copy its bytes.
+// Streams of Windows cannot call a program's functions: a memory stream is a temporary file, which Windows keeps in its
+// cache and removes when it is closed. fflush and fclose copy its bytes.
 #include "names.h"
 
 #include <errno.h>
@@ -62,7 +62,7 @@ FILE *fmemopen(void *data, size_t size, const char *mode)
     return start((struct memory_stream){.fixed = data, .capacity = size});
 }
 
-// Gives the caller the stream's bytes. Returns false if memory runs out, or an earlier write has failed.
+// Passes the stream's bytes to the caller. Returns false if memory runs out, or an earlier write has failed.
 static bool give_text(const struct memory_stream *stream)
 {
     if (fflush(stream->file) != 0 || ferror(stream->file))
@@ -135,7 +135,7 @@ ssize_t getline(char **line, size_t *capacity, FILE *file)
 
 // --- waiting
 
-// Returns whether a read returns at once. Only a pipe is asked.
+// Returns whether a read returns at once. Only pipes are queried.
 static bool is_ready(int file)
 {
     HANDLE handle = (HANDLE)_get_osfhandle(file);

@@ -12,7 +12,7 @@ struct position_bins {
     size_t count;
 };
 
-// Puts the corners into bins. Returns false if it ended early (search->loop), or the probe limit was reached.
+// Puts the corners into bins. Returns false if it ended early (search->loop), or exceeded the probe limit.
 bool position_bins_fill(struct position_bins *bins, struct position_search *search);
 
 // Returns the number of corners in a bin.

@@ -63,7 +63,7 @@ uint32_t position_hash_find(const struct position_hash *table, const uint32_t bi
 bool position_hash_fill(struct position_hash *table, uint32_t part, struct block_lists *lists, int threads,
                         struct block_lists *mine, bool duplicates);
 
-// More probes than occur in any file that was not made to collide.
+// Returns whether there are more probes than in any file that was not made to collide.
 static inline bool probe_limit_exceeded(size_t probes, size_t searches) { return probes > 16 * searches + 4096; }
 
 #endif

@@ -18,7 +18,7 @@ enum {
     CACHE_MAX = 1 << 13, // positions in a thread's cache, which fits the second-level cache
 };
 
-// Memory that is free again before the first fan is computed; it may overlap the memory for normals.
+// Allocates memory that is free again before the first fan is computed; it may overlap the memory for normals.
 static void *alloc_until_fans(struct position_search *s, size_t count, size_t size)
 {
     for (int i = 0; i < 2; i++) {

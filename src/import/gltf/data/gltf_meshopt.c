@@ -58,7 +58,7 @@ static bool check(struct gltf *gltf, const struct place *place, const struct com
     bool fits = c->filter == NO_FILTER || (c->mode == ATTRIBUTES && (c->filter == OCTAHEDRAL   ? c->stride <= 8
                                                                      : c->filter == QUATERNION ? c->stride == 8
                                                                                                : true));
-    return fits || json_fail(&gltf->json, KEY_OF(place, "filter"), "the filter %s does not go with %s of %zu bytes",
+    return fits || json_fail(&gltf->json, KEY_OF(place, "filter"), "the filter %s does not support %s of %zu bytes",
                              filters[c->filter].name, modes[c->mode].name, c->stride);
 }
 

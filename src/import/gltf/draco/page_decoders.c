@@ -1,5 +1,5 @@
-// page_decoders.c: the decoders in a page. Draco and meshoptimizer are a second module (web/decoders.py), which
-// JavaScript calls for these functions (web/decoders.js); it copies the bytes between the two memories.
+// page_decoders.c: calls the decoders of a web page. Draco and meshoptimizer are in a second module (web/decoders.py),
+// which JavaScript calls for these functions (web/decoders.js); it copies the bytes between the two memories.
 #include "draco_module.h"
 
 #include <stdbool.h>
@@ -10,7 +10,7 @@
 void *page_library(const char *name);
 bool page_library_find(void *library, const char *name, void *function);
 
-// Returns whether the module is loaded. If not, the page fetches it and reads the file again.
+// Returns whether the module is loaded. If it is not, the page downloads it and reads the file again.
 int web_decoders(void) IMPORT(web_decoders);
 // Stores mesh, vertices and triangles at `out`. Like the next function, it returns a result of draco_functions.
 int web_draco_decode(const uint8_t *bytes, size_t size, uint32_t out[3], char *reason) IMPORT(web_draco_decode);
@@ -18,10 +18,10 @@ int web_draco_attribute(uint32_t mesh, uint32_t id, int component, int width, vo
     IMPORT(web_draco_attribute);
 void web_draco_triangles(uint32_t mesh, uint32_t *out) IMPORT(web_draco_triangles);
 void web_draco_free(uint32_t mesh) IMPORT(web_draco_free);
-// `kind`: 0 vertices, 1 triangles, 2 a sequence of indices. Returns 0 or an error number.
+// `kind` is 0 for vertices, 1 for triangles, 2 for a sequence of indices. Returns 0 or an error number.
 int web_meshopt_decode(int kind, void *out, size_t count, size_t stride, const uint8_t *bytes, size_t size)
     IMPORT(web_meshopt_decode);
-// `kind`: 0 octahedral, 1 quaternions, 2 exponential.
+// `kind` is 0 for octahedral, 1 for quaternions, 2 for exponential.
 void web_meshopt_filter(int kind, void *data, size_t count, size_t stride) IMPORT(web_meshopt_filter);
 
 // The other module does not count memory; the browser limits it.
@@ -30,7 +30,7 @@ static int decode(const uint8_t *bytes, size_t size, struct draco_memory *memory
 {
     uint32_t out[3] = {0};
     (void)memory;
-    strcpy(reason, "the decoder gave up");
+    strcpy(reason, "the decoder failed");
     int result = web_draco_decode(bytes, size, out, reason);
     *mesh = (void *)(uintptr_t)out[0];
     *vertices = out[1];
@@ -40,7 +40,7 @@ static int decode(const uint8_t *bytes, size_t size, struct draco_memory *memory
 
 static int attribute(const void *mesh, uint32_t id, int component, int width, void *out, char reason[DRACO_REASON_SIZE])
 {
-    strcpy(reason, "the decoder gave up");
+    strcpy(reason, "the decoder failed");
     return web_draco_attribute((uint32_t)(uintptr_t)mesh, id, component, width, out, reason);
 }
 

@@ -56,7 +56,7 @@ struct morph_target {
 };
 
 // Adds one attribute of a target to an array, which becomes the mesh's own with the first addition. `width` and
-// `base_width` are the numbers of values for each vertex in the target and in the mesh.
+// `base_width` are the numbers of values per vertex in the target and in the mesh.
 static bool add_target(const struct morph_target *t, const char *name, int width, int base_width, const float **values,
                        bool *own)
 {
@@ -101,7 +101,7 @@ struct owned {
     bool positions, normals, tangents, texcoords[2];
 };
 
-// The sets that the mesh has.
+// Morphs the sets of texture coordinates that the mesh has.
 static bool morph_texcoords(const struct morph_target *target, lam_mesh *mesh, struct owned *own)
 {
     bool ok = true;

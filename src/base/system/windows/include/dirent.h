@@ -1,4 +1,4 @@
-// dirent.h: the names in a folder, in UTF-8.
+// dirent.h: lists the names in a folder, in UTF-8.
 #ifndef WINDOWS_DIRENT_H
 #define WINDOWS_DIRENT_H
 
@@ -10,7 +10,7 @@ typedef struct windows_folder DIR;
 DIR *opendir(const char *path);
 struct dirent *readdir(DIR *folder);
 int closedir(DIR *folder);
-// Removes a file of an open folder.
+// Removes a file from an open folder.
 int windows_remove_in(DIR *folder, const char *name);
 #define dirfd(folder)                 (folder)
 #define unlinkat(folder, name, flags) windows_remove_in(folder, name)

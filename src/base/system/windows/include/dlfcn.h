@@ -1,4 +1,4 @@
-// dlfcn.h: no library is opened: the program is a static one.
+// dlfcn.h: opens no libraries, because programs for Windows are linked statically.
 #ifndef WINDOWS_DLFCN_H
 #define WINDOWS_DLFCN_H
 

@@ -1,4 +1,4 @@
-// poll.h: waiting for a pipe. Any other file is taken for ready.
+// poll.h: waits for a pipe. Any other file counts as ready.
 #ifndef WINDOWS_POLL_H
 #define WINDOWS_POLL_H
 

@@ -1,4 +1,5 @@
-// pthread.h: winpthreads', whose waits with a limit know the time of day alone: here the limit is one of CLOCK_MONOTONIC.
+// pthread.h: extends the header of winpthreads, whose timed waits use only the time of day: here the deadline is a time
+// of CLOCK_MONOTONIC.
 #ifndef WINDOWS_PTHREAD_H
 #define WINDOWS_PTHREAD_H
 

@@ -1,4 +1,5 @@
-// sched.h: winpthreads', and how many processors this process may use, as Linux says it.
+// sched.h: extends the header of winpthreads with the number of processors that this process may use, in the form of
+// Linux.
 #ifndef WINDOWS_SCHED_H
 #define WINDOWS_SCHED_H
 

@@ -1,4 +1,5 @@
-// signal.h: mingw-w64's, and masks of signals, which hold nothing back: Windows sends a process no signals but Ctrl-C.
+// signal.h: extends mingw-w64's header with signal masks, which block nothing: Windows sends a process no signal except
+// Ctrl-C.
 #ifndef WINDOWS_SIGNAL_H
 #define WINDOWS_SIGNAL_H
 
@@ -8,7 +9,7 @@
 
 typedef int sigset_t;
 #define SIG_SETMASK 2
-#define SIGPIPE     13 // signal() refuses these
+#define SIGPIPE     13 // signal() rejects these
 #define SIGXFSZ     25
 
 static inline int sigfillset(sigset_t *set) { return *set = 0; }

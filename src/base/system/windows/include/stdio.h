@@ -1,4 +1,5 @@
-// stdio.h: mingw-w64's, with names of files in UTF-8, files without conversion of line ends, and streams in memory.
+// stdio.h: extends mingw-w64's header with file names in UTF-8, files without conversion of line ends, and memory
+// streams.
 #ifndef WINDOWS_STDIO_H
 #define WINDOWS_STDIO_H
 
@@ -10,12 +11,12 @@ int windows_fclose(FILE *file);
 int windows_fflush(FILE *file);
 #define fopen  windows_fopen
 #define rename windows_rename
-// fclose and fflush give a stream in memory its text.
+// fclose and fflush store the text of a memory stream.
 #define fclose windows_fclose
 #define fflush windows_fflush
 
 FILE *open_memstream(char **text, size_t *size);
-FILE *fmemopen(void *data, size_t size, const char *mode); // only to write
+FILE *fmemopen(void *data, size_t size, const char *mode); // only for writing
 ssize_t getline(char **line, size_t *capacity, FILE *file);
 
 #endif

@@ -1,4 +1,4 @@
-// string.h: mingw-w64's, and functions of POSIX and GNU that it lacks.
+// string.h: extends mingw-w64's header with functions of POSIX and GNU that it lacks.
 #ifndef WINDOWS_STRING_H
 #define WINDOWS_STRING_H
 
@@ -8,7 +8,7 @@ void *memmem(const void *text, size_t size, const void *word, size_t word_size);
 char *strchrnul(const char *text, int letter);
 char *strndup(const char *text, size_t size);
 char *strsep(char **text, const char *separators);
-// GNU's, which returns the text.
+// Works like the GNU version, which returns the text.
 const char *windows_strerror_r(int reason, char *buffer, size_t size);
 #define strerror_r windows_strerror_r
 

@@ -1,4 +1,4 @@
-// unistd.h: mingw-w64's, with names of files in UTF-8, and POSIX functions that it lacks.
+// unistd.h: extends mingw-w64's header with file names in UTF-8 and POSIX functions that it lacks.
 #ifndef WINDOWS_UNISTD_H
 #define WINDOWS_UNISTD_H
 
@@ -15,18 +15,18 @@ int windows_rmdir(const char *path);
 #define rmdir(path)        windows_rmdir(path)
 
 int fsync(int file);
-// Reads or writes at a position, and leaves the file's own where it was for other calls of these two. Any thread.
+// Reads or writes at a position, and leaves the file's own position unchanged for later calls of these two. Any thread.
 ssize_t pread(int file, void *data, size_t size, off_t at);
 ssize_t pwrite(int file, const void *data, size_t size, off_t at);
-// The name of this machine.
+// Gets the name of this machine.
 int windows_hostname(char *name, size_t size);
 #define gethostname(name, size) windows_hostname(name, size)
 
 #define _SC_NPROCESSORS_ONLN 84
-// Knows the number of processors alone; −1 for any other name.
+// Returns the number of processors; −1 for any other name.
 long sysconf(int name);
 
-// Fails: no link is read, and no user has a number.
+// Fails: links cannot be read, and users have no numbers.
 static inline ssize_t readlink(const char *path, char *out, size_t size)
 {
     (void)path, (void)out, (void)size;

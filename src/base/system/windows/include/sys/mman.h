@@ -1,4 +1,4 @@
-// sys/mman.h: anonymous memory.
+// sys/mman.h: allocates anonymous memory.
 #ifndef WINDOWS_MMAN_H
 #define WINDOWS_MMAN_H
 
@@ -10,7 +10,7 @@
 #define MAP_ANONYMOUS 32
 #define MAP_FAILED    ((void *)-1)
 
-// Zeroed memory of this process: there are no others that could share it.
+// Allocates zeroed memory of this process; no other process can share it.
 static inline void *mmap(void *at, size_t size, int rights, int kind, int file, long long offset)
 {
     (void)at, (void)rights, (void)kind, (void)file, (void)offset;

@@ -1,4 +1,5 @@
-// sys/stat.h: POSIX's, for Windows' files: names in UTF-8, times in nanoseconds, a number that identifies a file on its volume.
+// sys/stat.h: POSIX file information for Windows: names in UTF-8, times in nanoseconds, and a number that identifies a
+// file on its volume.
 #ifndef WINDOWS_STAT_H
 #define WINDOWS_STAT_H
 
@@ -16,7 +17,7 @@ struct windows_stat {
     unsigned st_nlink;
     unsigned st_uid, st_gid; // 0
     long long st_size;
-    struct timespec st_mtim, st_ctim; // of the contents; of the file's record
+    struct timespec st_mtim, st_ctim; // of the contents; of the file's metadata
 };
 #define st_mtime st_mtim.tv_sec
 #define st_ctime st_ctim.tv_sec
@@ -27,7 +28,7 @@ int windows_mkdir(const char *path);
 
 #define stat              windows_stat
 #define fstat             windows_fstat
-#define lstat             windows_stat // links are followed
+#define lstat             windows_stat // stat and lstat follow links
 #define mkdir(path, mode) windows_mkdir(path)
 
 #define S_ISLNK(mode)  0

@@ -1,1 +1,1 @@
-// sys/syscall.h: Windows has no system calls with numbers.
+// sys/syscall.h: Windows has no numbered system calls.

@@ -5,7 +5,7 @@
 #include "corner_weld.h"
 #include "edge_keys.h"
 
-enum { CHECK_INTERVAL = 1 << 14 }; // ends between two checks of the call
+enum { CHECK_INTERVAL = 1 << 14 }; // ends of edges between two checks for cancellation
 
 static bool is_inner(const lam_mesh *mesh, uint32_t corner)
 {
@@ -18,7 +18,7 @@ static uint32_t apex_of(const struct corner_weld *weld, uint32_t corner)
     return weld->of[corner - corner % 3 + (corner % 3 + 2) % 3];
 }
 
-// Returns the edge that `count` corners start. Triangles with the same three vertices are one face, because files may
+// Returns the edges that begin at `count` corners. Triangles with the same three vertices are one face, because files may
 // contain each face twice, once for each side. Of such a pair, the corner whose direction is opposite to the first
 // face's is used.
 static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *weld, const uint64_t *keys,

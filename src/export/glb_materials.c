@@ -8,7 +8,7 @@
 
 static float scale_of(const lam_texture_map *map) { return map->scale == 0 ? 1 : map->scale; }
 
-// Returns the map if glTF can represent it: its slot allows only one channel, without scale and offset. Otherwise
+// Returns the map if glTF can represent it: a slot of glTF allows only one channel, without scale and offset. Otherwise
 // records a loss.
 static const lam_texture_map *usual(struct glb *glb, const lam_material *m, lam_map slot, int channel)
 {
@@ -148,7 +148,7 @@ static bool is_opaque(const lam_material *m)
 
 static void put_alpha(struct glb *glb, json_t *object, const lam_material *m, bool classic)
 {
-    // A classic material may always blend. Viewers sort such surfaces in glTF files, so the file declares blending only
+    // Any classic material may use alpha blending. Viewers sort such surfaces in glTF files, so the file declares blending only
     // if it is needed.
     bool blends = m->alpha_mode == LAM_ALPHA_BLEND && !(classic && is_opaque(m));
     if (blends || m->alpha_mode == LAM_ALPHA_MASK)

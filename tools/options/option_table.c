@@ -843,7 +843,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"ahead", 0, GROUP_BATCH, "N", "twice the number of models drawn at once",
      "The maximum number of waiting jobs; at this number Lambent stops reading lines.", NULL, .store = store_integer,
      .others = "queue backlog queue-length", FIELD(batch.ahead), .min = 1, .max = 100000},
-    {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The longest line of `--jobs`; longer lines are errors.",
+    {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The maximum line length for `--jobs`; a longer line is an error.",
      "A line can include the bytes of a model. Base64 needs four bytes for every three bytes of the model. The models "
      "of waiting jobs use at most twice this limit.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
@@ -935,7 +935,7 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
      "`auto` recognises a built-in contract by its names. If no contract fits, Lambent infers the role of each input "
-     "from its use. `auto` never selects `chile` and `glsl120`; to use these contracts, give their names. `--list` "
+     "from its use. `auto` never selects `chile` or `glsl120`; to use one of these contracts, give its name. `--list` "
      "prints the contracts. To use your own contract, write it in JSON (`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,

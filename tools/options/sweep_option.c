@@ -48,7 +48,7 @@ static const lam_field *light_field(const char *key)
     return NULL;
 }
 
-// Returns the index of the component of a field with this letter, or −1.
+// Returns the index of the field's component that this letter names, or −1.
 static int component_of(const lam_field *field, const char *letter)
 {
     const char *letters = field->type == LAM_FIELD_RGB                                           ? "rgb"

@@ -9,7 +9,7 @@
 
 static const struct {
     const char *name;
-    unsigned bit; // 0 if the word is always known
+    unsigned bit; // 0 if the placeholder always has a value
 } words[] = {{"stem", 0}, {"ext", 0}, {"dir", 0}, {"view", NAME_VIEW}, {"size", NAME_SIZE}, {"frame", NAME_FRAME}};
 
 enum { WORDS = sizeof words / sizeof words[0] };

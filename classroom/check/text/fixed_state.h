@@ -4,7 +4,7 @@
 
 #include <lambent/base.h>
 
-// Rewrites a text so that it reads uniforms of its own, such as fixed_LightSource[i].position, instead of
+// Rewrites a shader so that it reads uniforms such as fixed_LightSource[i].position, instead of
 // gl_LightSource, gl_FrontMaterial and similar state. The caller can set these uniforms. `other` is the text of the
 // other stage and may be NULL. The result is from malloc. Returns NULL if the text reads no fixed state or, with `ok`
 // false, if memory runs out.

@@ -193,7 +193,7 @@ static bool find_matrix(struct inference *f, const struct declaration *item)
     return true;
 }
 
-// The use of a vector in a text: in a difference (a point), or normalized alone (a direction).
+// How a shader uses a vector: a point is subtracted, a direction is only normalized.
 enum { USED_IN_DIFFERENCE = 1, USED_ALONE = 2 };
 static unsigned uses_of(const struct declarations *d, const char *name)
 {
@@ -241,7 +241,7 @@ static bool reads_w(const struct inference *f, const char *name)
     return false;
 }
 
-// Returns whether `-name` occurs, which means that it is a direction away from the light.
+// Returns whether `-name` occurs; the vector then points away from the light.
 static bool is_negated(const struct inference *f, const char *name)
 {
     const struct declarations *sides[] = {f->vertex, f->fragment};

@@ -12,7 +12,7 @@
 #include "maps.h"
 #include "shader_constants.h"
 
-// Returns whether a declared uniform is read: a member of a struct after a dot, another name anywhere.
+// Returns whether the shader reads a declared uniform. A struct member counts only after a dot, other names anywhere.
 static bool is_used(const struct declarations *d, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -398,7 +398,7 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
     find_declared(r);
     find_maps(r);
     shader_constants_find(r);
-    // A printed shader declares every member of a material, even if it does not read it.
+    // A printed shader declares every member of a material, including members that it does not read.
     uint64_t named = contract->printed ? r->used : r->declared;
     r->physical =
         contract->reflection == LAM_REFLECTION_GGX || named >> SEMANTIC_METALLIC & 1 || named >> SEMANTIC_ROUGHNESS & 1;

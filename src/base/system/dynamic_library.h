@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 // Opens a library by its file name ("libfreetype.so.6"). Returns NULL if it is not installed; *reason (may be NULL) is
-// then the loader's sentence. With `resident`, it stays loaded until the process ends, which drivers that start threads
+// then the loader's error message. With `resident`, it stays loaded until the process ends, which drivers that start threads
 // need.
 void *library_open(const char *name, bool resident, const char **reason);
 // Opens a shared object that is installed with this library or program, "lambent-draco.so", in the subfolder lambent of

@@ -249,7 +249,7 @@ static void put_frame(struct writer *writer, const struct apng *apng, int index)
     }
 }
 
-// Gives all frames the same channels, and sums the bytes of the file.
+// Gives all frames the same channels, and computes the size of the file.
 static bool unify(struct apng *apng, const lam_save_params *params, struct call_control *call, size_t *bytes,
                   lam_error *error)
 {

@@ -81,7 +81,7 @@ static size_t stream_bytes(const struct deflate *deflate)
     return ((size_t)deflate->width * (unsigned)deflate->bytes_per_pixel + 1) * deflate->y;
 }
 
-// The state of writing the bytes uncompressed, in blocks of at most MAX_STORED.
+// The state of the writer of uncompressed data, in blocks of at most MAX_STORED bytes.
 struct storing {
     uint8_t *at;
     size_t left, in_block; // remaining bytes in total, and in this block

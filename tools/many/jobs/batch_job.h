@@ -1,4 +1,4 @@
-// batch_job.h: one job of --jobs: the request of a line, with its options, plan and model.
+// batch_job.h: one job of --jobs: the request read from one line, with its options, plan and model.
 #ifndef BATCH_JOB_H
 #define BATCH_JOB_H
 

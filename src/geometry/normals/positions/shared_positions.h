@@ -35,7 +35,7 @@ struct position_search {
     struct position_hash table;
     struct block_lists *lists; // the lists of each thread
     int probe_limit_reached;   // set atomically: the file was made so that its positions collide
-    struct rank_bitset done;   // vertices whose normals are already computed; without bits: none
+    struct rank_bitset done;   // vertices whose normals are already computed; no bits: none
 
     // Output. A position has the rank of its representative vertex among `wanted`; without indices, the rank of the
     // corner in the set's triangles.

@@ -32,8 +32,8 @@ INSIDE = [*PACKAGES, "fonts-dejavu-core", "libc6-dev", "libgcc-*-dev"]
 DEBIAN_NAMES = {"x86_64": "amd64", "aarch64": "arm64"}
 
 
-# The linker leaves out the functions that nothing calls, for the sake of size.
-SECTIONS, UNUSED = "-ffunction-sections -fdata-sections", "-Wl,--gc-sections"
+# For size: the linker omits functions that nothing calls, and there are no tables for unwinding the stack, which only C++ needs.
+SECTIONS, UNUSED = "-ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables", "-Wl,--gc-sections"
 
 
 def call(*command, **more):

@@ -85,7 +85,7 @@ class EnvironmentOption(Case):
     def test_wrong(self):
         self.ppm("odd.ppm", 10, 7, lambda x, y: (1, 2, 3))
         good = self.ppm("good.ppm", 4, 4, lambda x, y: (1, 2, 3))
-        self.bad(2, *MIRROR, "--environment", "missing.hdr", "-o", "x.png", says=("missing.hdr", "cannot open"))
+        self.bad(2, *MIRROR, "--environment", "missing.hdr", "-o", "x.png", says=("option '--environment': missing.hdr", "cannot open"))
         self.bad(3, *MIRROR, "--environment", "odd.ppm", "-o", "x.png", says=("odd.ppm", "10×7", "2:1"))
         self.bad(3, *MIRROR, "--environment", ",".join([good] * 5 + ["odd.ppm"]), "-o", "x.png", says=("odd.ppm", "squares of one size"))
         self.bad(1, *MIRROR, "--environment", ",".join([good] * 5), "-o", "x.png", says=("found 5 names", "px,nx,py,ny,pz,nz"))

@@ -5,7 +5,7 @@ import math
 import re
 import unittest
 
-from harness import Case, pixel, read_png
+from harness import ROOT, Case, pixel, read_png
 
 DIFFUSE_ONLY = ("--material", "specular=0,ambient=0")
 
@@ -329,6 +329,15 @@ class Materials(Pictures):
         self.bad(1, "two.obj", "--material", "gold@rigth", says=["no object, part or material 'rigth'", "did you mean 'right'?"], leaves={"two.obj"})
         self.same(("--material", "gold@sphere"), ("--material", "gold"))
 
+    def test_materials_of_glb(self):
+        """Its opaque materials become transparent, and a metal's name replaces its textures too."""
+        spot = os.path.join(ROOT, "examples", "models", "spot.glb")
+        self.assertEqual(pixel(self.picture(model=spot), 32, 32)[3], 255)
+        self.assertIn(pixel(self.picture("--opacity", "0.5", model=spot), 32, 32)[3], range(100, 156))
+        for x, y in ((32, 32), (26, 36), (36, 40)):
+            red, green, blue, _ = pixel(self.picture("--material", "gold", "--look", "studio", model=spot), x, y)
+            self.assertTrue(red >= green > blue and red > 40, (x, y, red, green, blue))
+
     def test_ambient_is_diffuse(self):
         self.same(("--ambient", "1", "--material", "diffuse=0.3/0.2/0.1,ambient=diffuse"), ("--ambient", "1", "--material", "color=0.3/0.2/0.1"))
         (self.folder / "black.mtl").write_text("newmtl a\nKa 0 0 0\nKd 0.7 0.7 0.7\n")
@@ -410,6 +419,7 @@ class Materials(Pictures):
         self.assertEqual(self.picture(*seen, "--hide", "blue", model="both.json"), alone)
         self.assertEqual(self.picture("--hide", "box", model="both.json"), self.picture(model="ball.json"))
         self.bad(1, "both.json", "--hide", "bal", says=["option '--hide': the model has no object, part or material 'bal'", "did you mean 'ball'?"], leaves=("ball.json", "both.json"))
+        self.bad(1, "both.json", "--hide", "nothing", says=["'nothing'; it has 'ball', 'box', 'red', 'blue'"], leaves=("ball.json", "both.json"))
 
     def test_list(self):
         text = self.good("materials", "--color-mode", "raw").stdout.decode()

@@ -91,6 +91,10 @@ bool environment_apply(const struct options *options, struct environment_cache *
     if (options->shading.environment) {
         ok = environment_cache_set(cache, options->shading.environment, (lam_color_mode)options->picture.color_mode,
                                    scene, rotation_rad, control, error);
+        if (!ok && error) { // the name that is put before it is the model's
+            lam_error reason = *error;
+            complain(error, reason.code, "option '--environment': %.300s", reason.text);
+        }
     } else if (option_given(options, "environment-rotation") && lam_scene_environment(scene)) {
         ok = lam_scene_set_environment(scene, lam_scene_environment(scene), rotation_rad, error);
     }

@@ -1,6 +1,7 @@
 // material_apply.c: applies --material and --back-material to a scene's objects.
 #include "material_option.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "console.h"
@@ -145,23 +146,41 @@ static int set_materials(const struct material_option *option, lam_scene *scene,
     return found;
 }
 
+// The names of a model that a target may have been meant to be.
+struct target_names {
+    struct suggestion nearest;
+    char first[200]; // the first few: "'body', 'head'"
+    int count;
+};
+
+static void offer(struct target_names *names, const char *name)
+{
+    if (!name || !*name)
+        return;
+    suggest_try(&names->nearest, name);
+    size_t used = strlen(names->first);
+    if (names->count++ < 4)
+        snprintf(names->first + used, sizeof names->first - used, "%s'%.40s'", used ? ", " : "", name);
+}
+
 static bool not_found(const struct material_option *option, bool back, const char *name, const lam_scene *scene,
                       lam_error *error)
 {
-    struct suggestion nearest = suggest_start(option->target);
+    struct target_names names = {.nearest = suggest_start(option->target)};
     for (int i = 0; i < lam_scene_object_count(scene); i++)
-        if (lam_scene_object(scene, i)->name)
-            suggest_try(&nearest, lam_scene_object(scene, i)->name);
+        offer(&names, lam_scene_object(scene, i)->name);
     for (int m = 0; !back && m < lam_scene_mesh_count(scene); m++)
         for (uint32_t p = 0; p < lam_scene_mesh(scene, m)->part_count; p++)
-            if (lam_scene_mesh(scene, m)->parts[p].name)
-                suggest_try(&nearest, lam_scene_mesh(scene, m)->parts[p].name);
+            offer(&names, lam_scene_mesh(scene, m)->parts[p].name);
     for (int i = 0; !back && i < lam_scene_material_count(scene); i++)
-        if (lam_scene_material(scene, i)->name)
-            suggest_try(&nearest, lam_scene_material(scene, i)->name);
-    return complain(error, LAM_BAD_ARGUMENT, "option '--%s': the model has no %s '%.60s'%s%.60s%s", name,
-                    back ? "object" : "object, part or material", option->target,
-                    nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+        offer(&names, lam_scene_material(scene, i)->name);
+    char advice[300] = "; nothing in it has a name";
+    if (names.nearest.best)
+        snprintf(advice, sizeof advice, "; did you mean '%.60s'?", names.nearest.best);
+    else if (names.count)
+        snprintf(advice, sizeof advice, "; it has %s%s", names.first, names.count > 4 ? ", ..." : "");
+    return complain(error, LAM_BAD_ARGUMENT, "option '--%s': the model has no %s '%.60s'%s", name,
+                    back ? "object" : "object, part or material", option->target, advice);
 }
 
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,

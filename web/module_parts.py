@@ -1,5 +1,5 @@
 """module_parts.py: the served page's module in parts: what draws the first pictures (lambent.wasm), what most pages need after that (lambent-rest.wasm),
-and what is fetched when it is used (lambent-more.wasm): explanations, formulas, sweeps, scene files that are written. The module with threads has two parts: the
+and what is fetched when it is used (lambent-more.wasm): explanations, formulas, sweeps, arithmetic JPEG, scene files that are written. The module with threads has two parts: the
 first (lambent-threads.wasm) takes the place of both. wasm-split (Binaryen) divides them; what a page never calls is left out."""
 import os
 import re
@@ -16,7 +16,7 @@ FEATURES = ["--enable-" + name for name in ("simd", "exception-handling", "bulk-
 # Functions by their objects in the linker's map.
 UNUSED = r"libjpeg\.a\((jc(?!omapi)|jfdct)|jpeg_write\.c" # the page saves PNG; reading needs jcomapi too
 # Only the thread that is called runs them: the others have the first part alone.
-MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|sweep_option\.c\.o|show_all\.c\.o|formula_\w+\.c\.o|scene_write\.c\.o|:\((web_contents|(web|job)_explain)\)$"
+MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|sweep_option\.c\.o|show_all\.c\.o|jdarith\.o|formula_\w+\.c\.o|scene_write\.c\.o|:\((web_contents|(web|job)_explain)\)$"
 
 
 def call(*command):

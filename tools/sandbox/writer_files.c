@@ -3,7 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <pthread.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +12,10 @@
 
 #include "console.h"
 #include "output_folder.h"
+
+#ifdef __wasm__ // wasi-libc has no chmod, and the files of a page have no rights
+#define chmod(path, mode) 0
+#endif
 
 enum { STAGED_MAX = 8192 };
 
@@ -62,8 +66,16 @@ static struct {
         char *hidden, *target; // from malloc
     } files[STAGED_MAX];
     size_t count;
-    pthread_mutex_t lock;
-} set = {.lock = PTHREAD_MUTEX_INITIALIZER};
+    bool locked; // atomic; threads of the writer rarely meet here
+} set;
+
+static void lock_set(void)
+{
+    while (__atomic_exchange_n(&set.locked, true, __ATOMIC_ACQUIRE))
+        sched_yield();
+}
+
+static void unlock_set(void) { __atomic_store_n(&set.locked, false, __ATOMIC_RELEASE); }
 
 static bool fail_writing(const char *path, lam_error *error)
 {
@@ -118,13 +130,13 @@ bool writer_files_stage(const char *path, const lam_bytes *bytes, lam_error *err
 {
     struct stat there;
     struct staged staged = {.target = stat(path, &there) == 0 ? realpath(path, NULL) : strdup(path)};
-    pthread_mutex_lock(&set.lock);
+    lock_set();
     bool ok =
         set.count < STAGED_MAX || complain(error, LAM_LIMIT, "%.400s: is one of more than %d files", path, STAGED_MAX);
     ok = ok && ((staged.target && fill_hidden(&staged, bytes)) || fail_writing(path, error));
     if (ok)
         set.files[set.count++] = staged;
-    pthread_mutex_unlock(&set.lock);
+    unlock_set();
     if (!ok) {
         free(staged.hidden);
         free(staged.target);
@@ -135,7 +147,7 @@ bool writer_files_stage(const char *path, const lam_bytes *bytes, lam_error *err
 // Ends the set; `renames`: the files get their names.
 static bool finish(bool renames, lam_error *error)
 {
-    pthread_mutex_lock(&set.lock);
+    lock_set();
     bool ok = true;
     for (size_t i = 0; i < set.count; i++) {
         struct staged *staged = &set.files[i];
@@ -147,7 +159,7 @@ static bool finish(bool renames, lam_error *error)
         free(staged->target);
     }
     set.count = 0;
-    pthread_mutex_unlock(&set.lock);
+    unlock_set();
     return ok;
 }
 

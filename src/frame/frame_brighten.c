@@ -92,9 +92,8 @@ static void add(struct luminances *sum, double bright, double area)
 {
     if (!(area > 0) || !math_finite(area) || !(bright >= 0))
         return;
-    int bin = 0;
-    while (bin < BINS - 1 && bright >= ((double)bin + 1) * ((double)bin + 1) / ((double)BINS * BINS))
-        bin++;
+    double bin_of = __builtin_sqrt(bright) * BINS;
+    int bin = bin_of < BINS - 1 ? (int)bin_of : BINS - 1;
     sum->area[bin] += area;
     sum->all += area;
 }
@@ -130,11 +129,24 @@ static bool applies(const struct frame *frame, const lam_scene *scene)
     return lam_output_is_light(settings->output) || settings->output == LAM_OUTPUT_CLIPPED;
 }
 
+// Returns whether no surface can be dark, so that none has to be sampled.
+static bool is_bright(const struct frame *frame)
+{
+    for (int i = 0; i < frame->range_count; i++) {
+        const lam_material *m = frame->materials[frame->ranges[i].front];
+        const lam_mesh *mesh = frame->draws[frame->ranges[i].draw].mesh;
+        double bright = luminance((double)m->diffuse.r, (double)m->diffuse.g, (double)m->diffuse.b);
+        if (bright < BRIGHT || m->maps[LAM_MAP_DIFFUSE] || (mesh && mesh->colors))
+            return false;
+    }
+    return true;
+}
+
 double frame_brighten_stops(const struct frame *frame, const lam_scene *scene)
 {
     struct luminances sum = {.all = 0};
     const uint32_t step = frame->triangle_count / SAMPLES + 1;
-    if (!applies(frame, scene))
+    if (!applies(frame, scene) || is_bright(frame))
         return 0;
     for (int i = 0; i < frame->range_count; i++) {
         const struct frame_draw_range *range = &frame->ranges[i];

@@ -101,7 +101,7 @@ static bool start(int count, struct options *options, struct job *job, lam_error
     return session.device && kept_model_take(&model, job, &session.progress, error);
 }
 
-// Prints what has become of a command line, and ends the job. Returns the exit code.
+// Prints the result of a command line, and ends the job. Returns the exit code.
 static int answer(struct job *job, bool ok, const lam_error *error)
 {
     struct json json = {.file = stdout};
@@ -122,6 +122,21 @@ static int answer(struct job *job, bool ok, const lam_error *error)
     job->image = (lam_image){0};
     job_free(job);
     return ok ? 0 : exit_code_of(error->code)->code;
+}
+
+// Ends a call that has printed its own answer (`ok`), or prints the error. Returns the exit code.
+static int end_call(struct job *job, struct options *options, bool ok, const lam_error *error)
+{
+    int code = 0;
+    if (ok) {
+        fflush(stdout);
+        job->scene = NULL;
+        job_free(job);
+    } else {
+        code = answer(job, false, error);
+    }
+    options_free(options);
+    return code;
 }
 
 const void *web_pixels(void) { return session.image.pixels; }
@@ -163,18 +178,11 @@ int web_explain(int count, int x, int y)
         ok = complain(&error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture", x, y);
     if (ok)
         explanation = job_explain(&job, x, y, NULL, &error);
-    int code = 0;
-    if (explanation) {
+    if (explanation)
         explain_json(stdout, explanation, &job);
-        fflush(stdout);
-        lam_explanation_free(explanation);
-        job.scene = NULL;
-        job_free(&job);
-    } else {
-        code = answer(&job, false, &error);
-    }
-    options_free(&options);
-    return code;
+    ok = explanation != NULL;
+    lam_explanation_free(explanation);
+    return end_call(&job, &options, ok, &error);
 }
 
 enum { CURVE_STEPS = 100 };
@@ -244,13 +252,8 @@ int web_curves(int count, int light, double farthest, double shininess)
         json_close(&json, ']');
         json_close(&json, '}');
         putc('\n', stdout);
-        fflush(stdout);
-        job.scene = NULL;
-        job_free(&job);
     }
-    int code = ok ? 0 : answer(&job, false, &error);
-    options_free(&options);
-    return code;
+    return end_call(&job, &options, ok, &error);
 }
 
 int web_lights(int count)
@@ -263,14 +266,9 @@ int web_lights(int count)
               lam_lights_encode(job.scene, job.rig, &text, &error);
     if (ok) {
         fwrite(text.data, 1, text.size, stdout);
-        fflush(stdout);
-        job.scene = NULL;
-        job_free(&job);
     }
     lam_bytes_free(&text);
-    int code = ok ? 0 : answer(&job, false, &error);
-    options_free(&options);
-    return code;
+    return end_call(&job, &options, ok, &error);
 }
 
 int web_contents(int count)
@@ -285,13 +283,8 @@ int web_contents(int count)
         contents_json(&json, job.scene);
         json_close(&json, '}');
         putc('\n', stdout);
-        fflush(stdout);
-        job.scene = NULL;
-        job_free(&job);
     }
-    int code = ok ? 0 : answer(&job, false, &error);
-    options_free(&options);
-    return code;
+    return end_call(&job, &options, ok, &error);
 }
 
 static void option_json(struct json *json, const struct option *o)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """windows.py [FOLDER]: Lambent for Windows on x86-64 in FOLDER (build-windows): the program lambent.exe, which is a static one, the library lambent.dll
-and its lambent.dll.a for linkers, by mingw-w64 (make windows). The libraries inside are those of the module for the web (web/libraries.py) and of the
+and its lambent.dll.a for linkers, by mingw-w64 (make windows). The libraries inside are the same as in the module for the web (web/libraries.py) and in the
 static program (packaging/static.py), compiled from Debian's source packages."""
 import pathlib
 import shutil
@@ -19,7 +19,7 @@ PROGRAMS = {COMPILER: "gcc-mingw-w64-x86-64-posix", PREFIX + "g++-posix": "g++-m
 # Of FreeType the modules in its list ftmodule.h.
 FREETYPE = """autofit bdf cff cid/type1cid lzw/ftlzw gzip/ftgzip pcf pfr psaux pshinter psnames raster sdf sfnt smooth svg truetype type1/type1 type42/type42 winfonts/winfnt
 base/ftbase base/ftbitmap base/ftdebug base/ftglyph base/ftinit base/ftmm base/ftsystem""".split()
-# Rows as those of libraries.LIBRARIES.
+# Rows like libraries.LIBRARIES.
 MORE = [
     {"source": "libdeflate", "library": "deflate", "files": ["lib/*.c", "lib/x86/cpu_features.c"], "headers": ["libdeflate.h"], "pc": "libdeflate", "flags": ["-O2"]},
     {"source": "libwebp", "library": "webp", "files": ["sharpyuv/*.c", *("src/%s/*.c" % n for n in ("dec", "dsp", "enc", "utils"))], "headers": [], "include": "src", "pc": "libwebp",

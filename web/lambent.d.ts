@@ -87,7 +87,7 @@ export class Lambent {
   /** A part of a module in parts. */
   complete(part: WebAssembly.Module): void;
   readonly files: Files;
-  /** What reading a model and drawing it may each use, in bytes, where the words have no --memory-limit; 0: as much as there is. */
+  /** Limits the memory of reading a model and of drawing it, in bytes each, if the words have no --memory-limit. 0 means no limit. */
   limitMemory(bytes: number): void;
   /** The picture of a command line, MODEL [OPTION...]. Throws LambentError. */
   draw(words: string[]): Picture;
@@ -101,7 +101,7 @@ export class Lambent {
   curves(words: string[], of: { light: number; farthest: number; shininess: number; reflection: string }): { type: string; attenuation: number[]; spot: number[]; highlight: number[] };
   /** The picture's lights in the form of a scene file, as `lambent lights` prints them. */
   lights(words: string[]): any;
-  /** What the model contains: its size and unit, objects with their parts, materials, animations, variants, cameras. */
+  /** Returns the model's size and unit, objects with their parts, materials, animations, variants and cameras. */
   contents(words: string[]): any;
   options(): Options;
   /** The files have changed: the model is read anew. */

@@ -28,7 +28,7 @@ export class PartMissing extends Error {
   }
 }
 
-// What a module in parts calls in place of the functions of another part (wasm-split's placeholders).
+// The placeholders of wasm-split: a divided module calls them instead of another part's functions.
 const placeholder = (part) => new Proxy({}, {
   get: () => () => {
     throw new PartMissing(part);
@@ -64,7 +64,7 @@ export class Lambent {
     new WebAssembly.Instance(part, { primary: this.instance.exports });
   }
 
-  // What reading a model and drawing it may each use, in bytes, where the words have no --memory-limit. 0: as much as there is.
+  // Limits the memory of reading a model and of drawing it, in bytes each, if the words have no --memory-limit. 0 means no limit.
   limitMemory(bytes) {
     this.instance.exports.web_limit_memory(bytes);
   }
@@ -127,7 +127,7 @@ export class Lambent {
     return this.#call('web_lights', this.#words(words));
   }
 
-  // What the model contains: its size, objects, materials, animations.
+  // Returns the model's size, objects, materials and animations.
   contents(words) {
     return this.#call('web_contents', this.#words(words));
   }

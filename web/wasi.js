@@ -302,7 +302,7 @@ export function system(files, words, print) {
     path_link: () => NOSYS,
     path_symlink: () => NOSYS,
   };
-  // What is not here answers that it is not there.
+  // All other functions return NOSYS.
   const imports = new Proxy(calls, { get: (target, name) => target[name] ?? (() => NOSYS), has: () => true });
   return { wasi_snapshot_preview1: imports, attach: (instance) => (memory = instance.exports.memory) };
 }

@@ -153,7 +153,7 @@ class Scene:
         return tuple(every(lib.lam_scene_warning, self._handle))
 
     def render(self, size=None, *, progress=None, **options):
-        """Draws the scene, which stays as it is. `rig` adds lights to those of the scene; "none" and "default" omit the scene's own. `size` and `progress` work as in `lambent.render`.
+        """Draws the scene, which stays as it is. `rig` adds lights to the scene's own; "none" and "default" omit the scene's own. `size` and `progress` work as in `lambent.render`.
 
     Keyword arguments:
 """

@@ -1,4 +1,6 @@
 // shader.c: implements lam_shader_make: generates a scene's shaders and the value of every uniform.
+//
+// Longer than 600 lines: one function for each list of a shader's inputs, and one case for each uniform.
 #include <lambent/shader.h>
 
 #include "arena.h"

@@ -64,7 +64,7 @@ class Case(unittest.TestCase):
 
     def run_program(self, *words, stdin=b"", env=None, stdout=subprocess.PIPE, timeout=60, user=None):
         environment = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "TERM")}
-        environment["XDG_CONFIG_HOME"] = str(self.folder / "no-settings")  # not those of the user who runs the tests
+        environment["XDG_CONFIG_HOME"] = str(self.folder / "no-settings")  # not the settings of the user who runs the tests
         environment.update(env or {})
         given = {"stdin": stdin} if hasattr(stdin, "fileno") else {"input": stdin}
         return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, stdout=stdout, stderr=subprocess.PIPE,

@@ -104,7 +104,7 @@ class Hash(Case):
         self.assertIn(b"'--size 64', and these are '--size 64 --background white'", done.stderr)
 
     def test_options_of_the_file(self):
-        """Without options of the picture --check takes those of the file, and none that do anything else."""
+        """Without options of the picture --check uses the file's options, and none that do anything else."""
         self.good("hash", "m", "teapot", "-o", "p.hash", "-s", 64, "-b", "#fff", "--light", "point:position=1/2/3", "-q")
         self.given.add("p.hash")
         text = (self.folder / "p.hash").read_text()
@@ -117,7 +117,7 @@ class Hash(Case):
             self.bad(2, "hash", "--check", "p.hash", says=says)
 
     def test_update_of_some(self):
-        """--update of one model keeps the hashes of others that exist, and drops those of files that are gone."""
+        """--update of one model keeps the hashes of others that exist, and drops the hashes of files that are gone."""
         self.write()
         before = self.lines()
         os.remove(self.folder / "m/sub/cube.obj")

@@ -93,7 +93,7 @@ def try_names(root):
 def try_hash_file(root):
     code, _, errors = lambent(root, "hash", "cube.obj", "cube.stl", "-o", "hashes.txt")
     other, _, more = run(PROGRAM, "hash", "cube.obj", "cube.stl", "--check", "hashes.txt", cwd=root)
-    report("hashes written on Windows are those of Linux", code == other == 0, errors + more)
+    report("hashes written on Windows match Linux", code == other == 0, errors + more)
     code, _, errors = lambent(root, "batch", "cube.obj", "cube.stl", "-q", "-s", "120", "-o", "all-{stem}-{ext}.png", "--journal", "journal.jsonl")
     report("a batch with its journal", code == 0 and same(root, "all-cube-obj.png", "cube.png") and (root / "journal.jsonl").exists(), errors)
     code, _, errors = lambent(root, "batch", "cube.obj", "cube.stl", "-s", "120", "-o", "all-{stem}-{ext}.png", "--journal", "journal.jsonl", "--resume")

@@ -17,7 +17,7 @@ async function findings(page) {
   });
 }
 
-// What each tab shows before axe looks at it.
+// Fills each tab before axe looks at it.
 const TABS = {
   quick: async () => {},
   options: async (page) => until(page, () => document.querySelector('#options details') && [...document.querySelectorAll('#options details')].every((one) => (one.open = true))),

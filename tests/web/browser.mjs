@@ -14,7 +14,7 @@ const [, , playwright, executablePath, built, models, sequences] = process.argv,
 const { browser, origin, close } = await openBrowser(playwright, executablePath, built);
 const context = await browser.newContext({ viewport: { width: 1100, height: 800 }, permissions: isFirefox(executablePath) ? [] : ['clipboard-read', 'clipboard-write'] });
 
-// What the browser reports about the page: errors, and all that its content-security policy has refused.
+// Reports of the browser about the page: errors, and everything that its content-security policy has refused.
 const reports = [];
 async function openPage(address, where = context) {
   const page = await watchedPage(where, reports);

@@ -27,7 +27,7 @@ export async function fingers(page) {
   };
 }
 
-// What the page needs to make a file or a folder of: names, bytes in base64, or how many zeros.
+// Describes a file or a folder to the page: names, and bytes in base64 or a number of zeros.
 function described(path) {
   const about = statSync(path), name = basename(path);
   if (about.isDirectory()) return { name, children: readdirSync(path).map((child) => described(join(path, child))) };

@@ -26,7 +26,7 @@ class Hand {
     await chooser.setFiles(files);
   }
 
-  // What the browser downloads when a button is clicked.
+  // Returns the file that the browser downloads when a button is clicked.
   async download(name) {
     const [download] = await Promise.all([this.page.waitForEvent('download'), this.click('button', name, 'dialog')]);
     return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };

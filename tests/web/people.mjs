@@ -140,7 +140,7 @@ async function files() {
   ok(/^thing\.3mf: /.test(sentence) && !/Debian|package/.test(sentence), 'a sentence names the file without a slash, and no package', sentence);
   await choose('away/part.bin');
   await until(page, () => /no model among/.test(document.getElementById('message-text').textContent));
-  ok(/\.3mf/.test(await messageOf(page)) && /\.gltf/.test(await messageOf(page)), 'the endings of models are those of the program', await messageOf(page));
+  ok(/\.3mf/.test(await messageOf(page)) && /\.gltf/.test(await messageOf(page)), 'the endings of models match the program's', await messageOf(page));
   await page.context().close();
 }
 

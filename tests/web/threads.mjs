@@ -1,5 +1,5 @@
 // threads.mjs MODULE THREADS_MODULE PART PART FOLDER: pictures by the module with threads, with 1, 2 and 4 of them, have the pixels of the module without; and
-// so have those of the two PARTs of a page. The models are in FOLDER. Prints lines of the Test Anything Protocol without numbers.
+// and so have the pictures of a page's two PARTs. The models are in FOLDER. Prints lines of the Test Anything Protocol without numbers.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';

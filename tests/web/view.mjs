@@ -110,7 +110,7 @@ async function gallery() {
   await until(page, () => document.images.length > 3);
   ok(page.url() === large, 'and the link leads back', page.url());
 
-  // What is too large is drawn by the program.
+  // The program draws models that are too large for the page.
   await page.goto(`${large}page${fragment([points, '--size=96x96', '--background=white', '--samples=1'])}`);
   await drawn(page, 'the points');
   const status = await page.locator('#status').textContent();

@@ -1,7 +1,7 @@
 // check.js: `lambent check` as a module: verdicts of shaders, drawn by a painter (painter.js).
 import { Files, system } from './wasi.js';
 
-// What cannot be checked: the program's own sentence.
+// Reports shaders that cannot be checked, with the program's own sentence.
 export class CheckError extends Error {}
 
 export class Check {

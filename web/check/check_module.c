@@ -56,7 +56,7 @@ static bool check(lam_check_params *params, lam_error *error)
         return true;
     if (!web_painter_was_stopped())
         return false;
-    // What was stopped is gone, with the places of the cache.
+    // The stopped work is lost, and with it the cache.
     lam_check_cache_free(module.cache);
     module.cache = NULL;
     module.report = (lam_check_report){.verdict = LAM_CHECK_ENDLESS};

@@ -46,7 +46,7 @@ int pthread_join(pthread_t thread, void **result); // the result is always NULL
 
 static inline int pthread_mutex_lock(pthread_mutex_t *mutex) { return (void)mutex, 0; }
 static inline int pthread_mutex_unlock(pthread_mutex_t *mutex) { return (void)mutex, 0; }
-// What one thread waits for is there already: nobody else could bring it.
+// With one thread there is nobody to wait for.
 static inline int pthread_cond_wait(pthread_cond_t *changed, pthread_mutex_t *mutex)
 {
     return (void)changed, (void)mutex, 0;

@@ -3,7 +3,7 @@
 #ifndef WEB_SETJMP_H
 #define WEB_SETJMP_H
 
-// What __wasm_setjmp and __wasm_longjmp keep there: which call it was, and what longjmp brings.
+// The state of __wasm_setjmp and __wasm_longjmp: the call, and the value of longjmp.
 typedef struct {
     void *frame;
     unsigned label;

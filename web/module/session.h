@@ -1,4 +1,4 @@
-// session.h: what the module of the page offers to it (web/lambent.js). Words are those of a command line, each with a 0 at its
+// session.h: the functions that the module offers to the page (web/lambent.js). Words form a command line, each with a 0 at its
 // end, in the memory of web_words. Answers are JSON on standard output, an error's sentence among them.
 #ifndef SESSION_H
 #define SESSION_H
@@ -10,7 +10,7 @@
 // Memory for the words of the next call. NULL: there is none.
 char *web_words(uint32_t bytes) WEB_EXPORT(web_words);
 
-// What reading a model and drawing it may each use, where the words have no --memory-limit. 0, as at the start: as much as there is.
+// Limits the memory of reading a model and of drawing it, in bytes each, if the words have no --memory-limit. 0, the default, means no limit.
 void web_limit_memory(double bytes) WEB_EXPORT(web_limit_memory);
 
 // Draws the picture of a command line, MODEL [OPTION...]. The model stays loaded until another one is named, or an option

@@ -2,7 +2,7 @@
 import type { DrawOptions } from './options.js';
 export type { DrawOptions };
 
-/** What kind of error it is, by the program's exit codes. */
+/** The kind of an error, by the program's exit codes. */
 export type ErrorCode = 'BAD_ARGUMENT' | 'CANNOT_READ' | 'UNSUPPORTED' | 'LIMIT' | 'CANNOT_WRITE' | 'FAILED' | 'DISPOSED';
 
 /** A picture that cannot be drawn. `message` is the program's sentence: file, position, found, expected. */
@@ -67,7 +67,7 @@ export interface Described {
   options: { name: string; group: string; value: string | null; default: string | null; summary: string; details: string | null; [more: string]: unknown }[];
 }
 
-/** What `open` and `openWorker` take: the module's URL, Response, bytes, the compiled module, or nothing: the package's own file. */
+/** The argument of `open` and `openWorker`: the module's URL, Response, bytes or compiled module. By default it is the package's own file. */
 export type Source = string | URL | Response | BufferSource | WebAssembly.Module | undefined;
 
 type Bytes = ReturnType<typeof Uint8Array.from>;

@@ -47,7 +47,7 @@ export const view = {
   shapes: [],
   options: [],
   endings: [], // of models
-  materials: [], // their names, and those of built-in environments
+  materials: [], // their names
   environments: [],
   missing: [], // paths of the model's files that are not there
   refusal: null, // why there is no picture, if files are missing; null: there is one

@@ -59,7 +59,7 @@ export function download(bytes, ending, type) {
   return link.download;
 }
 
-// Saves the picture of words, which are those of the page or others.
+// Saves the picture of the given words, which need not be the page's.
 export async function saveNamed(words) {
   try {
     const bytes = await call('save', { words, ending: 'png' });

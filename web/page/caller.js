@@ -5,7 +5,7 @@ import { text } from './strings.js';
 export class Ended extends Error {}
 
 // `open`: starts the worker. `wasm`: its module. `ways`: by the name of a part of the module, ways to it, of which the first that succeeds is taken: the part's
-// bytes, or those of a module with threads, which has all parts. Empty: the module is whole. `helps`: it is not the worker that draws the picture.
+// bytes, or the module with threads. Empty if the module is whole. `helps`: it is not the worker that draws the picture.
 export function caller(open, wasm, ways = {}) {
   const waiting = new Map(), fetched = new Map(), parted = Boolean(ways.more);
   let next = 0, worker = null, setup = [], ready = Promise.resolve(), cancel = null, onprogress = () => {};
@@ -27,7 +27,7 @@ export function caller(open, wasm, ways = {}) {
       worker.postMessage(message);
     });
 
-  // What a worker that is started anew is told first: the last of each kind.
+  // Keeps the last message of each kind for a worker that is started again.
   function remember(message) {
     const key = message.call + (message.part ?? '');
     setup = [...setup.filter((one) => one.key !== key), { key, message }];
@@ -99,7 +99,7 @@ export function caller(open, wasm, ways = {}) {
       if (name === 'start' || name === 'files') remember(whole);
       return send(whole);
     },
-    // What the first pictures do not need, before it is needed.
+    // Fetches the second part before it is needed.
     fetchRest: () => (ways.rest?.length ? fetchPart('rest') : Promise.resolve()),
     // Asks the running call to end, if the worker shares its memory; false: only restart() ends it. A call that is `endable` is then rejected (Ended), and
     // any other is asked again.

@@ -50,7 +50,7 @@ export function around(camera, sphere, aspect) {
   return { ...camera, eye: add(sphere.centre, out, distance), target: sphere.centre, ortho };
 }
 
-// What is seen moves to the right and up, by parts of the picture's height.
+// Moves the view to the right and up, by parts of the picture's height.
 export function pan(camera, right, up) {
   const out = sub(camera.eye, camera.target), back = unit(out);
   const side = unit(cross(camera.up, back)), above = cross(back, side);

@@ -71,7 +71,7 @@ export function lightEquations(triangle, point, light) {
   return rows;
 }
 
-// What comes from all around: hemisphere lights, ambient light, the environment.
+// Light from all directions: hemisphere lights, ambient light, the environment.
 export function aroundEquations(triangle, point) {
   const rows = [], add = (name, formula, values, result) => rows.push({ name, formula, values, result });
   if (triangle.model === 'none') return rows;

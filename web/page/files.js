@@ -29,7 +29,7 @@ on('ready', showModels);
 // Options that name what is in a model.
 const OF_MODEL = /^--(camera|hide|animation|time|variant|scene)=|^--(back-)?material=.*@/;
 
-// Another model is seen whole: its own view. A file's materials are its own, not those of the first picture.
+// Another model gets its own view and its own materials, not the first picture's.
 function takeModel(name) {
   const own = setOf(name) ? START : [];
   state.set(withModel(state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word))), name));
@@ -82,7 +82,7 @@ async function takeFiles(list) {
 
 const openFiles = () => $('files').click(), openFolder = () => $('folder').click();
 
-// What to do about files that are not there: of a link to a model of one's own, the model itself.
+// Explains how to add missing files; after a link to one's own model, the model itself.
 on('missing', () => {
   const buttons = [button('chooseFiles', openFiles), button('openFolder', openFolder)], [model] = state.words;
   const isGone = view.missing.includes(model), sentence = isGone ? text('linkWithout', { file: plain(model) })

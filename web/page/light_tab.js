@@ -45,7 +45,7 @@ function slidersOf(i, light) {
   });
 }
 
-// The explained light of a command line's light: those of the command line are the last ones that the scene has.
+// The explained light of a command line's light. The command line's lights are the last ones of the scene.
 function explainedLight(pixel, i, texts) {
   const reaching = texts.map(parseLight).map(({ type }, at) => ({ type, at })).filter(({ type }) => ['point', 'spot', 'directional'].includes(type));
   const own = pixel?.triangles[0]?.points[0].lights.filter((light) => light.light !== null).slice(-reaching.length);

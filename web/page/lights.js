@@ -123,7 +123,7 @@ export const nameOf = (light, i) => light.keys.get('name') ?? `${light.type} ${i
 // A light of a scene file in the words of --light.
 export function lightWords({ type, name, ...fields }) {
   const keys = new Map(Object.entries(fields).map(([key, value]) => [key, Array.isArray(value) ? value.join('/') : value === true ? 'yes' : value === false ? 'no' : String(value)]));
-  // What a name of the words cannot have is left out.
+  // A name on the command line cannot contain these characters.
   if (name) keys.set('name', name.replace(/[,=\s]+/g, '-'));
   return lightText({ plus: '', type, keys });
 }

@@ -4,7 +4,7 @@ const device = 2 ** 30 * (globalThis.navigator?.deviceMemory ?? 8);
 
 const between = (least, bytes, most) => Math.min(Math.max(bytes, least), most);
 
-// What the module may use to read a model and to draw it, where the command line has no --memory-limit: a quarter, as in the program. The module's
+// The memory for reading a model and for drawing it, if the command line has no --memory-limit: a quarter, as in the program. The module's
 // addresses end at 4 GiB.
 export const MODULE_BYTES = between(256e6, device / 4, 2e9);
 

@@ -3,7 +3,7 @@
 // those. Each file is one that web/build.py has listed with its hash: what the browser has loaded by now is not sent again.
 const CACHE = 'lambent-HASH';
 const FILES = {};
-// Files that are stored when they are used; those of a page that draws with one thread, or with several.
+// Files that are stored when they are used; PLAIN and THREADS are for drawing with one thread or with several.
 const LATER = [];
 const PLAIN = [];
 const THREADS = [];

@@ -12,7 +12,7 @@ export const setOf = (model) => sets.findLast((set) => set.files.has(model)) ?? 
 
 export const openedPaths = () => [...new Set(sets.toReversed().flatMap((set) => [...set.files.keys()]))];
 
-// Adds files; the oldest ones leave if all together are too many, but for those of `model`.
+// Adds files; the oldest ones leave if all together are too many, except the files of `model`.
 export function addFiles(files, model) {
   sets.push({ files });
   for (let i = 0; i < sets.length - 1 && sets.reduce((sum, set) => sum + sizeOf(set), 0) > FILES_BYTES; ) {
@@ -21,7 +21,7 @@ export function addFiles(files, model) {
   }
 }
 
-// Adds files to those of a model.
+// Adds files to a model's files.
 export function addCompanions(model, files) {
   const set = setOf(model);
   for (const [path, bytes] of files) set.files.set(path, bytes);

@@ -23,7 +23,7 @@ const SECTIONS = [
 const without = (words, ...names) => names.reduce((rest, name) => new State(rest).withValues(name, []), words);
 const SPHERE = ['sphere', '--size=88x88', '--samples=8'];
 
-// The material of the whole model; those of its objects (@NAME) stay. A metal is the physical one, in place of the model's textures, and mirrors the studio.
+// The material of the whole model; materials of its objects (@NAME) stay. A metal is physical, replaces the model's textures, and mirrors the studio.
 function materials() {
   const whole = () => state.values('material').filter((value) => !value.includes('@'));
   const own = START.find((word) => word.startsWith('--material=')).slice('--material='.length);

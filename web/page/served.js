@@ -28,7 +28,7 @@ async function fileOf(path) {
   return [path, await bytesOf(answer)];
 }
 
-// What is known of the model of the words, whose files the module then has, unless the program draws it.
+// Returns the facts about the words' model. The module then has its files, unless the program draws it.
 async function take(call, words) {
   const key = [words[0], ...words.filter((word) => word.startsWith('--environment='))].join('\n');
   if (known?.key === key && !known.stale) return known;

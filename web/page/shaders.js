@@ -50,7 +50,7 @@ async function run() {
   }).catch(refused);
 }
 
-// What keeps the worker from an answer.
+// Shows an error that keeps the worker from an answer.
 function refused({ message }) {
   shown = { verdict: 'fails', mistakes: [], notes: [{ kind: 'hint', file: null, line: 0, text: message }], scenes: [], searched: true };
   show();

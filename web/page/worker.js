@@ -24,10 +24,10 @@ async function useThreads() {
   use(await openThreads(module, count, () => new Worker(script, { type: 'module' }), lambent.files, progress, parts.has('threads-more') ? [parts.get('threads-more')] : []));
 }
 
-// What the page is told of the threads; `flag`: where in their memory a call is asked to end.
+// Informs the page about the threads; `flag` is the address of the cancel flag in their memory.
 const aboutThreads = () => ({ threads: lambent.threads, shared: lambent.instance.exports.memory.buffer, flag: lambent.instance.exports.web_cancel_flag() });
 
-// What these calls need besides, if the module is in parts: asked for first, since a call that stops for it loses the loaded model.
+// The part that each of these calls needs, if the module is divided. It is fetched first, since a call that stops for it loses the model.
 const NEEDS = { explain: 'more', lights: 'more', scene: 'more', contents: 'more' };
 const neededPart = ({ call, parted }) => parted && NEEDS[call] && (threaded ? 'threads-' : '') + NEEDS[call];
 

@@ -1,5 +1,5 @@
 // serve.mjs: the page of build-web/page on 127.0.0.1, and a browser for it. Below /isolated/ it is cross-origin isolated. Files are sent as brotli packs
-// them, to browsers that take it; a file that the browser has is not sent again. `sent`: the names and bytes of the answers.
+// them, to browsers that take it; a file that the browser has is not sent again. `sent`: the names, bytes and times of the answers.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -29,7 +29,7 @@ export async function openBrowser(playwright, executablePath, built, options) {
       const packed = /\bbr\b/.test(request.headers['accept-encoding']) ? { ending: '.br', 'content-encoding': 'br' } : { ending: '' }, { ending, ...encoding } = packed;
       const bytes = readFileSync(join(built, 'page', name + ending)), etag = `"${createHash('sha256').update(bytes).digest('hex').slice(0, 16)}"`, known = request.headers['if-none-match'] === etag;
       Object.assign(headers, { etag, 'cache-control': 'no-cache', vary: 'accept-encoding' });
-      sent.push({ name, bytes: known ? 0 : bytes.length });
+      sent.push({ name, bytes: known ? 0 : bytes.length, at: Date.now() });
       answer.writeHead(known ? 304 : 200, { ...headers, ...encoding, 'content-type': TYPES[extname(name)] ?? 'application/octet-stream' }).end(known ? undefined : bytes);
     } catch {
       answer.writeHead(404).end();

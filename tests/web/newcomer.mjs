@@ -4,6 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { commandOf, drawn, fragment, ok, pixels, settled, until } from './driver.mjs';
+import { choose, saved } from './input.mjs';
 
 const MOST = 5;
 
@@ -21,15 +22,13 @@ class Hand {
   }
 
   async choose(button, files) {
-    const [chooser] = await Promise.all([this.page.waitForEvent('filechooser'), this.click('button', button)]);
+    await choose(this.page, () => this.click('button', button), files);
     this.actions++;
-    await chooser.setFiles(files);
   }
 
   // Returns the file that the browser downloads when a button is clicked.
-  async download(name) {
-    const [download] = await Promise.all([this.page.waitForEvent('download'), this.click('button', name, 'dialog')]);
-    return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+  download(name) {
+    return saved(this.page, () => this.click('button', name, 'dialog'));
   }
 
   done(task) {

@@ -1,9 +1,10 @@
 // view.mjs PLAYWRIGHT BROWSER MODEL FOLDER PROCESS LARGE: `lambent view` in a browser. MODEL: the address of a viewer of FOLDER's part.obj, a copy of
 // cube.obj, whose process id is PROCESS. LARGE: that of a viewer of a folder with points.ply, which is too large for the page; "": none. Prints lines of the Test
 // Anything Protocol without numbers, and as browser.mjs commands with the pixels that they have.
-import { copyFileSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
+import { copyFileSync, renameSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { saved } from './input.mjs';
 import { commandOf, drawn, fragment, ok, pixels, settled, until, watchedPage } from './driver.mjs';
 import { launch } from './serve.mjs';
 
@@ -39,7 +40,7 @@ async function oneModel() {
 
   // The page that is sent has the model, and nothing of the viewer.
   await page.locator('#export').click();
-  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('#save-page').click()]), sent = join(folder, 'sent.html'), text = readFileSync(await download.path(), 'utf8');
+  const { bytes } = await saved(page, () => page.locator('#save-page').click()), sent = join(folder, 'sent.html'), text = bytes.toString();
   writeFileSync(sent, text);
   const other = await watchedPage(context, reports);
   await other.goto(pathToFileURL(sent).href);

@@ -12,11 +12,13 @@
 // (or NAME.gles.png) and NAME.cpu.png to the working directory.
 //
 // `make test` draws the scenes in OpenGL 3.3 and OpenGL ES 3.0 by turns; the test long-gl-parity draws each in both.
+#include "card.h"
 #include "context.h"
 #include "linear.h"
 #include "scenes.h"
 #include "share.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -320,8 +322,8 @@ static struct mask mask_of(const struct demo *demo, bool soft)
 // --- the comparison
 
 struct outcome {
-    uint64_t pixels, covered, masked, over_1, over_2_outside, snapped, grain;
-    double worst_outside, worst_float;
+    uint64_t pixels, covered, masked, over_1, over_2_outside, snapped, grain, between;
+    double worst_outside, worst_float, worst_between;
 };
 
 static struct outcome worst[2];
@@ -358,13 +360,39 @@ static double own_change(const struct reference *r, uint64_t pixel)
     return max;
 }
 
+// Whether all channels of `value` are between those of the CPU device's 3×3 neighbourhood of a pixel: the two devices then differ in
+// the exact position of an edge inside the picture, for example of a lamp in a mirror.
+static bool is_between(const struct demo *demo, const struct reference *r, uint64_t pixel, const float *value)
+{
+    int x = (int)(pixel % (uint64_t)demo->width), y = (int)(pixel / (uint64_t)demo->width);
+    for (int c = 0; c < 4; c++) {
+        float low = INFINITY, high = -INFINITY;
+        for (int j = y - 1; j <= y + 1; j++)
+            for (int i = x - 1; i <= x + 1; i++)
+                if (i >= 0 && i < demo->width && j >= 0 && j < demo->height) {
+                    float v = ((const float *)r->floats.pixels)[4 * (j * demo->width + i) + c];
+                    low = v < low ? v : low;
+                    high = v > high ? v : high;
+                }
+        if (value[c] < low - 1e-4f || value[c] > high + 1e-4f)
+            return false;
+    }
+    return true;
+}
+
 // Pixels that the snapping of corners explains: a few at most.
 static const uint64_t max_snapped = 4;
 
-static bool is_good(const struct outcome *o, const char *name)
+// On a graphics card up to 0.3 % of the pixels may lie between their neighbours, floats may differ by five times as much, and twice as
+// many pixels by 1/255: the bounds of docs/opengl.md.
+static bool is_good(const struct outcome *o, lam_device *device, const char *name)
 {
-    return o->over_2_outside == 0 && o->snapped <= max_snapped && (double)o->grain <= 2e-4 * (double)o->pixels &&
-           (double)o->over_1 <= 0.001 * (double)o->pixels && o->worst_float <= float_limit(name);
+    bool card = is_card(lam_device_name(device));
+    return o->over_2_outside == 0 && (card || o->snapped <= max_snapped) && o->worst_between <= 8 &&
+           (double)o->between <= 3e-3 * (double)o->pixels &&
+           (double)o->grain <= (card ? 1e-3 : 2e-4) * (double)o->pixels &&
+           (double)o->over_1 <= (card ? 0.002 : 0.001) * (double)o->pixels &&
+           o->worst_float <= (card ? 5 : 1) * float_limit(name);
 }
 
 static void save(const lam_image *image, const char *name, const char *by)
@@ -403,6 +431,12 @@ static struct outcome compare(lam_device *device, const struct demo *demo, const
             o.snapped++;
             continue;
         }
+        if (is_card(lam_device_name(device)) && (far > float_limit(name) || apart > 2) &&
+            is_between(demo, reference, i, d + 4 * i)) {
+            o.between++;
+            o.worst_between = apart > o.worst_between ? apart : o.worst_between;
+            continue;
+        }
         if (far > float_limit(name) && (is_grazing(name) || (is_soft(name) && far <= 1.0 / soft_samples(params)))) {
             o.grain++;
             continue;
@@ -411,7 +445,7 @@ static struct outcome compare(lam_device *device, const struct demo *demo, const
         o.worst_outside = apart > o.worst_outside ? apart : o.worst_outside;
         o.worst_float = far > o.worst_float ? far : o.worst_float;
     }
-    bool good = is_good(&o, name);
+    bool good = is_good(&o, device, name);
     if (!good) {
         save(&reference->bytes, name, "cpu");
         save(&bytes, name, device == gl[0] ? "gl" : "gles");
@@ -419,10 +453,10 @@ static struct outcome compare(lam_device *device, const struct demo *demo, const
     lam_image_free(&bytes);
     lam_image_free(&floats);
     print_message("%-28s %-4s %s %6.3f %% over 1/255, worst outside %g/255, %.1e in floats, mask %4.1f %% of covered, "
-                  "%llu pixels by a point of a light\n",
+                  "%llu pixels by a point of a light, %llu between their neighbours (at most %g/255)\n",
                   name, device == gl[0] ? "3.3" : "ES", good ? "  " : "!!", 100.0 * (double)o.over_1 / (double)o.pixels,
                   o.worst_outside, o.worst_float, o.covered ? 100.0 * (double)o.masked / (double)o.covered : 0,
-                  (unsigned long long)o.grain);
+                  (unsigned long long)o.grain, (unsigned long long)o.between, o.worst_between);
     return o;
 }
 
@@ -488,7 +522,7 @@ static void check_scene(void **state)
         if (!gl[i] || (gl[!i] && !is_taken((size_t)(row - demos) + (size_t)i, 2)))
             continue;
         struct outcome o = compare(gl[i], &demo, &params, &drawn, row->name);
-        good &= is_good(&o, row->name);
+        good &= is_good(&o, gl[i], row->name);
         pixels_of_table += o.pixels;
         covered_of_table += o.covered;
         masked_of_table += o.masked;

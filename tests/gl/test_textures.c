@@ -1,4 +1,5 @@
 // test_textures.c: textures of the OpenGL device: every wrap and filter against the CPU device, numbers beyond 0…1, uploads.
+#include "card.h"
 #include "floor_scene.h"
 
 #include <lambent/gl.h>
@@ -26,7 +27,8 @@ static lam_image draw(lam_device *device, const lam_scene *scene, int anisotropy
     return floor_draw(device, scene, SIZE, anisotropy, &more);
 }
 
-// At most one covered pixel of a thousand differs by more than 1/255 (by the same share of larger numbers).
+// At most one covered pixel of a thousand (of 200 on a graphics card, at borders of texels) differs by more than 1/255 (by the same share
+// of larger numbers).
 static void compare(lam_device *device, const lam_scene *scene, int anisotropy, const char *name)
 {
     lam_image a = draw(cpu, scene, anisotropy), b = draw(device, scene, anisotropy);
@@ -42,7 +44,8 @@ static void compare(lam_device *device, const lam_scene *scene, int anisotropy, 
         over += apart;
         variety += p[3] > 0 && fabsf(p[0] - p[1]) > 0.05f;
     }
-    if (covered < SIZE * SIZE / 20 || variety < covered / 10.0 || over * 1000 > covered)
+    if (covered < SIZE * SIZE / 20 || variety < covered / 10.0 ||
+        over * (is_card(lam_device_name(device)) ? 200 : 1000) > covered)
         fail_msg("%s: %d of %d covered pixels differ, %g are coloured", name, over, covered, variety);
     lam_image_free(&a);
     lam_image_free(&b);

@@ -18,7 +18,10 @@ struct import_source {
     const char *name;     // for messages: the path as the user wrote it
     const char *path;     // the file's path; NULL if it is in memory or standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
-    size_t size;
+    size_t size;          // of the file
+    // A large file that is read in parts (importer.in_parts): `bytes` contains its first FILE_HEAD bytes only. NULL if
+    // `bytes` contains the whole file. parallel_rows.h reads both.
+    const struct file_parts *parts;
     // The owner of `bytes`. An importer whose arrays point into them may move it to the scene's arena
     // (file_move_to_arena). NULL with load_stream.
     struct file_bytes *file;
@@ -45,9 +48,12 @@ struct importer {
     int (*probe)(const uint8_t *bytes, size_t size);
     // Fills an empty scene: meshes, materials, one object per mesh. On failure the caller frees the scene.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
-    // Optional. Loads a large file in parts; the source contains its first FILE_HEAD bytes. Returns false if the layout
-    // is not supported or the file has an error: the caller then runs `load` with an empty scene and the whole file.
-    bool (*load_stream)(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
+    // Optional. Returns whether `load` reads this large file in parts (import_source.parts).
+    bool (*in_parts)(const struct import_source *source);
+    // Optional. Loads a large file in parts, as far as the scene needs neither a line number nor a second pass over the
+    // text. Returns false for other files and for errors: the caller then runs `load` with an empty scene and the whole
+    // file.
+    bool (*load_stream)(const struct import_source *source, struct lam_scene *scene);
 };
 
 // The formats, in the order in which lists name them. tests/fuzz/meson.build reads these names too.

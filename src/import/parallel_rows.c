@@ -3,15 +3,35 @@
 
 struct run {
     const struct import_source *source;
-    parallel_rows_task *task;
+    parallel_rows_task *task;        // without bytes
+    parallel_bytes_task *bytes_task; // with the bytes of `rows`
     void *user;
+    const struct row_bytes *rows;
+    uint8_t *buffers;    // PARALLEL_ROWS rows per thread, for a file in parts
     size_t first_failed; // atomic; the lowest chunk that failed, or `count`
     int stopped;         // atomic; the call was cancelled or ran out of time
 };
 
+static bool run_task(const struct run *run, size_t index, int thread, lam_error *error)
+{
+    const struct row_bytes *rows = run->rows;
+    size_t first, last;
+    if (!rows)
+        return run->task(run->user, index, error);
+    parallel_rows_range(rows->count, index, &first, &last);
+    size_t offset = first * rows->stride;
+    if (!run->buffers) {
+        const uint8_t *begin = rows->memory ? rows->memory : run->source->bytes + rows->offset;
+        return run->bytes_task(run->user, index, begin + offset, error);
+    }
+    uint8_t *buffer = run->buffers + (size_t)thread * PARALLEL_ROWS * rows->stride;
+    return file_read_part(run->source->parts, run->source->name, rows->offset + offset, buffer,
+                          (last - first) * rows->stride, error) &&
+           run->bytes_task(run->user, index, buffer, error);
+}
+
 static void run_one(void *user, size_t index, int thread)
 {
-    (void)thread;
     struct run *run = user;
     // Chunks after a failed one cannot change the result.
     size_t failed = __atomic_load_n(&run->first_failed, __ATOMIC_RELAXED);
@@ -21,25 +41,77 @@ static void run_one(void *user, size_t index, int thread)
         __atomic_store_n(&run->stopped, 1, __ATOMIC_RELAXED);
         return;
     }
-    if (run->task(run->user, index, NULL))
+    if (run_task(run, index, thread, NULL))
         return;
     while (index < failed &&
            !__atomic_compare_exchange_n(&run->first_failed, &failed, index, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
         ;
 }
 
-bool parallel_rows_run(const struct import_source *source, size_t count, parallel_rows_task *task, void *user,
-                       lam_error *error)
+static bool run_all(struct run *run, size_t count, lam_error *error)
 {
-    struct run run = {.source = source, .task = task, .user = user, .first_failed = count};
-    pool_run(source->pool, count, run_one, &run);
-    if (run.stopped)
-        return call_error(source->call, error);
+    run->first_failed = count;
+    pool_run(run->source->pool, count, run_one, run);
+    if (run->stopped)
+        return call_error(run->source->call, error);
     // Chunks after the first failed one may have been skipped. If it succeeds now, because memory is available again,
     // they must still run.
-    for (size_t index = run.first_failed; index < count; index++) {
-        if (!task(user, index, error))
+    for (size_t index = run->first_failed; index < count; index++) {
+        if (!run_task(run, index, 0, error))
             return false;
     }
     return true;
+}
+
+bool parallel_rows_run(const struct import_source *source, size_t count, parallel_rows_task *task, void *user,
+                       lam_error *error)
+{
+    struct run run = {.source = source, .task = task, .user = user};
+    return run_all(&run, count, error);
+}
+
+bool parallel_rows_read(const struct import_source *source, const struct row_bytes *rows, parallel_bytes_task *task,
+                        void *user, lam_error *error)
+{
+    struct run run = {.source = source, .bytes_task = task, .user = user, .rows = rows};
+    struct arena scratch;
+    arena_start(&scratch, source->call);
+    bool done = true;
+    if (source->parts && !rows->memory) {
+        size_t bytes = PARALLEL_ROWS * rows->stride, threads = (size_t)pool_threads(source->pool);
+        run.buffers = arena_array(&scratch, threads, bytes);
+        done = run.buffers || call_memory_error(source->call, threads * bytes, error);
+    }
+    done = done && run_all(&run, parallel_rows_count(rows->count), error);
+    arena_free(&scratch);
+    return done;
+}
+
+struct rest {
+    const struct import_source *source;
+    size_t offset, size;
+    uint8_t *to;
+};
+
+enum { REST_CHUNK = 1 << 20 }; // bytes
+
+static bool rest_chunk(void *user, size_t index, lam_error *error)
+{
+    const struct rest *rest = user;
+    size_t at = index * REST_CHUNK, bytes = rest->size - at < REST_CHUNK ? rest->size - at : REST_CHUNK;
+    return file_read_part(rest->source->parts, rest->source->name, rest->offset + at, rest->to + at, bytes, error);
+}
+
+const uint8_t *parallel_rows_rest(const struct import_source *source, size_t offset, struct arena *arena,
+                                  lam_error *error)
+{
+    if (!source->parts)
+        return source->bytes + offset;
+    struct rest rest = {source, offset, source->size - offset, arena_alloc(arena, source->size - offset)};
+    if (!rest.to) {
+        call_memory_error(source->call, rest.size, error);
+        return NULL;
+    }
+    size_t chunks = (rest.size + REST_CHUNK - 1) / REST_CHUNK;
+    return parallel_rows_run(source, chunks, rest_chunk, &rest, error) ? rest.to : NULL;
 }

@@ -26,4 +26,22 @@ typedef bool parallel_rows_task(void *user, size_t index, lam_error *error);
 bool parallel_rows_run(const struct import_source *source, size_t count, parallel_rows_task *task, void *user,
                        lam_error *error);
 
+// Rows of `stride` bytes each: in memory, or at an offset of the file if `memory` is NULL.
+struct row_bytes {
+    const uint8_t *memory;
+    size_t offset, stride, count;
+};
+
+// As parallel_rows_task, for the bytes of the chunk's rows. In parts of a file, they are a thread's buffer.
+typedef bool parallel_bytes_task(void *user, size_t index, const uint8_t *rows, lam_error *error);
+
+// Runs the task for each chunk of the rows, which must be in the file.
+bool parallel_rows_read(const struct import_source *source, const struct row_bytes *rows, parallel_bytes_task *task,
+                        void *user, lam_error *error);
+
+// Returns the bytes from `offset` to the end of the file: in memory already, or read into `arena`. Returns NULL on
+// error.
+const uint8_t *parallel_rows_rest(const struct import_source *source, size_t offset, struct arena *arena,
+                                  lam_error *error);
+
 #endif

@@ -109,14 +109,16 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     return NULL;
 }
 
-const struct importer *importer_for_stream(const char *name, const uint8_t *head, size_t size, const char *wanted)
+static bool reads_parts(const struct importer *importer) { return importer->in_parts || importer->load_stream; }
+
+const struct importer *importer_for_parts(const char *name, const uint8_t *head, size_t size, const char *wanted)
 {
     if (wanted) {
         const struct importer *importer = importer_for(name, NULL, wanted, NULL);
-        return importer && importer->load_stream ? importer : NULL;
+        return importer && reads_parts(importer) ? importer : NULL;
     }
-    for (int i = 0; i < COUNT; i++) // importers with load_stream probe the head only
-        if (importers[i]->probe(head, importers[i]->load_stream ? size : FILE_HEAD) == 2)
-            return importers[i]->load_stream ? importers[i] : NULL;
+    for (int i = 0; i < COUNT; i++) // these importers probe the head only
+        if (importers[i]->probe(head, reads_parts(importers[i]) ? size : FILE_HEAD) == 2)
+            return reads_parts(importers[i]) ? importers[i] : NULL;
     return NULL;
 }

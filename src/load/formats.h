@@ -13,8 +13,8 @@ const char *format_list(char out[FORMAT_LIST_SIZE]);
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error);
 
-// Returns the importer that streams a file with these first FILE_HEAD bytes and this size: the one that importer_for
-// would choose for the whole file. Returns NULL if the file must be read as a whole.
-const struct importer *importer_for_stream(const char *name, const uint8_t *head, size_t size, const char *wanted);
+// Returns the importer that may read a file with these first FILE_HEAD bytes and this size in parts: the one that
+// importer_for would choose for the whole file. Returns NULL if the file must be read as a whole.
+const struct importer *importer_for_parts(const char *name, const uint8_t *head, size_t size, const char *wanted);
 
 #endif

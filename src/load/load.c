@@ -116,34 +116,40 @@ static void explain_path(const char *path, lam_error *error)
                  foreign ? ": export the model as " : "", foreign ? foreign->instead : "");
 }
 
-// Streams a large file of a supported layout. Returns NULL without an error for other files.
-static struct lam_scene *load_stream(struct import_source *source, const struct importer **importer)
+// Reads a large file in parts. Returns false without an error if it must be read as a whole; otherwise *scene is the
+// result, or NULL if reading failed.
+static bool load_in_parts(struct import_source *source, const struct importer **importer, struct lam_scene **scene,
+                          lam_error *error)
 {
     uint8_t *head = malloc(FILE_HEAD + FILE_PADDING);
     struct file_parts file;
-    struct lam_scene *scene = NULL;
+    bool in_parts = false, done = false;
     if (head && source->path && file_open_parts(source->path, head, &file)) {
-        bool allowed =
-            // otherwise the reader of whole files reports it
-            call_check_file(source->call, source->name, file.size, NULL);
         source->bytes = head;
-        source->size = FILE_HEAD;
+        source->size = file.size;
+        source->parts = &file;
         call_add_input(source->call, file.size);
-        *importer = allowed ? importer_for_stream(source->name, head, file.size, source->params->format) : NULL;
-        if (*importer)
-            scene = start_scene(source, *importer, NULL);
-        if (scene && !(*importer)->load_stream(source, &file, scene)) {
-            lam_scene_free(scene);
-            scene = NULL;
+        // The reader of whole files reports a file that is too large.
+        if (call_check_file(source->call, source->name, file.size, NULL))
+            *importer = importer_for_parts(source->name, head, file.size, source->params->format);
+        in_parts = *importer && (*importer)->in_parts && (*importer)->in_parts(source);
+        if (in_parts || (*importer && (*importer)->load_stream))
+            *scene = start_scene(source, *importer, in_parts ? error : NULL);
+        done =
+            *scene && (in_parts ? (*importer)->load(source, *scene, error) : (*importer)->load_stream(source, *scene));
+        if (!done) {
+            lam_scene_free(*scene);
+            *scene = NULL;
         }
-        if (!scene) // the file is read as a whole, and counted, later
+        if (!in_parts && !done) // the file is read as a whole, and counted, later
             call_add_input(source->call, 0 - file.size);
         file_close_parts(&file);
         source->bytes = NULL;
         source->size = 0;
+        source->parts = NULL;
     }
     free(head);
-    return scene;
+    return in_parts || done;
 }
 
 // Loads from `path`, or from `bytes` if it is NULL.
@@ -183,15 +189,17 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     const struct importer *importer = NULL;
     bool ok = source.pool || fail(error, LAM_LIMIT, "%s: out of memory for threads", name);
     ok = ok && (folder || !path || fail_memory(error, strlen(path)));
-    if (ok)
-        scene = load_stream(&source, &importer);
+    bool loaded = ok && load_in_parts(&source, &importer, &scene, error);
     call_add_input(&call, path ? 0 : size);
-    ok = ok && (scene  ? true
-                : path ? file_read(path, source.pool, &call, &file, error)
-                       : file_copy(bytes, size, &call, &file, error));
-    if (!ok && path)
-        explain_path(path, error);
-    if (ok && !scene) {
+    if (loaded) {
+        ok = scene != NULL;
+    } else {
+        ok = ok &&
+             (path ? file_read(path, source.pool, &call, &file, error) : file_copy(bytes, size, &call, &file, error));
+        if (!ok && path)
+            explain_path(path, error);
+    }
+    if (ok && !loaded) {
         source.bytes = file.data;
         source.size = file.size;
         source.file = &file;

@@ -106,11 +106,17 @@ static bool served(int threads)
     struct file_parts file;
     call_start(&call, NULL);
     assert_true(head && pool && file_open_parts(path, head, &file));
-    struct import_source source = {
-        .name = path, .path = path, .bytes = head, .size = FILE_HEAD, .params = &params, .pool = pool, .call = &call};
+    struct import_source source = {.name = path,
+                                   .path = path,
+                                   .bytes = head,
+                                   .size = file.size,
+                                   .parts = &file,
+                                   .params = &params,
+                                   .pool = pool,
+                                   .call = &call};
     struct lam_scene *scene = scene_make(&call, NULL);
     assert_non_null(scene);
-    bool done = importer_obj.load_stream(&source, &file, scene);
+    bool done = importer_obj.load_stream(&source, scene);
     lam_scene_free(scene);
     assert_int_equal(call.memory_used, 0); // all charges are refunded
     file_close_parts(&file);

@@ -93,26 +93,46 @@ struct parallel_read {
     size_t reached; // offset of the failure
 };
 
+// Reads the bytes [at, end). Returns 0, an errno, or −1 if the file ends early; *reached is then the failure's offset.
+static int read_range(int file, uint8_t *to, size_t at, size_t end, size_t *reached)
+{
+    while (at < end) {
+        ssize_t got = pread(file, to, end - at, (off_t)at);
+        if (got > 0) {
+            at += (size_t)got;
+            to += got;
+        } else if (got == 0 || errno != EINTR) {
+            *reached = at;
+            return got == 0 ? -1 : errno;
+        }
+    }
+    return 0;
+}
+
+// Reports a failure of read_range. `size` is the size that the file had before.
+static bool fail_range(int failed, size_t reached, size_t size, const char *path, lam_error *error)
+{
+    if (failed == -1)
+        return fail(error, LAM_CANNOT_READ, "%s: became shorter while it was read: ended at byte %zu of %zu", path,
+                    reached, size);
+    errno = failed;
+    return fail_system(error, LAM_CANNOT_READ, path, "read");
+}
+
 static void read_chunk(void *user, size_t index, int thread)
 {
     (void)thread;
     struct parallel_read *read_state = user;
     size_t at = index * (size_t)CHUNK;
     size_t end = at + CHUNK < read_state->size ? at + CHUNK : read_state->size;
-    if (!call_should_continue(read_state->call))
+    if (!call_should_continue(read_state->call) || __atomic_load_n(&read_state->failed, __ATOMIC_RELAXED))
         return;
-    while (at < end && !__atomic_load_n(&read_state->failed, __ATOMIC_RELAXED)) {
-        ssize_t got = pread(read_state->file, read_state->to + at, end - at, (off_t)at);
-        if (got > 0) {
-            at += (size_t)got;
-        } else if (got == 0 || errno != EINTR) {
-            // If several chunks fail, the first failure is reported.
-            int none = 0, reason = got == 0 ? -1 : errno;
-            if (__atomic_compare_exchange_n(&read_state->failed, &none, reason, false, __ATOMIC_RELAXED,
-                                            __ATOMIC_RELAXED))
-                read_state->reached = at;
-        }
-    }
+    size_t reached;
+    int none = 0, reason = read_range(read_state->file, read_state->to + at, at, end, &reached);
+    // If several chunks fail, the first failure is reported.
+    if (reason &&
+        __atomic_compare_exchange_n(&read_state->failed, &none, reason, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+        read_state->reached = reached;
 }
 
 static bool read_sized(int file, const char *path, size_t size, bool fresh, struct pool *pool,
@@ -126,15 +146,10 @@ static bool read_sized(int file, const char *path, size_t size, bool fresh, stru
     struct parallel_read read_state = {.file = file, .to = (uint8_t *)(uintptr_t)out->data, .size = size, .call = call};
     pool_run(pool, (size + CHUNK - 1) / CHUNK, read_chunk, &read_state);
     bool ok = true;
-    if (!call_should_continue(call)) {
+    if (!call_should_continue(call))
         ok = call_error(call, error);
-    } else if (read_state.failed == -1) {
-        ok = fail(error, LAM_CANNOT_READ, "%s: became shorter while it was read: ended at byte %zu of %zu", path,
-                  read_state.reached, size);
-    } else if (read_state.failed) {
-        errno = read_state.failed;
-        ok = fail_system(error, LAM_CANNOT_READ, path, "read");
-    }
+    else if (read_state.failed)
+        ok = fail_range(read_state.failed, read_state.reached, size, path, error);
     if (!ok)
         file_release(out);
     return ok;
@@ -320,21 +335,18 @@ bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], s
     out->size = (size_t)about.st_size;
     memset(head + FILE_HEAD, 0, FILE_PADDING);
     if (out->file >= 0 && fstat(out->file, &about) == 0 && (size_t)about.st_size == out->size &&
-        S_ISREG(about.st_mode) && file_read_part(out, 0, head, FILE_HEAD))
+        S_ISREG(about.st_mode) && file_read_part(out, path, 0, head, FILE_HEAD, NULL))
         return true;
     file_close_parts(out);
     return false;
 }
 
-bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes)
+bool file_read_part(const struct file_parts *parts, const char *path, size_t offset, void *to, size_t bytes,
+                    lam_error *error)
 {
-    for (size_t done = 0; done < bytes;) {
-        ssize_t got = pread(parts->file, (uint8_t *)to + done, bytes - done, (off_t)(offset + done));
-        if (got == 0 || (got < 0 && errno != EINTR))
-            return false;
-        done += got > 0 ? (size_t)got : 0;
-    }
-    return true;
+    size_t reached;
+    int failed = read_range(parts->file, to, offset, offset + bytes, &reached);
+    return !failed || fail_range(failed, reached, parts->size, path, error);
 }
 
 void file_close_parts(struct file_parts *parts)

@@ -49,7 +49,9 @@ struct file_parts {
 // Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD. Returns false if the file is smaller, or
 // cannot be read.
 bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out);
-bool file_read_part(const struct file_parts *parts, size_t offset, void *to, size_t bytes);
+// Reads bytes that the file has. `path` is for the message: LAM_CANNOT_READ.
+bool file_read_part(const struct file_parts *parts, const char *path, size_t offset, void *to, size_t bytes,
+                    lam_error *error);
 void file_close_parts(struct file_parts *parts);
 
 // Allocates zeroed, padded memory for a file's bytes, in the form that file_read returns, or a padded copy of memory.

@@ -179,7 +179,7 @@ bool obj_strokes_add(struct obj *obj, const float *texcoords, lam_error *error);
 bool obj_read_libraries(struct obj *obj, const char *names, const uint8_t *at, lam_error *error);
 
 // obj_stream.c: the importer's load_stream.
-bool obj_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
+bool obj_load_stream(const struct import_source *source, struct lam_scene *scene);
 
 // obj_mesh.c: builds the mesh after positions and faces are read.
 bool obj_complete(struct obj *obj, lam_error *error);

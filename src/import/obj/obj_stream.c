@@ -90,7 +90,7 @@ static bool read_text(const struct stream *stream, struct piece_scratch *scratch
     size_t size = stream->file->size, nominal = index * PIECE, from = index ? nominal - 1 : 0;
     size_t to = size - nominal < PIECE + TAIL ? size : nominal + PIECE + TAIL;
     uint8_t *text = scratch->text, *end = text + (to - from);
-    if (!file_read_part(stream->file, from, text, to - from))
+    if (!file_read_part(stream->file, stream->obj->source->name, from, text, to - from, NULL))
         return false;
     memset(end, 0, FILE_PADDING);
     const uint8_t *first = text, *last = end;
@@ -419,10 +419,10 @@ static bool load(struct stream *stream)
     return obj_complete(obj, NULL) && !obj->line_requested;
 }
 
-bool obj_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
+bool obj_load_stream(const struct import_source *source, struct lam_scene *scene)
 {
     struct obj obj = {.source = source, .scene = scene, .streamed = true};
-    struct stream stream = {.obj = &obj, .file = file, .loop = {.call = source->call}};
+    struct stream stream = {.obj = &obj, .file = source->parts, .loop = {.call = source->call}};
     arena_start(&obj.memory, source->call);
     obj.materials.by_name.memory = obj.libraries.tried.memory = &obj.memory;
     bool done = load(&stream);

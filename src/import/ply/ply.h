@@ -147,6 +147,6 @@ bool ply_edges(const struct import_source *source, const struct ply_table *edges
                lam_mesh *mesh, lam_error *error);
 
 // ply_stream.c: the importer's load_stream.
-bool ply_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
+bool ply_load_stream(const struct import_source *source, struct lam_scene *scene);
 
 #endif

@@ -45,7 +45,7 @@ static void read_vertices(void *user, size_t index, int thread)
     size_t first = index * PART_VERTICES, count = stream->count - first;
     count = count < PART_VERTICES ? count : PART_VERTICES;
     uint8_t *to = stream->rows + first * stream->stride;
-    if (!file_read_part(stream->file, stream->begin + first * stream->stride, to, count * stream->stride))
+    if (!file_read_part(stream->file, "", stream->begin + first * stream->stride, to, count * stream->stride, NULL))
         set_unsupported(stream);
     uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
     for (size_t i = 0; stream->floats && i < count * stream->stride; i += 4)
@@ -62,7 +62,7 @@ static void read_faces(void *user, size_t index, int thread)
     size_t first = index * PART_FACES, count = stream->count - first;
     count = count < PART_FACES ? count : PART_FACES;
     uint8_t *at = stream->buffers + (size_t)thread * PART_FACES * FACE;
-    if (!file_read_part(stream->file, stream->begin + first * FACE, at, count * FACE)) {
+    if (!file_read_part(stream->file, "", stream->begin + first * FACE, at, count * FACE, NULL)) {
         set_unsupported(stream);
         return;
     }
@@ -167,11 +167,13 @@ static bool load(struct stream *stream, struct lam_scene *scene, struct arena *s
     return object.mesh >= 0 && scene_adopt_object(scene, &object, NULL) >= 0;
 }
 
-bool ply_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene)
+bool ply_load_stream(const struct import_source *whole, struct lam_scene *scene)
 {
+    struct import_source head = *whole, *source = &head;
+    head.size = FILE_HEAD;
     struct arena scratch;
     arena_start(&scratch, source->call);
-    struct stream stream = {.source = source, .file = file, .loop = {.call = source->call}};
+    struct stream stream = {.source = source, .file = source->parts, .loop = {.call = source->call}};
     bool done = load(&stream, scene, &scratch);
     arena_free(&scratch);
     return done;

@@ -63,6 +63,12 @@ static int stl_probe(const uint8_t *bytes, size_t size)
     }
 }
 
+static bool stl_in_parts(const struct import_source *source)
+{
+    enum kind kind = detect_kind(source->bytes, source->size);
+    return kind == BINARY_EXACT || kind == BINARY_LOOSE;
+}
+
 static bool stl_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
     char found[TEXT_FOUND_SIZE];
@@ -95,5 +101,5 @@ const struct importer importer_stl = {
     .up = LAM_UP_Z,
     .probe = stl_probe,
     .load = stl_load,
-    .load_stream = stl_load_stream,
+    .in_parts = stl_in_parts,
 };

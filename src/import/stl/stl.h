@@ -19,9 +19,6 @@ enum {
 bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
 bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
 
-// stl_stream.c: the importer's load_stream.
-bool stl_load_stream(const struct import_source *source, const struct file_parts *file, struct lam_scene *scene);
-
 enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners have 32-bit indices
 
 // Returns whether a file may have this many facets; false: LAM_LIMIT.

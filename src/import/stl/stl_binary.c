@@ -28,8 +28,7 @@ struct words {
 
 struct reader {
     const struct import_source *source;
-    const uint8_t *facets;
-    size_t count;
+    struct row_bytes facets;
     float *positions;
     struct words *words; // one per chunk
     // For the pass that reads colours.
@@ -66,9 +65,7 @@ static bool fail_not_finite(const struct reader *reader, size_t first, size_t la
             memcpy(&bits, &reader->positions[9 * i + (size_t)c], 4);
             if ((bits & 0x7f800000) != 0x7f800000)
                 continue;
-            const uint8_t *facet = reader->facets + i * STL_FACET;
-            return fail_byte(error, reader->source,
-                             (size_t)(facet - reader->source->bytes) + STL_CORNERS + 4 * (size_t)c,
+            return fail_byte(error, reader->source, STL_FACETS + i * STL_FACET + STL_CORNERS + 4 * (size_t)c,
                              "facet %zu: found %s as %c of corner %d, expected a finite number", i + 1,
                              bits & 0x007fffff ? "NaN" : "infinity", "xyz"[c % 3], c / 3 + 1);
         }
@@ -76,14 +73,13 @@ static bool fail_not_finite(const struct reader *reader, size_t first, size_t la
     return false;
 }
 
-static bool read_chunk(void *user, size_t index, lam_error *error)
+static bool read_chunk(void *user, size_t index, const uint8_t *facet, lam_error *error)
 {
     const struct reader *reader = user;
     size_t first, last;
-    parallel_rows_range(reader->count, index, &first, &last);
+    parallel_rows_range(reader->facets.count, index, &first, &last);
     struct words words = {0};
     uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
-    const uint8_t *facet = reader->facets + first * STL_FACET;
     float *corners = reader->positions + 9 * first;
     for (size_t i = first; i < last; i++, facet += STL_FACET, corners += 9) {
         uint32_t bits[9];
@@ -99,14 +95,14 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
 
 static uint8_t five_bits(unsigned value) { return (uint8_t)((value * 255 + 15) / 31); }
 
-static bool color_chunk(void *user, size_t index, lam_error *error)
+static bool color_chunk(void *user, size_t index, const uint8_t *facet, lam_error *error)
 {
     (void)error;
     const struct reader *reader = user;
     size_t first, last;
-    parallel_rows_range(reader->count, index, &first, &last);
-    for (size_t i = first; i < last; i++) {
-        unsigned word = word_of(reader->facets + i * STL_FACET);
+    parallel_rows_range(reader->facets.count, index, &first, &last);
+    for (size_t i = first; i < last; i++, facet += STL_FACET) {
+        unsigned word = word_of(facet);
         bool own = (word >> 15) != (unsigned)reader->magics;
         uint8_t low = five_bits(word & 31), middle = five_bits(word >> 5 & 31), high = five_bits(word >> 10 & 31);
         uint8_t color[4] = {reader->magics ? low : high, middle, reader->magics ? high : low, 255};
@@ -153,7 +149,7 @@ static bool set_material(struct reader *reader, struct lam_scene *scene, lam_err
 static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
     struct words all = {0};
-    for (size_t i = 0; i < parallel_rows_count(reader->count); i++) {
+    for (size_t i = 0; i < parallel_rows_count(reader->facets.count); i++) {
         const struct words *chunk = &reader->words[i];
         all.any |= chunk->any;
         all.marked |= chunk->marked;
@@ -165,13 +161,14 @@ static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh
     bool uniform = false;
     if (!colors_of(reader, &all, &uniform))
         return !uniform || set_material(reader, scene, error);
-    reader->colors = arena_array(&scene->arena, reader->count, 4);
+    size_t count = reader->facets.count;
+    reader->colors = arena_array(&scene->arena, count, 4);
     if (!reader->colors)
-        return call_memory_error(reader->source->call, 4 * reader->count, error);
-    if (!parallel_rows_run(reader->source, parallel_rows_count(reader->count), color_chunk, reader, error))
+        return call_memory_error(reader->source->call, 4 * count, error);
+    if (!parallel_rows_read(reader->source, &reader->facets, color_chunk, reader, error))
         return false;
     mesh->colors = reader->colors;
-    mesh->color_count = (uint32_t)reader->count;
+    mesh->color_count = (uint32_t)count;
     mesh->colors_format = reader->source->params->color == LAM_COLOR_RAW ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
     mesh->colors_rate = LAM_PER_TRIANGLE;
     return true;
@@ -197,14 +194,14 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
 
     struct arena scratch;
     arena_start(&scratch, source->call);
-    struct reader reader = {.source = source, .facets = source->bytes + STL_FACETS, .count = declared};
+    struct reader reader = {.source = source, .facets = {.offset = STL_FACETS, .stride = STL_FACET, .count = declared}};
     size_t chunks = parallel_rows_count(declared);
     reader.positions = arena_array(&scene->arena, declared, 9 * sizeof(float));
     reader.words = arena_array(&scratch, chunks, sizeof *reader.words);
     bool done = reader.positions && reader.words;
     if (!done)
         call_memory_error(source->call, declared * 9 * sizeof(float), error);
-    done = done && parallel_rows_run(source, chunks, read_chunk, &reader, error) &&
+    done = done && parallel_rows_read(source, &reader.facets, read_chunk, &reader, error) &&
            read_colors(&reader, scene, mesh, error);
     arena_free(&scratch);
     if (!done)

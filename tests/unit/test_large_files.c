@@ -1,0 +1,296 @@
+// test_large_files.c: large STL and PLY files, which are read in parts, give the same scenes and errors as in memory.
+#include "loading.h"
+
+#include "file.h"
+
+#include <unistd.h>
+
+enum { SIDE = 170, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1), ROOM = 8 << 20 };
+
+static char path[] = "/tmp/lambent-large-XXXXXX";
+static uint8_t *bytes;
+static size_t size;
+static bool big; // numbers of more than a byte are written big-endian
+
+static void add(const void *from, size_t count)
+{
+    assert_true(size + count <= ROOM);
+    memcpy(bytes + size, from, count);
+    size += count;
+}
+
+static void add_number(const void *number, size_t count)
+{
+    const uint8_t *from = number;
+    for (size_t i = 0; i < count; i++) // the tests run on little-endian machines
+        add(from + (big ? count - 1 - i : i), 1);
+}
+
+static void add_text(const char *text) { add(text, strlen(text)); }
+static void add_u8(unsigned n) { add(&(uint8_t){(uint8_t)n}, 1); }
+static void add_u16(unsigned n) { add_number(&(uint16_t){(uint16_t)n}, 2); }
+static void add_u32(uint32_t n) { add_number(&n, 4); }
+static void add_f32(float n) { add_number(&n, 4); }
+static void add_f64(double n) { add_number(&n, 8); }
+
+static float position(int vertex, int axis)
+{
+    return axis == 0   ? (float)(vertex % SIDE) * 0.5f
+           : axis == 1 ? (float)(vertex / SIDE) * 0.25f
+                       : (float)(vertex * 37 % 101) * 0.125f;
+}
+
+// The vertex of a triangle's corner.
+static int corner(int triangle, int c)
+{
+    int square = triangle / 2, a = square / (SIDE - 1) * SIDE + square % (SIDE - 1);
+    const int corners[2][3] = {{a, a + 1, a + SIDE + 1}, {a, a + SIDE + 1, a + SIDE}};
+    return corners[triangle % 2][c];
+}
+
+// Loads the file from disk and from memory, and compares the scenes, or the errors. Returns whether it loaded.
+static bool load_both(const char *format)
+{
+    bool loaded = false;
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+    assert_true(size > FILE_LARGE);
+    for (int threads = 1; threads <= 3; threads += 2) {
+        lam_error errors[2] = {0};
+        lam_load_params params = {.threads = threads, .format = format};
+        lam_scene *scenes[2] = {lam_scene_load(path, &params, NULL, &errors[0]),
+                                lam_scene_load_memory(bytes, size, path, &params, NULL, &errors[1])};
+        loaded = scenes[0] != NULL;
+        assert_int_equal(errors[0].code, errors[1].code);
+        assert_string_equal(errors[0].text, errors[1].text);
+        assert_int_equal(loaded, scenes[1] != NULL);
+        for (int i = 0; loaded && i < lam_scene_mesh_count(scenes[0]); i++)
+            assert_same_mesh(lam_scene_mesh(scenes[0], i), lam_scene_mesh(scenes[1], i));
+        for (int w = 0; loaded && (lam_scene_warning(scenes[0], w) || lam_scene_warning(scenes[1], w)); w++)
+            assert_string_equal(lam_scene_warning(scenes[0], w), lam_scene_warning(scenes[1], w));
+        lam_scene_free(scenes[0]);
+        lam_scene_free(scenes[1]);
+    }
+    return loaded;
+}
+
+// --- STL
+
+// `word` is the attribute of every third facet.
+static void make_stl(const char *header, unsigned word)
+{
+    size = 0;
+    add_text(header);
+    while (size < 80)
+        add_u8(' ');
+    add_u32(TRIANGLES);
+    for (int t = 0; t < TRIANGLES; t++) {
+        for (int i = 0; i < 3; i++)
+            add_f32(0);
+        for (int c = 0; c < 9; c++)
+            add_f32(position(corner(t, c / 3), c % 3));
+        add_u16(t % 3 ? 0 : word);
+    }
+}
+
+static void stl_files(void **state)
+{
+    (void)state;
+    make_stl("a header", 0);
+    assert_true(load_both(NULL));
+    make_stl("a header", 0x8000 | 31); // colours of VisCAM
+    assert_true(load_both(NULL));
+    make_stl("COLOR=\1\2\3\4", 0x1234); // colours of Materialise Magics
+    assert_true(load_both(NULL));
+    make_stl("COLOR=\1\2\3\4", 0);
+    assert_true(load_both(NULL));
+    make_stl("a header", 0);
+    add_text("text after the last facet");
+    assert_true(load_both("stl"));
+}
+
+static void stl_errors(void **state)
+{
+    (void)state;
+    const float nan = __builtin_nanf("");
+    make_stl("a header", 0);
+    memcpy(bytes + 84 + 50 * 20000 + 12, &nan, 4);
+    memcpy(bytes + 84 + 50 * 40000 + 16, &nan, 4);
+    assert_false(load_both(NULL)); // the first of both is reported
+    make_stl("a header", 0);
+    size -= 51;
+    assert_false(load_both("stl"));
+    size = 84;
+    while (size < 2 << 20)
+        add_u8('x');
+    bytes[0] = 'x';
+    assert_false(load_both("stl"));
+}
+
+// --- PLY
+
+struct layout {
+    const char *format;       // NULL: binary_little_endian
+    const char *corners;      // the list of the faces; NULL: "uchar int"
+    bool doubles, far;        // positions; far from zero
+    bool normals, bytes;      // of the vertices; colours as bytes
+    bool face_colors, mixed;  // a quad between the triangles
+    bool list_first, trailer; // an element with lists before the vertices; one after the faces
+};
+
+static void add_faces(const struct layout *layout, bool wide)
+{
+    for (int t = 0; t < TRIANGLES; t++) {
+        bool quad = layout->mixed && t == TRIANGLES / 2;
+        if (wide)
+            add_u16(quad ? 4 : 3);
+        else
+            add_u8(quad ? 4 : 3);
+        for (int c = 0; c < 3 + quad; c++)
+            add_u32((uint32_t)corner(t, c % 3));
+        for (int i = 0; layout->face_colors && i < 3; i++)
+            add_u8((unsigned)(t + i) & 255);
+    }
+}
+
+static void make_ply(struct layout layout)
+{
+    char header[512];
+    const char *type = layout.doubles ? "double" : "float";
+    big = layout.format && strstr(layout.format, "big");
+    size = 0;
+    snprintf(header, sizeof header,
+             "ply\nformat %s 1.0\n%selement vertex %d\nproperty %s x\nproperty %s y\nproperty %s z\n%s%s"
+             "element face %d\nproperty list %s vertex_indices\n%s%send_header\n",
+             layout.format ? layout.format : "binary_little_endian",
+             layout.list_first ? "element extra 2\nproperty list uchar short a\n" : "", VERTICES, type, type, type,
+             layout.normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+             layout.bytes ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "", TRIANGLES,
+             layout.corners ? layout.corners : "uchar int",
+             layout.face_colors ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
+             layout.trailer ? "element rest 3\nproperty int a\n" : "");
+    add_text(header);
+    for (int i = 0; layout.list_first && i < 2; i++) {
+        add_u8(1);
+        add_u16(7);
+    }
+    for (int v = 0; v < VERTICES; v++) {
+        for (int axis = 0; axis < 3; axis++) {
+            double x = (double)position(v, axis) + (layout.far && axis == 0 ? 1e7 : 0);
+            if (layout.doubles)
+                add_f64(x);
+            else
+                add_f32((float)x);
+        }
+        for (int i = 0; layout.normals && i < 3; i++)
+            add_f32(i == 2 ? 1.0f : (float)(v % 7) * 0.01f);
+        for (int i = 0; layout.bytes && i < 3; i++)
+            add_u8((unsigned)(v + i) & 255);
+    }
+    add_faces(&layout, layout.corners && strncmp(layout.corners, "ushort", 6) == 0);
+    for (int i = 0; layout.trailer && i < 3; i++)
+        add_u32(0);
+}
+
+static void ply_files(void **state)
+{
+    (void)state;
+    const struct layout layouts[] = {
+        {0},
+        {.format = "binary_big_endian"},
+        {.corners = "uchar uint"},
+        {.corners = "ushort int"},
+        {.normals = true, .bytes = true},
+        {.doubles = true, .far = true, .normals = true},
+        {.format = "binary_big_endian", .doubles = true, .bytes = true},
+        {.face_colors = true},
+        {.mixed = true},
+        {.mixed = true, .face_colors = true, .normals = true},
+        {.list_first = true},
+        {.trailer = true},
+    };
+    for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
+        make_ply(layouts[i]);
+        assert_true(load_both(NULL));
+        size += 3; // bytes after the last row
+        load_both(NULL);
+    }
+}
+
+static void ply_errors(void **state)
+{
+    (void)state;
+    const struct layout layouts[] = {{0}, {.doubles = true, .normals = true}, {.mixed = true}, {.face_colors = true}};
+    for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
+        make_ply(layouts[i]);
+        size_t vertices = (size_t)(strstr((char *)bytes, "end_header\n") + 11 - (char *)bytes), whole = size;
+        memset(bytes + whole - 30, 0x77, 4);
+        assert_false(load_both(NULL)); // an index, or a number of corners
+        make_ply(layouts[i]);
+        memset(bytes + vertices + 48 * 9001, 0xff, 24); // not a number
+        assert_false(load_both(NULL));
+        make_ply(layouts[i]);
+        size = whole - 5;
+        assert_false(load_both(NULL));
+        size = vertices + 5000;
+        while (size < 1 << 20)
+            add_u8(0);
+        size = (1 << 20) + 1;
+        load_both(NULL);
+    }
+    make_ply((struct layout){0});
+    memcpy(strstr((char *)bytes, "float y"), "float q", 7);
+    assert_false(load_both(NULL));
+}
+
+// Each allocation fails in turn: the file is refused for want of memory; nothing leaks.
+static void memory(void **state)
+{
+    (void)state;
+    const struct layout layouts[] = {{0}, {.normals = true, .bytes = true}, {.mixed = true}};
+    for (size_t i = 0; i < 4; i++) {
+        if (i < 3)
+            make_ply(layouts[i]);
+        else
+            make_stl("a header", 0x8000);
+        assert_true(load_both(NULL));
+        int refused = 0;
+        for (long countdown = 0; countdown < 40; countdown++) {
+            lam_error error = {0};
+            arena_fail_after(countdown);
+            lam_scene *scene = lam_scene_load(path, &(lam_load_params){.threads = 1}, NULL, &error);
+            arena_fail_after(-1);
+            if (!scene)
+                assert_int_equal(error.code, LAM_LIMIT);
+            refused += !scene;
+            lam_scene_free(scene);
+        }
+        assert_true(refused >= 3);
+    }
+}
+
+static int start(void **state)
+{
+    (void)state;
+    bytes = calloc(1, ROOM + FILE_PADDING);
+    int file = mkstemp(path);
+    return bytes && file >= 0 && close(file) == 0 ? 0 : -1;
+}
+
+static int stop(void **state)
+{
+    (void)state;
+    free(bytes);
+    return unlink(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stl_files),  cmocka_unit_test(stl_errors), cmocka_unit_test(ply_files),
+        cmocka_unit_test(ply_errors), cmocka_unit_test(memory),
+    };
+    return cmocka_run_group_tests_name("large files", tests, start, stop);
+}

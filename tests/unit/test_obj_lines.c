@@ -176,7 +176,7 @@ static void others(void **state)
         {"v 1.0 2.0 3.0", 1, 0},
     };
     static struct obj_statement statements[8];
-    static struct obj_polygon polygons[8];
+    static struct mesh_polygon polygons[8];
     obj_lines_reader *all[2];
     int count = readers(all);
     for (int r = 0; r < count; r++) {

@@ -3,7 +3,7 @@
 //   obj.c                      recognises the format, runs the passes
 //   obj_scan.c                 pass one: chunks and their element counts
 //   obj_parse.c, obj_line(s).c pass two: vertices and faces
-//   obj_faces.c                triangulates polygons, completes normals and texture coordinates
+//   obj_faces.c                completes normals and texture coordinates
 //   obj_groups.c               statements between the faces: named parts, materials, smoothing groups
 //   obj_strokes.c              lines and points
 //   obj_libraries.c, mtl.c     material files
@@ -17,13 +17,13 @@
 #define OBJ_H
 
 #include "importer.h"
+#include "mesh_build.h"
 #include "mtl.h"
 
 enum {
     OBJ_CHUNK = 256 << 10,    // bytes: about a hundred microseconds of work
     OBJ_MISSING = UINT32_MAX, // a corner without this attribute
-    OBJ_POLYGONS_PER_PIECE = 1024,
-    OBJ_LIBRARIES_MAX = 256, // most names of material files that are tried
+    OBJ_LIBRARIES_MAX = 256,  // most names of material files that are tried
 };
 
 // Kinds of statements.
@@ -60,12 +60,6 @@ struct obj_chunk {
     uint64_t short_faces;                              // the number of faces with one or two corners
     uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
     const uint8_t *first_short_face, *first_nonfinite; // the first of each
-};
-
-// A face with more than three corners. Its `count` corners are stored from indices[3 * first_triangle], in the range of
-// its triangles, until obj_faces.c triangulates it.
-struct obj_polygon {
-    uint32_t first_triangle, count;
 };
 
 // A statement of OBJ_OTHER, and the numbers of triangles, positions and texture coordinates before it.
@@ -107,10 +101,10 @@ struct obj {
 
     float *positions, *texcoords, *normals, *colors; // colors: RGBA
     uint32_t *indices, *texcoord_indices, *normal_indices;
-    struct obj_polygon *polygons;
+    struct mesh_polygon *polygons;
     struct obj_statement *statements;
     uint32_t *smoothing_groups;
-    uint8_t *inner_edges; // same as lam_mesh.inner_edges; NULL if not requested or there are no polygons
+    const uint8_t *inner_edges; // same as lam_mesh.inner_edges; NULL if not requested or there are no polygons
     lam_part *parts;
     uint32_t part_count;
     const char *object_name;       // set if the file has exactly one object; else NULL
@@ -159,7 +153,6 @@ bool obj_find_origin(struct obj *obj, lam_error *error);
 bool obj_convert_colors(struct obj *obj, lam_error *error);
 
 // obj_faces.c
-bool obj_triangulate_polygons(struct obj *obj, lam_error *error);
 bool obj_complete_texcoords(struct obj *obj, lam_error *error);
 bool obj_complete_normals(struct obj *obj, lam_error *error);
 

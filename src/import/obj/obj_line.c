@@ -263,7 +263,7 @@ static const uint8_t *read_face(struct obj_reader *reader, const uint8_t *at)
             return fail_expected(reader, begin, changed);
         if (count > 3)
             obj->polygons[reader->next.polygons++] =
-                (struct obj_polygon){(uint32_t)reader->next.triangles, (uint32_t)count};
+                (struct mesh_polygon){(uint32_t)reader->next.triangles, (uint32_t)count};
         reader->next.triangles += count - 2;
     } else if (chunk->short_faces++ == 0) {
         chunk->first_short_face = begin;

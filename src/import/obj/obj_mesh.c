@@ -54,20 +54,17 @@ static bool add_mesh(struct obj *obj, lam_error *error)
         .parts = obj->part_count ? obj->parts : NULL,
         .part_count = obj->part_count,
     };
-    if (!mesh.triangle_count)
-        return true;
-    lam_object object = lam_object_default();
-    object.name = obj->object_name;
-    object.mesh = scene_adopt_mesh(obj->scene, &mesh, error);
-    return object.mesh >= 0 && scene_adopt_object(obj->scene, &object, error) >= 0;
+    return mesh_add_object(obj->scene, &mesh, obj->object_name, error);
 }
 
 bool obj_complete(struct obj *obj, lam_error *error)
 {
     call_progress(obj->source->call, 0.7, "read");
     const float *texcoords = obj->texcoords; // unused vertices are dropped
-    if (!obj_triangulate_polygons(obj, error) || !obj_read_statements(obj, error) ||
-        !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
+    uint32_t *const corners[3] = {obj->indices, obj->texcoord_indices, obj->normal_indices};
+    if (!mesh_triangulate(obj->source, obj->scene, obj->positions, obj->polygons, (size_t)obj->total.polygons,
+                          obj->total.triangles, corners, &obj->inner_edges, error) ||
+        !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
         return false;
     warn_faces(obj);
     return add_mesh(obj, error) && obj_strokes_add(obj, texcoords, error);

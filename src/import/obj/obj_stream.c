@@ -30,7 +30,7 @@ static const struct {
     [TEXCOORDS] = {5, 8},  // "vt 0"
     [NORMALS] = {9, 12},   // "vn 0 0 0"
     [CORNERS] = {8, 12},   // "f 1 1 1"; a larger polygon with such short indices fails the capacity check
-    [CORNER_TEXCOORDS] = {8, 12}, [CORNER_NORMALS] = {8, 12}, [POLYGONS] = {10, sizeof(struct obj_polygon)},
+    [CORNER_TEXCOORDS] = {8, 12}, [CORNER_NORMALS] = {8, 12}, [POLYGONS] = {10, sizeof(struct mesh_polygon)},
 };
 
 // A thread's scratch memory.
@@ -251,10 +251,10 @@ static void copy_piece(const struct stream *stream, struct piece_scratch *scratc
         copy_corners(stream, scratch, CORNER_TEXCOORDS, before->triangles, counts->triangles);
     if (scratch->normals)
         copy_corners(stream, scratch, CORNER_NORMALS, before->triangles, counts->triangles);
-    const struct obj_polygon *from = scratch->arrays[POLYGONS];
-    struct obj_polygon *to = (struct obj_polygon *)(void *)stream->arrays[POLYGONS] + before->polygons;
+    const struct mesh_polygon *from = scratch->arrays[POLYGONS];
+    struct mesh_polygon *to = (struct mesh_polygon *)(void *)stream->arrays[POLYGONS] + before->polygons;
     for (size_t i = 0; i < counts->polygons; i++)
-        to[i] = (struct obj_polygon){(uint32_t)before->triangles + from[i].first_triangle, from[i].count};
+        to[i] = (struct mesh_polygon){(uint32_t)before->triangles + from[i].first_triangle, from[i].count};
 }
 
 static void load_piece(void *user, size_t index, int thread)

@@ -169,12 +169,8 @@ static bool add_mesh(struct obj *obj, bool lines, const float *texcoords, lam_er
         .line_count = lines ? (uint32_t)(s->corners / 2) : 0,
         .point_count = lines ? 0 : (uint32_t)s->corners,
     };
-    lam_object object = lam_object_default();
-    if (s->textured && !take_texcoords(obj, s, texcoords, &mesh, error))
-        return false;
-    object.name = obj->object_name;
-    object.mesh = scene_adopt_mesh(obj->scene, &mesh, error);
-    return object.mesh >= 0 && scene_adopt_object(obj->scene, &object, error) >= 0;
+    return (!s->textured || take_texcoords(obj, s, texcoords, &mesh, error)) &&
+           mesh_add_object(obj->scene, &mesh, obj->object_name, error);
 }
 
 bool obj_strokes_add(struct obj *obj, const float *texcoords, lam_error *error)

@@ -1,6 +1,7 @@
 // stl.c: the STL importer: recognises binary and ASCII files by content. stl_binary.c and stl_ascii.c read them.
 #include "stl.h"
 
+#include "mesh_build.h"
 #include "text_cursor.h"
 
 #include <string.h>
@@ -88,11 +89,7 @@ static bool stl_load(const struct import_source *source, struct lam_scene *scene
         if (!stl_load_binary(source, scene, &mesh, error))
             return false;
     }
-    if (mesh.triangle_count == 0)
-        return true;
-    lam_object object = lam_object_default();
-    object.mesh = scene_adopt_mesh(scene, &mesh, error);
-    return object.mesh >= 0 && scene_adopt_object(scene, &object, error) >= 0;
+    return mesh_add_object(scene, &mesh, NULL, error);
 }
 
 const struct importer importer_stl = {

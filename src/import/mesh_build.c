@@ -1,0 +1,113 @@
+// mesh_build.c: from polygons to a mesh of the scene, for all formats.
+#include "mesh_build.h"
+
+#include "loop_status.h"
+#include "triangulate.h"
+
+#include <string.h>
+
+enum { TASK_POLYGONS = 1024, SMALL_POLYGON = 64 };
+
+// A thread's scratch memory.
+struct splitter {
+    struct triangulator triangulator;
+    struct arena large; // for the corners of large polygons
+};
+
+struct splitting {
+    const float *positions;
+    const struct mesh_polygon *polygons;
+    size_t count;
+    uint32_t *const *corners;
+    uint8_t *inner_edges; // NULL if not requested
+    struct splitter *splitters;
+    struct loop_status loop;
+};
+
+static bool split_polygon(const struct splitting *splitting, struct mesh_polygon polygon, struct splitter *splitter)
+{
+    uint32_t count = polygon.count, corner_count = 3 * (count - 2);
+    uint32_t small_corners[SMALL_POLYGON], small_triples[3 * (SMALL_POLYGON - 2)];
+    uint32_t *corners = small_corners, *triples = small_triples;
+    if (count > SMALL_POLYGON) {
+        arena_free(&splitter->large);
+        corners = arena_array(&splitter->large, count, sizeof *corners);
+        triples = arena_array(&splitter->large, corner_count, sizeof *triples);
+        if (!corners || !triples)
+            return false;
+    }
+    size_t first = 3 * (size_t)polygon.first_triangle;
+    if (!triangulate(&splitter->triangulator, splitting->positions, splitting->corners[0] + first, count, triples))
+        return false;
+    for (uint32_t i = 0; splitting->inner_edges && i < count - 2; i++)
+        splitting->inner_edges[polygon.first_triangle + i] = triangulated_inner_edges(triples + 3 * (size_t)i, count);
+    for (int k = 0; k < 3; k++) {
+        if (!splitting->corners[k])
+            continue;
+        uint32_t *at = splitting->corners[k] + first;
+        memcpy(corners, at, count * sizeof *corners);
+        for (uint32_t i = 0; i < corner_count; i++)
+            at[i] = corners[triples[i]];
+    }
+    return true;
+}
+
+static void split_polygons(void *user, size_t index, int thread)
+{
+    struct splitting *splitting = user;
+    size_t first = index * TASK_POLYGONS, last = first + TASK_POLYGONS;
+    last = last < splitting->count ? last : splitting->count;
+    bool done = should_continue(&splitting->loop);
+    for (size_t i = first; done && i < last; i++) {
+        done = split_polygon(splitting, splitting->polygons[i], &splitting->splitters[thread]);
+        if (!done)
+            no_memory(&splitting->loop); // or the call must end
+    }
+}
+
+bool mesh_triangulate(const struct import_source *source, struct lam_scene *scene, const float *positions,
+                      const struct mesh_polygon *polygons, size_t count, uint64_t triangles, uint32_t *const corners[3],
+                      const uint8_t **inner_edges, lam_error *error)
+{
+    struct call_control *call = source->call;
+    struct splitting splitting = {
+        .positions = positions, .polygons = polygons, .count = count, .corners = corners, .loop = {.call = call}};
+    if (count == 0)
+        return true;
+    if (source->params->polygon_edges) {
+        *inner_edges = splitting.inner_edges = arena_alloc_zeroed(&scene->arena, triangles);
+        if (!splitting.inner_edges)
+            return call_memory_error(call, (size_t)triangles, error);
+    }
+    struct arena memory;
+    arena_start(&memory, call);
+    size_t threads = (size_t)pool_threads(source->pool);
+    splitting.splitters = arena_array(&memory, threads, sizeof *splitting.splitters);
+    if (!splitting.splitters) {
+        arena_free(&memory);
+        return call_memory_error(call, threads * sizeof *splitting.splitters, error);
+    }
+    for (size_t t = 0; t < threads; t++) {
+        triangulator_start(&splitting.splitters[t].triangulator, call);
+        arena_start(&splitting.splitters[t].large, call);
+    }
+    pool_run(source->pool, (count + TASK_POLYGONS - 1) / TASK_POLYGONS, split_polygons, &splitting);
+    for (size_t t = 0; t < threads; t++) {
+        triangulator_stop(&splitting.splitters[t].triangulator);
+        arena_free(&splitting.splitters[t].large);
+    }
+    arena_free(&memory);
+    if (!call_should_continue(call))
+        return call_error(call, error);
+    return !splitting.loop.out_of_memory || call_memory_error(call, polygons[0].count * sizeof(uint32_t), error);
+}
+
+bool mesh_add_object(struct lam_scene *scene, const lam_mesh *mesh, const char *name, lam_error *error)
+{
+    if (!mesh_items(mesh))
+        return true;
+    lam_object object = lam_object_default();
+    object.name = name;
+    object.mesh = scene_adopt_mesh(scene, mesh, error);
+    return object.mesh >= 0 && scene_adopt_object(scene, &object, error) >= 0;
+}

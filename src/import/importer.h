@@ -56,6 +56,12 @@ struct importer {
     bool (*load_stream)(const struct import_source *source, struct lam_scene *scene);
 };
 
+// Returns the number of bytes at source->bytes.
+static inline size_t import_held(const struct import_source *source)
+{
+    return source->parts ? FILE_HEAD : source->size;
+}
+
 // The formats, in the order in which lists name them. tests/fuzz/meson.build reads these names too.
 #define IMPORTERS(X) X(obj) X(stl) X(ply) X(gltf) X(3mf) X(scene)
 

@@ -222,7 +222,13 @@ static void ply_files(void **state)
 static void ply_errors(void **state)
 {
     (void)state;
-    const struct layout layouts[] = {{0}, {.doubles = true, .normals = true}, {.mixed = true}, {.face_colors = true}};
+    const struct layout layouts[] = {
+        {0},
+        {.format = "binary_big_endian"},
+        {.doubles = true, .normals = true},
+        {.mixed = true},
+        {.face_colors = true},
+    };
     for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
         make_ply(layouts[i]);
         size_t vertices = (size_t)(strstr((char *)bytes, "end_header\n") + 11 - (char *)bytes), whole = size;

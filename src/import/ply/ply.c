@@ -1,6 +1,7 @@
 // ply.c: the PLY importer: reads a file's elements in order and builds the mesh (ply.h has the overview).
 #include "ply.h"
 #include "fail.h"
+#include "mesh_build.h"
 #include "text_cursor.h"
 
 #include <string.h>
@@ -168,13 +169,22 @@ static bool read_positions(struct reader *reader, lam_mesh *mesh, lam_error *err
            ply_positions(reader->source, &reader->tables[VERTICES], arena, mesh, &needs_doubles, error);
 }
 
-static bool add_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error)
+static bool read_vertices(struct reader *reader, lam_mesh *mesh, lam_error *error)
 {
-    lam_object object = lam_object_default();
-    if (!mesh_items(mesh))
-        return true;
-    object.mesh = scene_adopt_mesh(scene, mesh, error);
-    return object.mesh >= 0 && scene_adopt_object(scene, &object, error) >= 0;
+    struct ply_attributes own;
+    if (!read_positions(reader, mesh, error) ||
+        !ply_read_attributes(reader->source, &reader->tables[VERTICES], PLY_ALL, &reader->scene->arena, &own, error))
+        return false;
+    mesh->normals = own.normals;
+    mesh->texcoords = own.texcoords;
+    mesh->tangents = own.tangents;
+    mesh->colors = own.colors;
+    mesh->colors_format = own.colors_format;
+    mesh->normal_count = mesh->normals ? mesh->vertex_count : 0;
+    mesh->texcoord_count = mesh->texcoords ? mesh->vertex_count : 0;
+    mesh->tangent_count = mesh->tangents ? mesh->vertex_count : 0;
+    mesh->color_count = mesh->colors ? mesh->vertex_count : 0;
+    return true;
 }
 
 static bool build(struct reader *reader, lam_error *error)
@@ -195,33 +205,25 @@ static bool build(struct reader *reader, lam_error *error)
         return false;
 
     lam_mesh mesh = {0};
-    const struct ply_table *vertices = &reader->tables[VERTICES];
-    if (!read_positions(reader, &mesh, error) || !ply_normals(source, vertices, &scene->arena, &mesh.normals, error) ||
-        !ply_texcoords(source, vertices, &scene->arena, &mesh.texcoords, error) ||
-        !ply_tangents(source, vertices, &scene->arena, &mesh.tangents, error) ||
-        !ply_colors(source, vertices, &scene->arena, &mesh.colors, &mesh.colors_format, error))
+    if (!read_vertices(reader, &mesh, error))
         return false;
-    mesh.normal_count = mesh.normals ? mesh.vertex_count : 0;
-    mesh.texcoord_count = mesh.texcoords ? mesh.vertex_count : 0;
-    mesh.tangent_count = mesh.tangents ? mesh.vertex_count : 0;
-    mesh.color_count = mesh.colors ? mesh.vertex_count : 0;
-
     lam_mesh lines = mesh;
     bool surface = reader->elements[FACES] || reader->elements[STRIPS];
     if (surface) {
         bool done = reader->elements[FACES] ? ply_faces(source, &reader->tables[FACES], scene, &mesh, error)
                                             : ply_strips(source, &reader->tables[STRIPS], scene, &mesh, error);
-        if (!done || !add_mesh(scene, &mesh, error))
+        if (!done || !mesh_add_object(scene, &mesh, NULL, error))
             return false;
     }
     if (reader->elements[EDGES]) {
         scene->shared_arrays |= surface;
-        return ply_edges(source, &reader->tables[EDGES], scene, &lines, error) && add_mesh(scene, &lines, error);
+        return ply_edges(source, &reader->tables[EDGES], scene, &lines, error) &&
+               mesh_add_object(scene, &lines, NULL, error);
     }
     if (surface)
         return true;
     mesh.point_count = mesh.vertex_count; // a point cloud
-    return add_mesh(scene, &mesh, error);
+    return mesh_add_object(scene, &mesh, NULL, error);
 }
 
 static bool ply_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
@@ -234,6 +236,17 @@ static bool ply_load(const struct import_source *source, struct lam_scene *scene
     return done;
 }
 
+// Text has no rows of equal size. The header must be in the part of the file that is in memory.
+static bool ply_in_parts(const struct import_source *source)
+{
+    struct arena scratch;
+    struct ply_header header;
+    arena_start(&scratch, source->call);
+    bool binary = ply_read_header(source, &scratch, &header, NULL) && header.format != PLY_ASCII;
+    arena_free(&scratch);
+    return binary;
+}
+
 const struct importer importer_ply = {
     .name = "ply",
     .extensions = "ply",
@@ -241,5 +254,5 @@ const struct importer importer_ply = {
     .up_is_habit = true,
     .probe = ply_probe,
     .load = ply_load,
-    .load_stream = ply_load_stream,
+    .in_parts = ply_in_parts,
 };

@@ -9,12 +9,14 @@
 //  ply_columns.c    normals, tangents, texture coordinates and colours from the columns of a table
 //  ply_faces.c      triangles from faces and strips
 //  ply_edges.c      lines from edges
-//  ply_stream.c     large files of the usual layout, in parts
+//
+// Rows of equal size stay in the file, and each pass over them reads them in chunks (parallel_rows_read), so that a
+// large file need not be in memory. Rows of a text file, or with lists of several lengths, become rows in memory.
 //
 #ifndef PLY_H
 #define PLY_H
 
-#include "importer.h"
+#include "parallel_rows.h"
 
 enum ply_type { PLY_I8, PLY_U8, PLY_I16, PLY_U16, PLY_I32, PLY_U32, PLY_F32, PLY_F64, PLY_TYPE_COUNT };
 enum ply_format { PLY_ASCII, PLY_LITTLE, PLY_BIG };
@@ -65,20 +67,19 @@ int ply_find(const struct ply_element *element, bool list, const char *name);
 // are read as floats, and again as doubles if the model is far from zero.
 enum ply_positions_as { PLY_AS_DECLARED, PLY_AS_FLOAT, PLY_AS_DOUBLE };
 
-// An element's rows in memory.
+// An element's rows.
 struct ply_table {
     const struct ply_element *element;
-    size_t count;
-    const uint8_t *rows; // count · stride bytes; NULL means scalars were not requested
-    size_t stride;
+    struct row_bytes rows;      // the scalars, if they were requested
     bool swapped;               // the byte order differs from the machine's
     const uint32_t *offsets;    // the offset of each scalar property in a row
     const enum ply_type *types; // the type of each property in `rows`
     enum ply_positions_as positions;
-    // The requested list with checked indices: row r has items[starts[r]] … items[starts[r + 1] − 1]; three items per
-    // row if `starts` is NULL.
-    const uint32_t *items;
-    const uint32_t *starts;
+    // The requested list with checked indices, from items[starts[r]] for row r; three items per row if `starts` is NULL.
+    // A polygon has 3 (n − 2) items: its n corners, and room for its triangles. With fewer than three corners it has none.
+    // A strip (ply_request.restarts) has its own items only.
+    uint32_t *items;
+    const uint32_t *starts; // a row more than the table has
 };
 
 // The data to read from an element.
@@ -86,14 +87,13 @@ struct ply_request {
     bool scalars;
     int list;            // index of the property, or −1
     uint32_t item_limit; // items must be below it
-    bool restarts;       // item −1 is valid and becomes PLY_RESTART
+    bool restarts;       // a strip: item −1 is valid and becomes PLY_RESTART
     enum ply_positions_as positions;
     struct arena *keep, *scratch; // memory for items of lists, and for the rest
 };
 #define PLY_RESTART UINT32_MAX
 
-// Read the element at offset *at of the file, or skip it (`table` is NULL), and set *at to the byte after it. Tables
-// may point into the file.
+// Read the element at offset *at of the file, or skip it (`table` is NULL), and set *at to the byte after it.
 bool ply_read_binary(const struct import_source *source, const struct ply_header *header,
                      const struct ply_element *element, const struct ply_request *request, size_t *at,
                      struct ply_table *table, lam_error *error);
@@ -115,25 +115,25 @@ bool ply_find_all(const struct ply_table *table, const char *const *names, int c
 bool ply_contiguous(const struct ply_table *table, const int *properties, int count);
 // Finds red, green, blue and alpha by any of their usual names. Returns whether the first three exist.
 bool ply_find_colors(const struct ply_table *table, int properties[4]);
-// Copies a scalar property of rows [first, last) as floats, divided by `divisor`, to every `step`-th element of `out`.
-void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor, float *out,
-                     size_t step);
+// Copies a scalar property of `count` rows as floats, divided by `divisor`, to every `step`-th element of `out`.
+void ply_copy_column(const struct ply_table *table, int property, const uint8_t *rows, size_t count, float divisor,
+                     float *out, size_t step);
 
 // Sets origin, positions (from `arena`) and vertex_count of the mesh. Sets *needs_doubles if the table stores an ASCII
 // file's positions as floats, which are not precise enough; the caller must read them again as doubles.
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                    lam_mesh *mesh, bool *needs_doubles, lam_error *error);
 
-// Read other columns, allocated from `arena`; *out is NULL if the element does not have them. Numbers that are not
-// finite become 0. Return false on error.
-bool ply_normals(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                 const float **out, lam_error *error);
-bool ply_tangents(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                  const float **out, lam_error *error);
-bool ply_texcoords(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                   const float **out, lam_error *error);
-bool ply_colors(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                const void **out, lam_colors_format *format, lam_error *error);
+// Attributes beside the positions; NULL if the element does not have them.
+enum { PLY_NORMALS = 1, PLY_TANGENTS = 2, PLY_TEXCOORDS = 4, PLY_COLORS = 8, PLY_ALL = 15 };
+struct ply_attributes {
+    const float *normals, *tangents, *texcoords;
+    const void *colors;
+    lam_colors_format colors_format;
+};
+// Reads the wanted attributes in one pass into arrays from `arena`. Numbers that are not finite become 0.
+bool ply_read_attributes(const struct import_source *source, const struct ply_table *table, unsigned wanted,
+                         struct arena *arena, struct ply_attributes *out, lam_error *error);
 
 // Sets indices and triangle_count of a mesh with positions, from faces or from strips. Colours and normals of the faces
 // are used if the vertices have none.
@@ -145,8 +145,5 @@ bool ply_strips(const struct import_source *source, const struct ply_table *stri
 // Sets indices and line_count. Colours of the edges are used if the vertices have none.
 bool ply_edges(const struct import_source *source, const struct ply_table *edges, struct lam_scene *scene,
                lam_mesh *mesh, lam_error *error);
-
-// ply_stream.c: the importer's load_stream.
-bool ply_load_stream(const struct import_source *source, struct lam_scene *scene);
 
 #endif

@@ -184,11 +184,11 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
     size_t first, last;
     if (reader->element->property_count == 0)
         return true; // empty rows have no start
-    parallel_rows_range(reader->table->count, index, &first, &last);
+    parallel_rows_range(reader->table->rows.count, index, &first, &last);
     const uint8_t *at = reader->chunks[index];
     for (size_t row = first; at && row < last; row++)
-        at = read_row(reader, row, at, reader->rows ? reader->rows + row * reader->table->stride : NULL,
-                      reader->items ? reader->items + reader->starts[row] : NULL, error);
+        at = read_row(reader, row, at, reader->rows ? reader->rows + row * reader->table->rows.stride : NULL,
+                      ply_row_items(reader, row), error);
     return at != NULL;
 }
 
@@ -230,7 +230,7 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
     reader.end = source->bytes + source->size;
     const uint8_t *end = reader.first;
     if (table) {
-        *table = (struct ply_table){.element = element, .count = (size_t)element->count};
+        *table = (struct ply_table){.element = element, .rows.count = (size_t)element->count};
         if (!read_rows(&reader, request->keep, request->scratch, &end, error))
             return false;
     } else if (!index_rows(&reader, &end, error)) {

@@ -1,58 +1,57 @@
 // ply_binary.c: reads the rows of one element of a binary PLY as a table.
 //
-// Rows without lists have a fixed stride and are used in place. Rows with lists are indexed by a serial pass; then
-// chunks of them are read in parallel. In nearly all files, faces are one list of three corners: if the number of
-// remaining bytes suggests this layout, the rows are read with its fixed stride and checked.
+// Rows without lists have a fixed stride and stay in the file. Rows with lists are indexed by a serial pass, which needs
+// them in memory; then chunks of them are read in parallel. In nearly all files, faces are one list of three corners: if
+// the number of remaining bytes suggests this layout, the rows are read with its fixed stride and checked.
 #include "fail.h"
 #include "shown_name.h"
 #include "ply_load.h"
 #include "ply_rows.h"
 
-static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error)
+static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t *at, size_t offset, lam_error *error)
 {
     const struct ply_element *element = reader->element;
     const struct ply_property *list = &element->properties[reader->request->list];
-    return fail_byte(error, reader->source, (size_t)(at - reader->source->bytes),
-                     "%s %zu of %llu: found index %lld in %s, expected 0 to %lld", element->name, row + 1,
-                     (unsigned long long)element->count,
+    return fail_byte(error, reader->source, offset, "%s %zu of %llu: found index %lld in %s, expected 0 to %lld",
+                     element->name, row + 1, (unsigned long long)element->count,
                      (long long)ply_load_integer(at, list->type, reader->table->swapped), list->name,
                      (long long)reader->request->item_limit - 1);
 }
 
-// Reads and checks the items of one row's list.
-static bool read_items(const struct ply_reader *reader, size_t row, const uint8_t *at, uint32_t count, uint32_t *items,
-                       lam_error *error)
+// Reads and checks the items of one row's list, which begins at `offset` of the file. `items` may be NULL.
+static bool read_items(const struct ply_reader *reader, size_t row, const uint8_t *at, size_t offset, uint32_t count,
+                       uint32_t *items, lam_error *error)
 {
     enum ply_type type = reader->element->properties[reader->request->list].type;
     bool swapped = reader->table->swapped;
     size_t size = ply_type_size(type);
     for (uint32_t i = 0; i < count; i++, at += size) {
         int64_t item = ply_load_integer(at, type, swapped);
-        if (item == -1 && reader->request->restarts)
-            items[i] = PLY_RESTART;
-        else if (item < 0 || item >= (int64_t)reader->request->item_limit)
-            return fail_item(reader, row, at, error);
-        else
-            items[i] = (uint32_t)item;
+        bool restart = item == -1 && reader->request->restarts;
+        if (!restart && (item < 0 || item >= (int64_t)reader->request->item_limit))
+            return fail_item(reader, row, at, offset + i * size, error);
+        if (items)
+            items[i] = restart ? PLY_RESTART : (uint32_t)item;
     }
     return true;
 }
 
 // Reads a chunk of rows with three items each, at a fixed stride.
-static bool read_triangles(void *user, size_t index, lam_error *error)
+static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_error *error)
 {
     struct ply_reader *reader = user;
     const struct ply_property *list = &reader->element->properties[reader->request->list];
-    size_t first, last, count_size = ply_type_size(list->count_type);
-    parallel_rows_range(reader->table->count, index, &first, &last);
-    const uint8_t *at = reader->first + first * reader->stride + reader->list_offset;
+    const struct row_bytes *all = &reader->table->rows;
+    size_t first, last, count_size = ply_type_size(list->count_type), stride = all->stride;
+    parallel_rows_range(all->count, index, &first, &last);
+    const uint8_t *at = rows + reader->list_offset;
     uint32_t *items = reader->items + 3 * first, limit = reader->request->item_limit;
     bool swapped = reader->table->swapped;
 
     // Branch-free for a one-byte count and three 32-bit items. Negative items, as unsigned, exceed the limit too.
     if (count_size == 1 && ply_type_size(list->type) == 4 && !swapped) {
         uint32_t other = 0, wrong = 0;
-        for (size_t row = first; row < last; row++, at += reader->stride, items += 3) {
+        for (size_t row = first; row < last; row++, at += stride, items += 3) {
             uint32_t three[3];
             memcpy(three, at + 1, sizeof three);
             memcpy(items, three, sizeof three);
@@ -65,15 +64,16 @@ static bool read_triangles(void *user, size_t index, lam_error *error)
         }
         if (!wrong)
             return true;
-        at = reader->first + first * reader->stride + reader->list_offset;
+        at = rows + reader->list_offset;
         items = reader->items + 3 * first;
     }
-    for (size_t row = first; row < last; row++, at += reader->stride, items += 3) {
+    for (size_t row = first; row < last; row++, at += stride, items += 3) {
         if (ply_load_integer(at, list->count_type, swapped) != 3) {
             __atomic_store_n(&reader->mixed, 1, __ATOMIC_RELAXED);
             return true;
         }
-        if (!read_items(reader, row, at + count_size, 3, items, error))
+        size_t offset = all->offset + row * stride + reader->list_offset + count_size;
+        if (!read_items(reader, row, at + count_size, offset, 3, items, error))
             return false;
     }
     return true;
@@ -85,7 +85,7 @@ static bool may_be_triangles(const struct ply_reader *reader, const struct ply_h
     const struct ply_element *element = reader->element, *end = header->elements + header->element_count;
     if (reader->request->list < 0 || reader->request->restarts || element->list_count != 1)
         return false;
-    uint64_t left = reader->source->size - (size_t)(reader->first - reader->source->bytes);
+    uint64_t left = reader->source->size - reader->offset;
     const struct ply_property *list = &element->properties[reader->request->list];
     for (const struct ply_element *e = element; e < end; e++) {
         if (e != element && e->list_count > 0)
@@ -111,11 +111,12 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
     uint32_t *offsets = arena_array(scratch, property_count, sizeof *offsets);
     if (!reader->items || !offsets)
         return call_memory_error(reader->source->call, count * 3 * sizeof *reader->items, error);
-    reader->list_offset = reader->table->offsets[list];
-    reader->stride = element->scalar_bytes + list_bytes;
+    struct ply_table *table = reader->table;
+    reader->list_offset = table->offsets[list];
+    table->rows.stride = element->scalar_bytes + list_bytes;
 
     lam_error wrong;
-    bool good = parallel_rows_run(reader->source, parallel_rows_count(count), read_triangles, reader, &wrong);
+    bool good = parallel_rows_read(reader->source, &table->rows, read_triangles, reader, &wrong);
     if (reader->mixed)
         return true; // errors found with the wrong stride are meaningless
     if (!good) {
@@ -124,20 +125,18 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
         return false;
     }
     for (size_t i = 0; i < property_count; i++) // properties after the list
-        offsets[i] = reader->table->offsets[i] + ((int)i > list ? (uint32_t)list_bytes : 0);
-    reader->table->offsets = offsets;
-    reader->table->stride = reader->stride;
-    reader->table->rows = reader->first;
-    reader->table->items = reader->items;
+        offsets[i] = table->offsets[i] + ((int)i > list ? (uint32_t)list_bytes : 0);
+    table->offsets = offsets;
+    table->items = reader->items;
     *done = true;
     return true;
 }
 
-// Runs the serial pass: sets the start of each chunk and the starts of the list, and *end to the end of the last row.
-static bool index_rows(struct ply_reader *reader, const uint8_t **end, lam_error *error)
+// Runs the serial pass: sets the start of each chunk and the starts of the list, and *at to the end of the last row.
+static bool index_rows(struct ply_reader *reader, size_t *offset, lam_error *error)
 {
     const struct ply_element *element = reader->element;
-    const uint8_t *at = reader->first, *file_end = reader->source->bytes + reader->source->size;
+    const uint8_t *at = reader->first, *file_end = at + (reader->source->size - reader->offset);
     for (size_t row = 0; row < element->count; row++) {
         if (!ply_index_row(reader, row, at, error))
             return false;
@@ -150,7 +149,7 @@ static bool index_rows(struct ply_reader *reader, const uint8_t **end, lam_error
                 int64_t items = ply_load_integer(at, property->count_type, reader->table->swapped);
                 char shown[2][SHOWN_NAME_SIZE];
                 if (items < 0)
-                    return fail_byte(error, reader->source, (size_t)(at - reader->source->bytes),
+                    return fail_byte(error, reader->source, reader->offset + (size_t)(at - reader->first),
                                      "%s %zu of %llu: found %lld as the number of items of %s, expected 0 or more",
                                      shown_name(element->name, shown[0]), row + 1, (unsigned long long)element->count,
                                      (long long)items, shown_name(property->name, shown[1]));
@@ -166,7 +165,7 @@ static bool index_rows(struct ply_reader *reader, const uint8_t **end, lam_error
         if (reader->total >= UINT32_MAX)
             return ply_fail_too_many(reader->source, element, error);
     }
-    *end = at;
+    *offset += (size_t)(at - reader->first);
     return true;
 }
 
@@ -174,8 +173,8 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
 {
     const struct ply_reader *reader = user;
     const struct ply_element *element = reader->element;
-    size_t first, last;
-    parallel_rows_range(reader->table->count, index, &first, &last);
+    size_t first, last, stride = reader->table->rows.stride;
+    parallel_rows_range(reader->table->rows.count, index, &first, &last);
     const uint8_t *at = reader->chunks[index];
     for (size_t row = first; row < last; row++) {
         for (int i = 0; i < element->property_count; i++) {
@@ -185,11 +184,12 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
                 uint32_t count = (uint32_t)ply_load_integer(at, property->count_type, reader->table->swapped);
                 at += ply_type_size(property->count_type);
                 if (i == reader->request->list &&
-                    !read_items(reader, row, at, count, reader->items + reader->starts[row], error))
+                    !read_items(reader, row, at, reader->offset + (size_t)(at - reader->first), count,
+                                ply_row_items(reader, row), error))
                     return false;
                 size *= count;
             } else if (reader->rows) {
-                memcpy(reader->rows + row * reader->table->stride + reader->table->offsets[i], at, size);
+                memcpy(reader->rows + row * stride + reader->table->offsets[i], at, size);
             }
             at += size;
         }
@@ -211,34 +211,30 @@ bool ply_read_binary(const struct import_source *source, const struct ply_header
     struct ply_table unused = {0};
     bool skip = !table;
     table = skip ? &unused : table;
-    *table = (struct ply_table){.element = element, .count = (size_t)element->count};
+    *table = (struct ply_table){.element = element, .rows = {.offset = *at, .count = (size_t)element->count}};
     bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
     table->swapped = (header->format == PLY_BIG) != big;
-    struct ply_reader reader = {.source = source, .element = element, .request = skip ? &nothing : request};
-    reader.table = table;
-    reader.first = source->bytes + *at;
-
+    struct ply_reader reader = {
+        .source = source, .element = element, .request = skip ? &nothing : request, .table = table, .offset = *at};
+    if (!skip && !ply_plan_rows(source, request, scratch, table, error))
+        return false;
     if (element->list_count == 0) {
-        *at += table->count * element->scalar_bytes;
-        table->rows = reader.first;
-        return skip || ply_plan_rows(source, request, scratch, table, error);
+        *at += table->rows.count * element->scalar_bytes;
+        return true;
     }
-    const uint8_t *end = source->bytes + source->size;
     bool done = false;
-    if (skip) {
-        if (!index_rows(&reader, &end, error))
-            return false;
-    } else {
-        if (!ply_plan_rows(source, request, scratch, table, error))
-            return false;
-        if (may_be_triangles(&reader, header) && !try_triangles(&reader, keep, scratch, &done, error))
-            return false;
-        if (!done && !(ply_start_rows(&reader, scratch, error) && index_rows(&reader, &end, error) &&
-                       ply_read_rows(&reader, read_chunk, keep, scratch, error)))
-            return false;
-        if (done)
-            end = reader.first + table->count * reader.stride;
+    if (!skip && may_be_triangles(&reader, header) && !try_triangles(&reader, keep, scratch, &done, error))
+        return false;
+    if (done) {
+        *at += table->rows.count * table->rows.stride;
+        return true;
     }
-    *at = (size_t)(end - source->bytes);
-    return true;
+    reader.first = parallel_rows_rest(source, *at, scratch, error);
+    if (!reader.first)
+        return false;
+    if (skip)
+        return index_rows(&reader, at, error);
+    table->rows.stride = element->scalar_bytes; // try_triangles has changed it
+    return ply_start_rows(&reader, scratch, error) && index_rows(&reader, at, error) &&
+           ply_read_rows(&reader, read_chunk, keep, scratch, error);
 }

@@ -7,14 +7,14 @@
 
 #include <float.h>
 
-void ply_copy_column(const struct ply_table *table, int property, size_t first, size_t last, float divisor, float *out,
-                     size_t step)
+void ply_copy_column(const struct ply_table *table, int property, const uint8_t *rows, size_t count, float divisor,
+                     float *out, size_t step)
 {
-    const uint8_t *at = table->rows + first * table->stride + table->offsets[property];
-    size_t stride = table->stride;
+    const uint8_t *at = rows + table->offsets[property];
+    size_t stride = table->rows.stride;
     bool swapped = table->swapped;
 #define COLUMN(LOAD)                                                                                                   \
-    for (size_t row = first; row < last; row++, at += stride, out += step)                                             \
+    for (size_t row = 0; row < count; row++, at += stride, out += step)                                                \
         *out = (float)(LOAD) / divisor;                                                                                \
     break
     switch (table->types[property]) {
@@ -58,37 +58,46 @@ bool ply_find_all(const struct ply_table *table, const char *const *names, int c
     return all;
 }
 
-enum kind { NORMALS, TANGENTS, TEXCOORDS, COLORS, COLORS_RAW };
+enum kind { NORMALS, TANGENTS, TEXCOORDS, COLORS, COLORS_RAW, COLORS_BYTES, KINDS };
 
-struct vectors {
-    const struct ply_table *table;
+// An array of vectors to fill.
+struct column {
     enum kind kind;
     int properties[4]; // −1 means the constant 1
     float divisors[4];
     int width; // numbers per vector
     bool contiguous;
-    float *out;
+    void *out; // floats, or bytes for COLORS_BYTES
 };
 
-static void clean_vector(const struct vectors *vectors, float *v)
+// The columns that one pass fills.
+struct columns {
+    const struct import_source *source;
+    const struct ply_table *table;
+    struct arena *arena;
+    struct column columns[KINDS];
+    int count;
+};
+
+static void clean_vector(enum kind kind, float *v)
 {
-    if (vectors->kind == COLORS || vectors->kind == COLORS_RAW) {
+    if (kind == COLORS || kind == COLORS_RAW) {
         for (int c = 0; c < 4; c++) {
             v[c] = v[c] >= 0.0f ? (v[c] <= FLT_MAX ? v[c] : FLT_MAX) : 0.0f; // NaN becomes 0
             if (c == 3)
                 v[c] = v[c] < 1.0f ? v[c] : 1.0f;
-            else if (vectors->kind == COLORS && v[c] <= 1.0f) // sRGB is not defined above 1, so the value is linear
+            else if (kind == COLORS && v[c] <= 1.0f) // sRGB is not defined above 1, so the value is linear
                 v[c] = (float)srgb_linear((double)v[c]);
         }
         return;
     }
-    int numbers = vectors->kind == TEXCOORDS ? 2 : 3;
+    int numbers = kind == TEXCOORDS ? 2 : 3;
     bool good = true;
     for (int c = 0; c < numbers; c++)
         good &= v[c] >= -FLT_MAX && v[c] <= FLT_MAX;
     if (!good)
         memset(v, 0, (size_t)numbers * sizeof *v);
-    if (vectors->kind == TANGENTS) {
+    if (kind == TANGENTS) {
         lam_vec3 unit = v3_unit(v3((double)v[0], (double)v[1], (double)v[2]));
         v[0] = (float)unit.x;
         v[1] = (float)unit.y;
@@ -96,68 +105,78 @@ static void clean_vector(const struct vectors *vectors, float *v)
     }
 }
 
-static bool vector_chunk(void *user, size_t index, lam_error *error)
+static void fill_vectors(const struct ply_table *table, const struct column *column, const uint8_t *rows, size_t count,
+                         float *out)
+{
+    size_t width = (size_t)column->width;
+    if (column->contiguous) {
+        const uint8_t *at = rows + table->offsets[column->properties[0]];
+        for (size_t i = 0; i < count; i++, at += table->rows.stride)
+            memcpy(out + width * i, at, width * sizeof(float));
+    }
+    for (size_t c = 0; !column->contiguous && c < width; c++) {
+        if (column->properties[c] >= 0)
+            ply_copy_column(table, column->properties[c], rows, count, column->divisors[c], out + c, width);
+        else
+            for (size_t i = 0; i < count; i++)
+                out[width * i + c] = 1.0f;
+    }
+    for (size_t i = 0; i < count; i++)
+        clean_vector(column->kind, out + width * i);
+}
+
+static void fill_bytes(const struct ply_table *table, const struct column *column, const uint8_t *rows, size_t count,
+                       uint8_t *out)
+{
+    uint32_t offsets[4] = {0};
+    bool has_alpha = column->properties[3] >= 0;
+    for (int c = 0; c < 3 + has_alpha; c++)
+        offsets[c] = table->offsets[column->properties[c]];
+    for (size_t i = 0; i < count; i++, rows += table->rows.stride, out += 4) {
+        out[0] = rows[offsets[0]];
+        out[1] = rows[offsets[1]];
+        out[2] = rows[offsets[2]];
+        out[3] = has_alpha ? rows[offsets[3]] : 255;
+    }
+}
+
+static bool columns_chunk(void *user, size_t index, const uint8_t *rows, lam_error *error)
 {
     (void)error;
-    const struct vectors *vectors = user;
-    const struct ply_table *table = vectors->table;
-    size_t first, last, width = (size_t)vectors->width;
-    parallel_rows_range(table->count, index, &first, &last);
-    float *out = vectors->out + width * first;
-    if (vectors->contiguous) {
-        const uint8_t *at = table->rows + first * table->stride + table->offsets[vectors->properties[0]];
-        for (size_t row = first; row < last; row++, at += table->stride, out += width)
-            memcpy(out, at, width * sizeof(float));
-    } else {
-        for (size_t c = 0; c < width; c++) {
-            if (vectors->properties[c] >= 0) {
-                ply_copy_column(table, vectors->properties[c], first, last, vectors->divisors[c], out + c, width);
-                continue;
-            }
-            for (size_t row = first; row < last; row++)
-                vectors->out[width * row + c] = 1.0f;
-        }
+    const struct columns *columns = user;
+    size_t first, last;
+    parallel_rows_range(columns->table->rows.count, index, &first, &last);
+    for (int i = 0; i < columns->count; i++) {
+        const struct column *column = &columns->columns[i];
+        size_t at = (size_t)column->width * first;
+        if (column->kind == COLORS_BYTES)
+            fill_bytes(columns->table, column, rows, last - first, (uint8_t *)column->out + at);
+        else
+            fill_vectors(columns->table, column, rows, last - first, (float *)column->out + at);
     }
-    for (size_t row = first; row < last; row++)
-        clean_vector(vectors, vectors->out + width * row);
     return true;
 }
 
-// Reads vectors whose first `numbers` components are properties; the others are 1.
-static bool read_vectors(const struct import_source *source, struct vectors *vectors, int numbers, struct arena *arena,
-                         const float **out, lam_error *error)
+// Adds a column whose first `numbers` components are properties; the others are 1. Returns its array, or NULL if memory
+// runs out.
+static void *add_column(struct columns *columns, struct column column, int numbers, lam_error *error)
 {
-    size_t bytes = vectors->table->count * (size_t)vectors->width * sizeof(float);
+    const struct ply_table *table = columns->table;
+    size_t bytes = table->rows.count * (size_t)column.width * (column.kind == COLORS_BYTES ? 1 : sizeof(float));
     bool whole = true;
     for (int i = 0; i < 4; i++) {
         if (i >= numbers)
-            vectors->properties[i] = -1;
-        if (vectors->divisors[i] == 0.0f)
-            vectors->divisors[i] = 1.0f;
-        whole &= vectors->divisors[i] == 1.0f;
+            column.properties[i] = -1;
+        if (column.divisors[i] == 0.0f)
+            column.divisors[i] = 1.0f;
+        whole &= column.divisors[i] == 1.0f;
     }
-    vectors->contiguous = whole && ply_contiguous(vectors->table, vectors->properties, vectors->width);
-    vectors->out = arena_alloc(arena, bytes);
-    if (!vectors->out)
-        return call_memory_error(source->call, bytes, error);
-    *out = vectors->out;
-    return parallel_rows_run(source, parallel_rows_count(vectors->table->count), vector_chunk, vectors, error);
-}
-
-bool ply_normals(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                 const float **out, lam_error *error)
-{
-    static const char *const names[] = {"nx", "ny", "nz"};
-    struct vectors vectors = {.table = table, .kind = NORMALS, .width = 3};
-    return !ply_find_all(table, names, 3, vectors.properties) || read_vectors(source, &vectors, 3, arena, out, error);
-}
-
-bool ply_tangents(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                  const float **out, lam_error *error)
-{
-    static const char *const names[] = {"tx", "ty", "tz"};
-    struct vectors vectors = {.table = table, .kind = TANGENTS, .width = 4};
-    return !ply_find_all(table, names, 3, vectors.properties) || read_vectors(source, &vectors, 3, arena, out, error);
+    column.contiguous = whole && ply_contiguous(table, column.properties, column.width);
+    column.out = arena_alloc(columns->arena, bytes);
+    if (!column.out)
+        call_memory_error(columns->source->call, bytes, error);
+    columns->columns[columns->count++] = column;
+    return column.out;
 }
 
 // Returns the divisor that maps 8- and 16-bit integers to 0…1.
@@ -168,46 +187,17 @@ static float divisor_of(enum ply_type type)
     return divisors[type] > 0.0f ? divisors[type] : 1.0f;
 }
 
-bool ply_texcoords(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                   const float **out, lam_error *error)
+static bool add_texcoords(struct columns *columns, const float **out, lam_error *error)
 {
     static const char *const names[][2] = {
         {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        struct vectors vectors = {.table = table, .kind = TEXCOORDS, .width = 2};
-        if (!ply_find_all(table, names[i], 2, vectors.properties))
+        struct column column = {.kind = TEXCOORDS, .width = 2};
+        if (!ply_find_all(columns->table, names[i], 2, column.properties))
             continue;
         for (int c = 0; c < 2; c++)
-            vectors.divisors[c] = divisor_of(table->types[vectors.properties[c]]);
-        return read_vectors(source, &vectors, 2, arena, out, error);
-    }
-    return true;
-}
-
-struct bytes {
-    const struct ply_table *table;
-    int properties[4];
-    uint8_t *out;
-};
-
-static bool byte_chunk(void *user, size_t index, lam_error *error)
-{
-    (void)error;
-    const struct bytes *bytes = user;
-    const struct ply_table *table = bytes->table;
-    size_t first, last;
-    parallel_rows_range(table->count, index, &first, &last);
-    uint32_t red = table->offsets[bytes->properties[0]], green = table->offsets[bytes->properties[1]];
-    uint32_t blue = table->offsets[bytes->properties[2]];
-    bool has_alpha = bytes->properties[3] >= 0;
-    uint32_t alpha = has_alpha ? table->offsets[bytes->properties[3]] : 0;
-    const uint8_t *row = table->rows + first * table->stride;
-    uint8_t *out = bytes->out + 4 * first;
-    for (size_t i = first; i < last; i++, row += table->stride, out += 4) {
-        out[0] = row[red];
-        out[1] = row[green];
-        out[2] = row[blue];
-        out[3] = has_alpha ? row[alpha] : 255;
+            column.divisors[c] = divisor_of(columns->table->types[column.properties[c]]);
+        return (*out = add_column(columns, column, 2, error)) != NULL;
     }
     return true;
 }
@@ -225,38 +215,44 @@ bool ply_find_colors(const struct ply_table *table, int properties[4])
     return false;
 }
 
-bool ply_colors(const struct import_source *source, const struct ply_table *table, struct arena *arena,
-                const void **out, lam_colors_format *format, lam_error *error)
+static bool add_colors(struct columns *columns, struct ply_attributes *out, lam_error *error)
 {
-    bool raw = source->params->color == LAM_COLOR_RAW;
-    int found[4];
-    if (!ply_find_colors(table, found))
+    const struct ply_table *table = columns->table;
+    bool raw = columns->source->params->color == LAM_COLOR_RAW, all_bytes = true;
+    struct column column = {.kind = raw ? COLORS_RAW : COLORS, .width = 4};
+    if (!ply_find_colors(table, column.properties))
         return true;
-    int numbers = found[3] < 0 ? 3 : 4;
-    bool all_bytes = true;
-    for (int c = 0; c < numbers; c++)
-        all_bytes &= table->types[found[c]] == PLY_U8;
-    if (all_bytes) {
-        struct bytes bytes = {.table = table, .out = arena_array(arena, table->count, 4)};
-        memcpy(bytes.properties, found, sizeof found);
-        if (!bytes.out)
-            return call_memory_error(source->call, 4 * table->count, error);
-        *out = bytes.out;
-        *format = raw ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
-        return parallel_rows_run(source, parallel_rows_count(table->count), byte_chunk, &bytes, error);
-    }
-
-    struct vectors vectors = {.table = table, .kind = raw ? COLORS_RAW : COLORS, .width = 4};
-    memcpy(vectors.properties, found, sizeof found);
+    int numbers = column.properties[3] < 0 ? 3 : 4;
     for (int c = 0; c < numbers; c++) {
-        enum ply_type type = table->types[found[c]];
+        enum ply_type type = table->types[column.properties[c]];
+        all_bytes &= type == PLY_U8;
         // For colours of type int or uint, programs use 0…255.
-        vectors.divisors[c] = type == PLY_I32 || type == PLY_U32 ? 255.0f : divisor_of(type);
+        column.divisors[c] = type == PLY_I32 || type == PLY_U32 ? 255.0f : divisor_of(type);
     }
-    const float *floats = NULL;
-    if (!read_vectors(source, &vectors, numbers, arena, &floats, error))
+    column.kind = all_bytes ? COLORS_BYTES : column.kind;
+    out->colors_format = !all_bytes ? LAM_COLORS_LINEAR_F32 : raw ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
+    return (out->colors = add_column(columns, column, numbers, error)) != NULL;
+}
+
+static bool add_directions(struct columns *columns, const char *const *names, struct column column, const float **out,
+                           lam_error *error)
+{
+    return !ply_find_all(columns->table, names, 3, column.properties) ||
+           (*out = add_column(columns, column, 3, error)) != NULL;
+}
+
+bool ply_read_attributes(const struct import_source *source, const struct ply_table *table, unsigned wanted,
+                         struct arena *arena, struct ply_attributes *out, lam_error *error)
+{
+    static const char *const normals[] = {"nx", "ny", "nz"}, *const tangents[] = {"tx", "ty", "tz"};
+    struct columns columns = {.source = source, .table = table, .arena = arena};
+    *out = (struct ply_attributes){0};
+    if ((wanted & PLY_NORMALS &&
+         !add_directions(&columns, normals, (struct column){.kind = NORMALS, .width = 3}, &out->normals, error)) ||
+        (wanted & PLY_TANGENTS &&
+         !add_directions(&columns, tangents, (struct column){.kind = TANGENTS, .width = 4}, &out->tangents, error)) ||
+        (wanted & PLY_TEXCOORDS && !add_texcoords(&columns, &out->texcoords, error)) ||
+        (wanted & PLY_COLORS && !add_colors(&columns, out, error)))
         return false;
-    *out = floats;
-    *format = LAM_COLORS_LINEAR_F32;
-    return true;
+    return columns.count == 0 || parallel_rows_read(source, &table->rows, columns_chunk, &columns, error);
 }

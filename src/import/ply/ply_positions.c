@@ -21,46 +21,52 @@ struct positions {
 
 static bool fail_position(const struct positions *positions, size_t row, int axis, const char *found, lam_error *error)
 {
-    const struct ply_table *table = positions->table;
-    const uint8_t *at = table->rows + row * table->stride + table->offsets[positions->properties[axis]];
+    const struct row_bytes *rows = &positions->table->rows;
     const struct import_source *source = positions->source;
-    uintptr_t offset = (uintptr_t)at - (uintptr_t)source->bytes;
-    if (offset < source->size) // binary rows point into the file
-        return fail_byte(error, source, offset, "vertex %zu of %zu: found %s as %c, expected a finite number", row + 1,
-                         table->count, found, "xyz"[axis]);
+    if (!rows->memory)
+        return fail_byte(
+            error, source, rows->offset + row * rows->stride + positions->table->offsets[positions->properties[axis]],
+            "vertex %zu of %zu: found %s as %c, expected a finite number", row + 1, rows->count, found, "xyz"[axis]);
     return fail(error, LAM_CANNOT_READ, "%s: vertex %zu of %zu: found %s as %c, expected a finite number", source->name,
-                row + 1, table->count, found, "xyz"[axis]);
+                row + 1, rows->count, found, "xyz"[axis]);
 }
 
-static double position_at(const struct positions *positions, size_t row, int axis)
+static double position_at(const struct positions *positions, const uint8_t *row, int axis)
 {
     const struct ply_table *table = positions->table;
     int property = positions->properties[axis];
-    return ply_load_double(table->rows + row * table->stride + table->offsets[property], table->types[property],
-                           table->swapped);
+    return ply_load_double(row + table->offsets[property], table->types[property], table->swapped);
 }
 
 static bool is_finite(double value) { return value >= -DBL_MAX && value <= DBL_MAX; }
 
 // Copies floats, and integers that floats represent exactly.
-static bool copy_chunk(void *user, size_t index, lam_error *error)
+static bool copy_chunk(void *user, size_t index, const uint8_t *rows, lam_error *error)
 {
     const struct positions *positions = user;
     const struct ply_table *table = positions->table;
     size_t first, last;
-    parallel_rows_range(table->count, index, &first, &last);
+    parallel_rows_range(table->rows.count, index, &first, &last);
     float *out = positions->out + 3 * first;
-    if (positions->contiguous) {
-        const uint8_t *at = table->rows + first * table->stride + table->offsets[positions->properties[0]];
-        for (size_t row = first; row < last; row++, at += table->stride, out += 3)
+    size_t stride = table->rows.stride;
+    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
+    bool only_floats = positions->contiguous && stride == 3 * sizeof(float);
+    if (only_floats) {
+        for (size_t i = 0; i < 3 * (last - first); i++) {
+            uint32_t bits;
+            memcpy(&bits, rows + 4 * i, sizeof bits);
+            memcpy(out + i, &bits, sizeof bits);
+            nonfinite |= (bits & 0x7fffffff) + 0x00800000;
+        }
+    } else if (positions->contiguous) {
+        const uint8_t *at = rows + table->offsets[positions->properties[0]];
+        for (size_t row = first; row < last; row++, at += stride, out += 3)
             memcpy(out, at, 3 * sizeof(float));
     } else {
         for (int axis = 0; axis < 3; axis++)
-            ply_copy_column(table, positions->properties[axis], first, last, 1.0f, out + axis, 3);
+            ply_copy_column(table, positions->properties[axis], rows, last - first, 1.0f, out + axis, 3);
     }
-
-    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
-    for (size_t i = 3 * first; i < 3 * last; i++) {
+    for (size_t i = 3 * first; i < 3 * last && !only_floats; i++) {
         uint32_t bits;
         memcpy(&bits, &positions->out[i], sizeof bits);
         nonfinite |= (bits & 0x7fffffff) + 0x00800000;
@@ -83,7 +89,7 @@ static bool copy_chunk(void *user, size_t index, lam_error *error)
     if (!(nonfinite & 0x80000000))
         return true;
     for (size_t i = 3 * first; i < 3 * last; i++) {
-        double value = position_at(positions, i / 3, (int)(i % 3));
+        double value = position_at(positions, rows + (i / 3 - first) * stride, (int)(i % 3));
         if (!is_finite(value))
             return fail_position(positions, i / 3, (int)(i % 3), value != value ? "NaN" : "infinity", error);
     }
@@ -91,15 +97,15 @@ static bool copy_chunk(void *user, size_t index, lam_error *error)
 }
 
 // Doubles and 32-bit integers take two passes: their bounding box, which determines the origin, then the rounding.
-static bool measure_chunk(void *user, size_t index, lam_error *error)
+static bool measure_chunk(void *user, size_t index, const uint8_t *at, lam_error *error)
 {
     const struct positions *positions = user;
     size_t first, last;
-    parallel_rows_range(positions->table->count, index, &first, &last);
+    parallel_rows_range(positions->table->rows.count, index, &first, &last);
     struct box box = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}, true};
-    for (size_t row = first; row < last; row++) {
+    for (size_t row = first; row < last; row++, at += positions->table->rows.stride) {
         for (int axis = 0; axis < 3; axis++) {
-            double value = position_at(positions, row, axis);
+            double value = position_at(positions, at, axis);
             if (!is_finite(value))
                 return fail_position(positions, row, axis, value != value ? "NaN" : "infinity", error);
             box.minimum[axis] = value < box.minimum[axis] ? value : box.minimum[axis];
@@ -110,14 +116,14 @@ static bool measure_chunk(void *user, size_t index, lam_error *error)
     return true;
 }
 
-static bool round_chunk(void *user, size_t index, lam_error *error)
+static bool round_chunk(void *user, size_t index, const uint8_t *at, lam_error *error)
 {
     const struct positions *positions = user;
     size_t first, last;
-    parallel_rows_range(positions->table->count, index, &first, &last);
-    for (size_t row = first; row < last; row++) {
+    parallel_rows_range(positions->table->rows.count, index, &first, &last);
+    for (size_t row = first; row < last; row++, at += positions->table->rows.stride) {
         for (int axis = 0; axis < 3; axis++) {
-            double value = position_at(positions, row, axis) - positions->origin[axis];
+            double value = position_at(positions, at, axis) - positions->origin[axis];
             if (!(value >= -(double)FLT_MAX && value <= (double)FLT_MAX))
                 return fail_position(positions, row, axis, "a number outside a float's range", error);
             positions->out[3 * row + (size_t)axis] = (float)value;
@@ -154,18 +160,18 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
         return fail_line(error, source, table->element->line, "element vertex has no property %s, expected x, y and z",
                          names[missing]);
     }
-    if (table->count > UINT32_MAX - 1)
+    size_t count = table->rows.count, chunks = parallel_rows_count(count);
+    if (count > UINT32_MAX - 1)
         return ply_fail_too_many(source, table->element, error);
     bool exact = false;
     for (int axis = 0; axis < 3; axis++) {
         enum ply_type type = table->types[positions.properties[axis]];
         exact |= type == PLY_I32 || type == PLY_U32 || type == PLY_F64;
     }
-    size_t chunks = parallel_rows_count(table->count);
     positions.contiguous = ply_contiguous(table, positions.properties, 3);
-    positions.out = arena_array(arena, table->count, 3 * sizeof(float));
+    positions.out = arena_array(arena, count, 3 * sizeof(float));
     if (!positions.out)
-        return call_memory_error(source->call, table->count * 3 * sizeof(float), error);
+        return call_memory_error(source->call, count * 3 * sizeof(float), error);
 
     struct arena scratch;
     arena_start(&scratch, source->call);
@@ -175,17 +181,17 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
         done = positions.boxes || call_memory_error(source->call, chunks * sizeof *positions.boxes, error);
     }
     if (exact) {
-        done = done && parallel_rows_run(source, chunks, measure_chunk, &positions, error);
+        done = done && parallel_rows_read(source, &table->rows, measure_chunk, &positions, error);
         if (done && chunks > 0)
             choose_origin(&positions, chunks);
-        done = done && parallel_rows_run(source, chunks, round_chunk, &positions, error);
+        done = done && parallel_rows_read(source, &table->rows, round_chunk, &positions, error);
     } else {
-        done = done && parallel_rows_run(source, chunks, copy_chunk, &positions, error);
+        done = done && parallel_rows_read(source, &table->rows, copy_chunk, &positions, error);
         *needs_doubles = done && positions.boxes && chunks > 0 && choose_origin(&positions, chunks);
     }
     arena_free(&scratch);
     memcpy(mesh->origin, positions.origin, sizeof mesh->origin);
     mesh->positions = positions.out;
-    mesh->vertex_count = (uint32_t)table->count;
+    mesh->vertex_count = (uint32_t)count;
     return done;
 }

@@ -31,15 +31,15 @@ bool ply_plan_rows(const struct import_source *source, const struct ply_request 
     enum ply_type *types = arena_array(scratch, count, sizeof *types);
     if (!offsets || !types)
         return call_memory_error(source->call, count * (sizeof *offsets + sizeof *types), error);
-    table->stride = 0;
+    table->rows.stride = 0;
     for (size_t i = 0; i < count; i++) {
         const struct ply_property *property = &element->properties[i];
         bool position = !property->list && property->name[0] >= 'x' && property->name[0] <= 'z' && !property->name[1];
         types[i] = property->type;
         if (position && request->positions != PLY_AS_DECLARED)
             types[i] = request->positions == PLY_AS_FLOAT ? PLY_F32 : PLY_F64;
-        offsets[i] = (uint32_t)table->stride;
-        table->stride += property->list ? 0 : ply_type_size(types[i]);
+        offsets[i] = (uint32_t)table->rows.stride;
+        table->rows.stride += property->list ? 0 : ply_type_size(types[i]);
     }
     table->offsets = offsets;
     table->types = types;
@@ -50,7 +50,7 @@ bool ply_plan_rows(const struct import_source *source, const struct ply_request 
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error)
 {
     struct call_control *call = reader->source->call;
-    size_t count = reader->table->count, chunks = parallel_rows_count(count);
+    size_t count = reader->table->rows.count, chunks = parallel_rows_count(count);
     reader->chunks = arena_array(scratch, chunks, sizeof *reader->chunks);
     if (!reader->chunks)
         return call_memory_error(call, chunks * sizeof *reader->chunks, error);
@@ -80,23 +80,22 @@ bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_chunk, st
 {
     struct ply_table *table = reader->table;
     struct call_control *call = reader->source->call;
-    bool all_triangles = !reader->has_other_counts && !reader->request->restarts;
+    size_t count = table->rows.count;
     if (reader->request->list >= 0) {
         size_t total = (size_t)reader->total;
-        reader->starts[table->count] = (uint32_t)total;
-        reader->items = arena_array(all_triangles ? keep : scratch, total, sizeof *reader->items);
+        reader->starts[count] = (uint32_t)total;
+        reader->items = arena_array(reader->request->restarts ? scratch : keep, total, sizeof *reader->items);
         if (!reader->items)
             return call_memory_error(call, total * sizeof *reader->items, error);
     }
     if (reader->request->scalars) {
-        reader->rows = arena_array(scratch, table->count, table->stride);
+        table->rows.memory = reader->rows = arena_array(scratch, count, table->rows.stride);
         if (!reader->rows)
-            return call_memory_error(call, table->count * table->stride, error);
+            return call_memory_error(call, count * table->rows.stride, error);
     }
-    if (!parallel_rows_run(reader->source, parallel_rows_count(table->count), read_chunk, reader, error))
+    if (!parallel_rows_run(reader->source, parallel_rows_count(count), read_chunk, reader, error))
         return false;
-    table->rows = reader->rows;
     table->items = reader->items;
-    table->starts = all_triangles ? NULL : reader->starts;
+    table->starts = reader->has_other_counts || reader->request->restarts ? reader->starts : NULL;
     return true;
 }

@@ -11,18 +11,19 @@ struct ply_reader {
     const struct ply_element *element;
     const struct ply_request *request;
     struct ply_table *table;
-    const uint8_t *first;     // row 0
+    const uint8_t *first;     // row 0, if it is in memory
     const uint8_t **chunks;   // start of each chunk
     uint32_t *items, *starts; // the contents of the requested list
     uint8_t *rows;            // scalars; NULL if not requested
-    uint64_t total;           // items of the requested list so far
+    uint64_t total;           // items so far (ply_table.items)
     bool has_other_counts;    // a row has more or fewer than three items
     // ply_ascii.c
     const uint8_t *end; // the end of the file
     size_t indexed;     // rows that passed index_rows
-    // ply_binary.c: rows with three items each
-    size_t list_offset, stride;
-    int mixed; // atomic; a row has another number of items
+    // ply_binary.c
+    size_t offset; // the offset of row 0 in the file
+    size_t list_offset;
+    int mixed; // atomic; in rows that should have three items each, one has another number
 };
 
 // Allocates the arrays that the serial pass fills.
@@ -33,8 +34,14 @@ bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam
 // Records the length of a row's requested list in the serial pass.
 static inline void ply_count_items(struct ply_reader *reader, int64_t items)
 {
-    reader->total += (uint64_t)items;
+    reader->total += reader->request->restarts ? (uint64_t)items : items < 3 ? 0 : 3 * ((uint64_t)items - 2);
     reader->has_other_counts |= items != 3;
+}
+
+// Returns the room for a row's items, or NULL if they are only checked: of a face without triangles.
+static inline uint32_t *ply_row_items(const struct ply_reader *reader, size_t row)
+{
+    return reader->items && reader->starts[row + 1] > reader->starts[row] ? reader->items + reader->starts[row] : NULL;
 }
 
 // Reads the rows after the serial pass and fills the table.

@@ -4,8 +4,6 @@
 #include "loop_status.h"
 #include "triangulate.h"
 
-#include <string.h>
-
 enum { TASK_POLYGONS = 1024, SMALL_POLYGON = 64 };
 
 // A thread's scratch memory.
@@ -23,6 +21,15 @@ struct splitting {
     struct splitter *splitters;
     struct loop_status loop;
 };
+
+// Puts a polygon's corners into the order of its triangles. `copy` has room for them.
+static inline void reorder(uint32_t *at, uint32_t count, const uint32_t *triples, uint32_t *copy)
+{
+    for (uint32_t i = 0; i < count; i++)
+        copy[i] = at[i];
+    for (uint32_t i = 0; i < 3 * (count - 2); i++)
+        at[i] = copy[triples[i]];
+}
 
 static bool split_polygon(const struct splitting *splitting, struct mesh_polygon polygon, struct splitter *splitter)
 {
@@ -42,12 +49,10 @@ static bool split_polygon(const struct splitting *splitting, struct mesh_polygon
     for (uint32_t i = 0; splitting->inner_edges && i < count - 2; i++)
         splitting->inner_edges[polygon.first_triangle + i] = triangulated_inner_edges(triples + 3 * (size_t)i, count);
     for (int k = 0; k < 3; k++) {
-        if (!splitting->corners[k])
-            continue;
-        uint32_t *at = splitting->corners[k] + first;
-        memcpy(corners, at, count * sizeof *corners);
-        for (uint32_t i = 0; i < corner_count; i++)
-            at[i] = corners[triples[i]];
+        if (splitting->corners[k] && count == 4) // the compiler unrolls it
+            reorder(splitting->corners[k] + first, 4, triples, corners);
+        else if (splitting->corners[k])
+            reorder(splitting->corners[k] + first, count, triples, corners);
     }
     return true;
 }

@@ -56,8 +56,8 @@ void ply_warn_header(const struct import_source *source, struct lam_scene *scene
 bool ply_read_header(const struct import_source *source, struct arena *arena, struct ply_header *header,
                      lam_error *error);
 
-size_t ply_type_size(enum ply_type type);
-const char *ply_type_name(enum ply_type type);
+// Returns the bytes of a number: a digit of the constant for each type.
+static inline size_t ply_type_size(enum ply_type type) { return 0x84442211 >> 4 * type & 15; }
 static inline bool ply_type_is_integer(enum ply_type type) { return type < PLY_F32; }
 
 // Returns the index of a property with this name, list or scalar, or −1 if there is none.
@@ -76,8 +76,8 @@ struct ply_table {
     const enum ply_type *types; // the type of each property in `rows`
     enum ply_positions_as positions;
     // The requested list with checked indices, from items[starts[r]] for row r; three items per row if `starts` is NULL.
-    // A polygon has 3 (n − 2) items: its n corners, and room for its triangles. With fewer than three corners it has none.
-    // A strip (ply_request.restarts) has its own items only.
+    // A row has room for its triangles: 3 (n − 2) items for n corners, of which the first n are set. It has none for
+    // fewer than three corners.
     uint32_t *items;
     const uint32_t *starts; // a row more than the table has
 };

@@ -158,7 +158,7 @@ static const uint8_t *read_row(const struct ply_reader *reader, size_t row, cons
     const struct ply_element *element = reader->element;
     const uint8_t *end = reader->end;
     uint8_t unused[8];
-    uint32_t unused_item;
+    uint32_t unused_item; // of a row without triangles, too
     for (int i = 0; at && i < element->property_count; i++) {
         at = text_skip_white(at, end);
         if (!element->properties[i].list) {
@@ -169,10 +169,11 @@ static const uint8_t *read_row(const struct ply_reader *reader, size_t row, cons
         }
         int64_t count = 0;
         at = read_integer(reader, at, &count); // index_rows has checked it
+        bool kept = items && count >= 3;
         for (int64_t item = 0; at && item < count; item++) {
             at = text_skip_white(at, end);
             at = i != reader->request->list ? text_skip_word(at, end)
-                                            : read_item(reader, row, at, items ? &items[item] : &unused_item, error);
+                                            : read_item(reader, row, at, kept ? &items[item] : &unused_item, error);
         }
     }
     return at;
@@ -188,7 +189,7 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
     const uint8_t *at = reader->chunks[index];
     for (size_t row = first; at && row < last; row++)
         at = read_row(reader, row, at, reader->rows ? reader->rows + row * reader->table->rows.stride : NULL,
-                      ply_row_items(reader, row), error);
+                      reader->items ? reader->items + reader->starts[row] : NULL, error);
     return at != NULL;
 }
 

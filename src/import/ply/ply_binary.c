@@ -8,32 +8,35 @@
 #include "ply_load.h"
 #include "ply_rows.h"
 
-static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t *at, size_t offset, lam_error *error)
+// Reports item `item` of a row's list, which is at `items`, offset `offset` of the file.
+static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t *items, size_t offset, uint32_t item,
+                      lam_error *error)
 {
     const struct ply_element *element = reader->element;
     const struct ply_property *list = &element->properties[reader->request->list];
-    return fail_byte(error, reader->source, offset, "%s %zu of %llu: found index %lld in %s, expected 0 to %lld",
+    size_t at = item * ply_type_size(list->type);
+    return fail_byte(error, reader->source, offset + at, "%s %zu of %llu: found index %lld in %s, expected 0 to %lld",
                      element->name, row + 1, (unsigned long long)element->count,
-                     (long long)ply_load_integer(at, list->type, reader->table->swapped), list->name,
+                     (long long)ply_load_integer(items + at, list->type, reader->table->swapped), list->name,
                      (long long)reader->request->item_limit - 1);
 }
 
-// Reads and checks the items of one row's list, which begins at `offset` of the file. `items` may be NULL.
-static bool read_items(const struct ply_reader *reader, size_t row, const uint8_t *at, size_t offset, uint32_t count,
-                       uint32_t *items, lam_error *error)
+// Reads and checks the items of one row's list. Returns the number of items before the first wrong one.
+static uint32_t read_items(const struct ply_reader *reader, const uint8_t *at, uint32_t count, uint32_t *items)
 {
     enum ply_type type = reader->element->properties[reader->request->list].type;
     bool swapped = reader->table->swapped;
     size_t size = ply_type_size(type);
     for (uint32_t i = 0; i < count; i++, at += size) {
         int64_t item = ply_load_integer(at, type, swapped);
-        bool restart = item == -1 && reader->request->restarts;
-        if (!restart && (item < 0 || item >= (int64_t)reader->request->item_limit))
-            return fail_item(reader, row, at, offset + i * size, error);
-        if (items)
-            items[i] = restart ? PLY_RESTART : (uint32_t)item;
+        if (item == -1 && reader->request->restarts)
+            items[i] = PLY_RESTART;
+        else if (item < 0 || item >= (int64_t)reader->request->item_limit)
+            return i;
+        else
+            items[i] = (uint32_t)item;
     }
-    return true;
+    return count;
 }
 
 // Reads a chunk of rows with three items each, at a fixed stride.
@@ -72,9 +75,10 @@ static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_er
             __atomic_store_n(&reader->mixed, 1, __ATOMIC_RELAXED);
             return true;
         }
-        size_t offset = all->offset + row * stride + reader->list_offset + count_size;
-        if (!read_items(reader, row, at + count_size, offset, 3, items, error))
-            return false;
+        uint32_t good = read_items(reader, at + count_size, 3, items);
+        if (good < 3)
+            return fail_item(reader, row, at + count_size,
+                             all->offset + row * stride + reader->list_offset + count_size, good, error);
     }
     return true;
 }
@@ -176,6 +180,7 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
     size_t first, last, stride = reader->table->rows.stride;
     parallel_rows_range(reader->table->rows.count, index, &first, &last);
     const uint8_t *at = reader->chunks[index];
+    uint32_t unused[2]; // items of a row without triangles
     for (size_t row = first; row < last; row++) {
         for (int i = 0; i < element->property_count; i++) {
             const struct ply_property *property = &element->properties[i];
@@ -183,10 +188,12 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
             if (property->list) {
                 uint32_t count = (uint32_t)ply_load_integer(at, property->count_type, reader->table->swapped);
                 at += ply_type_size(property->count_type);
-                if (i == reader->request->list &&
-                    !read_items(reader, row, at, reader->offset + (size_t)(at - reader->first), count,
-                                ply_row_items(reader, row), error))
-                    return false;
+                uint32_t good =
+                    i != reader->request->list
+                        ? count
+                        : read_items(reader, at, count, count < 3 ? unused : reader->items + reader->starts[row]);
+                if (good < count)
+                    return fail_item(reader, row, at, reader->offset + (size_t)(at - reader->first), good, error);
                 size *= count;
             } else if (reader->rows) {
                 memcpy(reader->rows + row * stride + reader->table->offsets[i], at, size);

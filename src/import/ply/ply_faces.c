@@ -15,33 +15,27 @@ static bool check_count(const struct import_source *source, uint64_t triangles, 
     return call_check_triangles(source->call, source->name, triangles, "triangles", error);
 }
 
-static uint32_t items_of(const struct ply_table *table, size_t row)
-{
-    return table->starts[row + 1] - table->starts[row];
-}
-
 // Splits the polygons, which already have the room for their triangles, and finds the face of each triangle if
 // `face_of` is not NULL.
 static bool split_polygons(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
                            struct arena *scratch, uint32_t *face_of, lam_mesh *mesh, lam_error *error)
 {
-    size_t count = 0, degenerate = 0;
-    for (size_t face = 0; face < faces->rows.count; face++) {
-        uint32_t items = items_of(faces, face);
-        degenerate += items == 0;
-        count += items > 3;
-        for (uint32_t t = faces->starts[face] / 3; face_of && t < faces->starts[face + 1] / 3; t++)
-            face_of[t] = (uint32_t)face;
+    size_t rows = faces->rows.count, most = mesh->triangle_count / 2, count = 0, degenerate = 0;
+    most = most < rows ? most : rows;
+    struct mesh_polygon *polygons = arena_array(scratch, most, sizeof *polygons);
+    if (!polygons)
+        return call_memory_error(source->call, most * sizeof *polygons, error);
+    for (uint32_t face = 0, first = 0, triangles; face < rows; face++, first += triangles) {
+        triangles = faces->starts[face + 1] / 3 - first;
+        degenerate += triangles == 0;
+        if (triangles > 1)
+            polygons[count++] = (struct mesh_polygon){first, triangles + 2};
+        for (uint32_t t = 0; face_of && t < triangles; t++)
+            face_of[first + t] = face;
     }
     if (degenerate > 0)
         scene_warn(scene, "%s: %zu of %zu faces have fewer than three corners and are ignored", source->name,
-                   degenerate, faces->rows.count);
-    struct mesh_polygon *polygons = arena_array(scratch, count, sizeof *polygons), *to = polygons;
-    if (!polygons)
-        return call_memory_error(source->call, count * sizeof *polygons, error);
-    for (size_t face = 0; face < faces->rows.count; face++)
-        if (items_of(faces, face) > 3)
-            *to++ = (struct mesh_polygon){faces->starts[face] / 3, items_of(faces, face) / 3 + 2};
+                   degenerate, rows);
     return mesh_triangulate(source, scene, mesh->positions, polygons, count, mesh->triangle_count,
                             (uint32_t *const[3]){faces->items}, &mesh->inner_edges, error);
 }
@@ -125,13 +119,14 @@ bool ply_faces(const struct import_source *source, const struct ply_table *faces
     return done;
 }
 
-// Writes the triangles of a strip to `out` (may be NULL) and returns their number. Each item from the third on forms a
-// triangle with the two items before it; the winding of every second triangle is reversed. Triangles with equal corners
-// only connect parts of a strip and are skipped.
-static size_t strip_triangles(const uint32_t *items, size_t count, uint32_t *out)
+// Writes the triangles of a row's strip to `out` (may be NULL) and returns their number. Each item from the third on
+// forms a triangle with the two items before it; the winding of every second triangle is reversed. Triangles with equal
+// corners only connect parts of a strip and are skipped.
+static size_t strip_triangles(const struct ply_table *strips, size_t row, uint32_t *out)
 {
+    const uint32_t *items = strips->items + strips->starts[row], room = strips->starts[row + 1] - strips->starts[row];
     size_t triangles = 0, length = 0; // items of the strip so far
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; room > 0 && i < room / 3 + 2; i++) {
         length = items[i] == PLY_RESTART ? 0 : length + 1;
         if (length < 3)
             continue;
@@ -154,14 +149,14 @@ bool ply_strips(const struct import_source *source, const struct ply_table *stri
 {
     uint64_t triangles = 0;
     for (size_t row = 0; row < strips->rows.count; row++)
-        triangles += strip_triangles(strips->items + strips->starts[row], items_of(strips, row), NULL);
+        triangles += strip_triangles(strips, row, NULL);
     if (!check_count(source, triangles, error))
         return false;
     uint32_t *indices = arena_array(&scene->arena, triangles, 3 * sizeof *indices), *out = indices;
     if (!indices)
         return call_memory_error(source->call, triangles * 3 * sizeof *indices, error);
     for (size_t row = 0; row < strips->rows.count; row++)
-        out += 3 * strip_triangles(strips->items + strips->starts[row], items_of(strips, row), out);
+        out += 3 * strip_triangles(strips, row, out);
     mesh->indices = indices;
     mesh->triangle_count = (uint32_t)triangles;
     return true;

@@ -17,17 +17,11 @@
 
 #include <string.h>
 
-static const struct {
-    const char *name, *sized_name;
-    size_t size;
-} types[PLY_TYPE_COUNT] = {
-    [PLY_I8] = {"char", "int8", 1},      [PLY_U8] = {"uchar", "uint8", 1},     [PLY_I16] = {"short", "int16", 2},
-    [PLY_U16] = {"ushort", "uint16", 2}, [PLY_I32] = {"int", "int32", 4},      [PLY_U32] = {"uint", "uint32", 4},
-    [PLY_F32] = {"float", "float32", 4}, [PLY_F64] = {"double", "float64", 8},
+static const char *const type_names[PLY_TYPE_COUNT][2] = {
+    [PLY_I8] = {"char", "int8"},      [PLY_U8] = {"uchar", "uint8"},     [PLY_I16] = {"short", "int16"},
+    [PLY_U16] = {"ushort", "uint16"}, [PLY_I32] = {"int", "int32"},      [PLY_U32] = {"uint", "uint32"},
+    [PLY_F32] = {"float", "float32"}, [PLY_F64] = {"double", "float64"},
 };
-
-size_t ply_type_size(enum ply_type type) { return types[type].size; }
-const char *ply_type_name(enum ply_type type) { return types[type].name; }
 
 int ply_find(const struct ply_element *element, bool list, const char *name)
 {
@@ -86,7 +80,7 @@ static bool read_type(struct lines *lines, enum ply_type *type, lam_error *error
     const uint8_t *word, *end;
     next_word(lines, &word, &end);
     for (int i = 0; i < PLY_TYPE_COUNT; i++) {
-        if (is_word(word, end, types[i].name) || is_word(word, end, types[i].sized_name)) {
+        if (is_word(word, end, type_names[i][0]) || is_word(word, end, type_names[i][1])) {
             *type = (enum ply_type)i;
             return true;
         }
@@ -153,8 +147,8 @@ static bool read_property(struct lines *lines, struct ply_element *element, stru
         return false;
     element->property_count++;
     element->list_count += property->list;
-    element->scalar_bytes += property->list ? 0 : types[property->type].size;
-    element->min_bytes += types[property->list ? property->count_type : property->type].size;
+    element->scalar_bytes += property->list ? 0 : ply_type_size(property->type);
+    element->min_bytes += ply_type_size(property->list ? property->count_type : property->type);
     return true;
 }
 

@@ -62,17 +62,11 @@ bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error 
     return true;
 }
 
-bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error)
+bool ply_index_chunk(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error)
 {
-    if (row % PARALLEL_ROWS == 0) {
-        if (reader->chunks)
-            reader->chunks[row / PARALLEL_ROWS] = at;
-        if (!call_should_continue(reader->source->call))
-            return call_error(reader->source->call, error);
-    }
-    if (reader->starts)
-        reader->starts[row] = (uint32_t)reader->total;
-    return true;
+    if (reader->chunks)
+        reader->chunks[row / PARALLEL_ROWS] = at;
+    return call_should_continue(reader->source->call) || call_error(reader->source->call, error);
 }
 
 bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_chunk, struct arena *keep, struct arena *scratch,

@@ -29,19 +29,20 @@ struct ply_reader {
 // Allocates the arrays that the serial pass fills.
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error);
 
+// Records the start of the chunk that begins with a row. Returns false if the call must end.
+bool ply_index_chunk(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error);
 // Records the start of a row in the serial pass. Returns false if the call must end.
-bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error);
+static inline bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error)
+{
+    if (reader->starts)
+        reader->starts[row] = (uint32_t)reader->total;
+    return row % PARALLEL_ROWS != 0 || ply_index_chunk(reader, row, at, error);
+}
 // Records the length of a row's requested list in the serial pass.
 static inline void ply_count_items(struct ply_reader *reader, int64_t items)
 {
-    reader->total += reader->request->restarts ? (uint64_t)items : items < 3 ? 0 : 3 * ((uint64_t)items - 2);
+    reader->total += items < 3 ? 0 : 3 * ((uint64_t)items - 2);
     reader->has_other_counts |= items != 3;
-}
-
-// Returns the room for a row's items, or NULL if they are only checked: of a face without triangles.
-static inline uint32_t *ply_row_items(const struct ply_reader *reader, size_t row)
-{
-    return reader->items && reader->starts[row + 1] > reader->starts[row] ? reader->items + reader->starts[row] : NULL;
 }
 
 // Reads the rows after the serial pass and fills the table.

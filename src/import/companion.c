@@ -100,7 +100,7 @@ bool companion_name(const struct import_source *source, const char *name, char o
 static bool fail_name(const struct import_source *source, const char *name, const char *why, lam_error *error)
 {
     char shown[SHOWN_NAME_SIZE];
-    return fail(error, LAM_CANNOT_READ, "%s: names the file '%s', %s", source->name, shown_name(name, shown), why);
+    return fail(error, LAM_CANNOT_READ, "%s: names the file '%s', %s", source->name, shown_file(name, shown), why);
 }
 
 // --- opening
@@ -118,7 +118,7 @@ static bool open_by_caller(const struct import_source *source, const char *name,
         return fail_name(source, name, "whose path is too long", error);
     out->path = NULL;
     out->real = arena_string(arena, path);
-    out->shown = arena_string(arena, shown_name(path, shown));
+    out->shown = arena_string(arena, shown_file(path, shown));
     if (!out->real || !out->shown)
         return call_memory_error(source->call, (size_t)length + sizeof shown, error);
     bool fresh = file_list_add(companions->files, path);
@@ -143,7 +143,7 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     const char *root = companions->folder, *folder = name[0] == '/' ? "" : root;
     char shown[SHOWN_NAME_SIZE];
     out->path = join(arena, folder, name);
-    out->shown = join(arena, folder, shown_name(name, shown));
+    out->shown = join(arena, folder, shown_file(name, shown));
     if (!out->path || !out->shown)
         return call_memory_error(source->call, strlen(folder) + strlen(name), error);
     bool fresh = file_list_add(companions->files, out->path), outside;
@@ -168,7 +168,7 @@ static void explain_cut(const char *name, lam_error *error)
     char shown[SHOWN_NAME_SIZE];
     size_t used = strlen(error->text);
     snprintf(error->text + used, sizeof error->text - used, " (the name is '%s', outside of this folder%s)",
-             shown_name(name, shown), name[1] == ':' ? "" : "; lam_load_params.allowed_paths lets it be read");
+             shown_file(name, shown), name[1] == ':' ? "" : "; lam_load_params.allowed_paths lets it be read");
 }
 
 bool companion_open(const struct import_source *source, const char *name, struct arena *arena, struct companion *out,

@@ -113,6 +113,13 @@ static void test_shown_name(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         assert_string_equal(shown_name(rows[i].name, out), rows[i].shown);
     assert_string_equal(shown_name_of("abcdef", 3, out), "abc");
+    static const char name32[] = "0123456789abcdefghijklmnopqrstuv";
+    char longer[2 * sizeof name32];
+    assert_string_equal(shown_file(name32, out), name32);
+    snprintf(longer, sizeof longer, "%sé\n.png", name32); // 38 characters
+    assert_string_equal(shown_file(longer, out), "0123456789ab…ijklmnopqrstuvé?.png");
+    snprintf(longer, sizeof longer, "%s\xff", name32);
+    assert_string_equal(shown_file(longer, out), "0123456789ab…defghijklmnopqrstuv?");
     assert_string_equal(shown_name_of("a\0b", 3, out), "a?b");
 }
 

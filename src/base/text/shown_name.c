@@ -11,27 +11,55 @@ static bool is_control(const unsigned char *at, int length)
     return length == 1 ? *at < 0x20 || *at == 0x7f : length == 2 && at[0] == 0xc2 && at[1] < 0xa0;
 }
 
+static const unsigned char *next_character(const unsigned char *at, const unsigned char *end)
+{
+    int step = lam_utf8_length(at, (size_t)(end - at));
+    return at + (step ? step : 1);
+}
+
+// Writes at most `limit` characters, and a final 0. Returns the first byte that was not written. *to receives the end.
+static const unsigned char *write_characters(const unsigned char *at, const unsigned char *end, int limit, char **to)
+{
+    for (int count = 0; at < end && count < limit; count++) {
+        int step = lam_utf8_length(at, (size_t)(end - at));
+        if (step == 0 || is_control(at, step)) {
+            *(*to)++ = '?';
+        } else {
+            memcpy(*to, at, (size_t)step);
+            *to += step;
+        }
+        at = next_character(at, end);
+    }
+    **to = 0;
+    return at;
+}
+
 const char *shown_name_of(const void *bytes, size_t length, char out[SHOWN_NAME_SIZE])
 {
     const unsigned char *at = bytes, *end = at + length;
     char *to = out;
-    for (int count = 0; at < end; count++) {
-        if (count == SHOWN_CHARACTERS) {
-            memcpy(to, "…", sizeof "…");
-            return out;
-        }
-        int step = lam_utf8_length(at, (size_t)(end - at));
-        if (step == 0 || is_control(at, step)) {
-            *to++ = '?';
-            at += step ? step : 1;
-        } else {
-            memcpy(to, at, (size_t)step);
-            to += step;
-            at += step;
-        }
-    }
-    *to = 0;
+    if (write_characters(at, end, SHOWN_CHARACTERS, &to) < end)
+        memcpy(to, "…", sizeof "…");
     return out;
 }
 
 const char *shown_name(const char *name, char out[SHOWN_NAME_SIZE]) { return shown_name_of(name, strlen(name), out); }
+
+const char *shown_file(const char *name, char out[SHOWN_NAME_SIZE])
+{
+    const unsigned char *at = (const unsigned char *)name, *end = at + strlen(name), *rest;
+    char *to = out;
+    if (write_characters(at, end, SHOWN_CHARACTERS, &to) == end)
+        return out;
+    to = out;
+    rest = write_characters(at, end, SHOWN_FILE_HEAD, &to);
+    memcpy(to, "…", sizeof "…");
+    to += sizeof "…" - 1;
+    const unsigned char *ahead = rest; // moves to the end in front of `rest`
+    for (int i = SHOWN_FILE_HEAD; i < SHOWN_CHARACTERS; i++)
+        ahead = next_character(ahead, end);
+    for (; ahead < end; ahead = next_character(ahead, end))
+        rest = next_character(rest, end);
+    write_characters(rest, end, SHOWN_CHARACTERS, &to);
+    return out;
+}

@@ -9,6 +9,11 @@ enum {
     SHOWN_NAME_SIZE = 4 * SHOWN_CHARACTERS + 4, // bytes, including the "…" and the final 0
 };
 
+// Writes the name of a file like shown_name. A longer name loses its middle instead of its end: "…" stands between its
+// first SHOWN_FILE_HEAD characters and its last ones. Returns `out`.
+enum { SHOWN_FILE_HEAD = 12 };
+const char *shown_file(const char *name, char out[SHOWN_NAME_SIZE]);
+
 // Writes a name from a file to `out` for a message: its first SHOWN_CHARACTERS characters, and "…" if it is longer.
 // Control characters and invalid UTF-8 become '?', so that a file cannot send control sequences to a terminal. Returns
 // `out`.

@@ -145,7 +145,7 @@ static bool find_bytes(struct gltf *gltf, int image, struct gltf_picture *pictur
         !gltf_take_index(gltf, place, object, "bufferView", "bufferViews", &view))
         return false;
     bool is_file = uri && view < 0 && !gltf_is_data_uri(uri);
-    snprintf(name, sizeof name, "images[%d]%s%s%s", image, is_file ? " (" : "", is_file ? shown_name(uri, shown) : "",
+    snprintf(name, sizeof name, "images[%d]%s%s%s", image, is_file ? " (" : "", is_file ? shown_file(uri, shown) : "",
              is_file ? ")" : "");
     picture->name = message_name(gltf, name);
     if (!picture->name)

@@ -63,6 +63,10 @@ void export_lose(struct exporting *e, const char *format, ...) __attribute__((fo
 // means that the format supports lights and cameras.
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 
+// Records that a format with one mesh loses objects, or the names of their parts, if there are several. `reason` is the
+// end of the sentence.
+void export_lose_objects(struct exporting *e, const char *reason);
+
 // Adds a file beside the model; takes ownership of its bytes, which come from malloc. Its name is the model's name
 // without its extension, followed by `ending`. "-0.png". With `beside`, other files refer to it by name, so letters
 // that OBJ and MTL cannot use in names become _. Fails with LAM_LIMIT.

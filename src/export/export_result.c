@@ -99,6 +99,22 @@ void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras)
                     s->file.variant_count);
 }
 
+void export_lose_objects(struct exporting *e, const char *reason)
+{
+    int names = 0;
+    const char *last = NULL;
+    for (int kind = 0; kind < EXPORT_KINDS; kind++)
+        for (uint32_t i = 0; i < e->flat[kind].part_count; i++) {
+            const char *name = e->flat[kind].parts[i].name;
+            names += name && name != last;
+            last = name;
+        }
+    if (e->scene->objects.count > 1)
+        export_lose(e, "objects become one mesh (%d): %s", e->scene->objects.count, reason);
+    else if (names > 1)
+        export_lose(e, "names of parts are omitted (%d): %s", names, reason);
+}
+
 // --- files
 
 // OBJ and MTL files name the files beside them without quotes: a name may not begin with a blank or like an option, nor contain a backslash, a

@@ -14,8 +14,9 @@ struct glb_arrays {
     int first_mesh;    // the latest mesh of the file that uses it (glb_mesh.before), or −1
 };
 
-// A mesh of the file: a mesh of the scene with the materials of an object.
+// A mesh of the file: a mesh of the scene, or a part of it, with the materials of an object.
 struct glb_mesh {
+    int part;     // −1: all parts
     int material; // the object's material; −1 if the parts' materials are used
     bool double_sided;
     int before; // the previous one that uses the same mesh of the scene, or −1
@@ -58,8 +59,8 @@ bool glb_error(struct glb *glb);
 
 bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size_t size);
 
-// Returns the index of the file's mesh for an object, or −1 if memory runs out.
-int glb_mesh_of(struct glb *glb, const lam_object *object);
+// Returns the index of the file's mesh for a part of an object (−1: all parts), or −1 if memory runs out.
+int glb_mesh_of(struct glb *glb, const lam_object *object, int part);
 
 // Returns the index of a material in the file. −1 is the default material.
 int glb_material(struct glb *glb, int material, bool double_sided);

@@ -162,7 +162,10 @@ static json_t *material(struct glb *glb, const lam_material *source, bool double
     json_t *object = json_object();
     lam_material m = lam_material_as_physical(source);
     if (!source->physical && !source->unlit)
-        export_lose(glb->e, "classic materials become metallic-roughness materials: their highlights differ");
+        export_lose(
+            glb->e,
+            "classic materials become metallic-roughness materials, which lambent shades and lights differently: "
+            "the whole model looks different");
     if (m.reflectivity.r > 0 || m.reflectivity.g > 0 || m.reflectivity.b > 0 || m.fibre ||
         m.roughness_angle_rad != lam_material_default().roughness_angle_rad)
         export_lose(

@@ -174,14 +174,14 @@ static json_t *primitive(struct glb *glb, const lam_mesh *m, const struct glb_ar
     return object;
 }
 
-int glb_mesh_of(struct glb *glb, const lam_object *object)
+int glb_mesh_of(struct glb *glb, const lam_object *object, int part)
 {
     const lam_mesh *m = scene_mesh(glb->e->scene, object->mesh);
     struct glb_arrays *arrays = &glb->arrays[object->mesh];
-    struct glb_mesh own = {object->material, object->cull == LAM_CULL_NONE, arrays->first_mesh};
+    struct glb_mesh own = {part, object->material, object->cull == LAM_CULL_NONE, arrays->first_mesh};
     for (int i = arrays->first_mesh; i >= 0;) {
         const struct glb_mesh *other = (const struct glb_mesh *)glb->own.items + i;
-        if (other->material == own.material && other->double_sided == own.double_sided)
+        if (other->part == part && other->material == own.material && other->double_sided == own.double_sided)
             return i;
         i = other->before;
     }
@@ -189,12 +189,12 @@ int glb_mesh_of(struct glb *glb, const lam_object *object)
         return -1;
     json_t *mesh = json_object(), *primitives = json_array();
     for (uint32_t i = 0; i < (m->parts ? m->part_count : 1) && export_asks(glb->e); i++) {
-        if (m->parts && !m->parts[i].triangle_count)
+        if (m->parts && (!m->parts[i].triangle_count || (part >= 0 && i != (uint32_t)part)))
             continue;
         int material = object->material >= 0 ? object->material : m->parts ? m->parts[i].material : -1;
         glb_add(glb, primitives, primitive(glb, m, arrays, i, glb_material(glb, material, own.double_sided)));
     }
-    glb_set_name(glb, mesh, m->name);
+    glb_set_name(glb, mesh, part >= 0 ? m->parts[part].name : m->name);
     glb_set(glb, mesh, "primitives", primitives);
     return arrays->first_mesh = glb_add(glb, glb->meshes, mesh);
 }

@@ -37,6 +37,19 @@ static json_t *node(struct glb *glb, const char *name, lam_mat4 matrix)
     return object;
 }
 
+// Adds a node for a part of an object, or for all parts (−1).
+static bool add_part(struct glb *glb, const lam_object *object, int part, const char *name, lam_mat4 matrix)
+{
+    int mesh = glb_mesh_of(glb, object, part);
+    json_t *item = mesh < 0 ? NULL : node(glb, name, matrix);
+    if (!item)
+        return mesh < 0 ? false : export_no_memory(glb->e, 100);
+    glb_set(glb, item, "mesh", json_integer(mesh));
+    glb_add(glb, glb->nodes, item);
+    return true;
+}
+
+// Primitives of glTF have no names, so a mesh with named parts becomes a node for each part.
 static bool add_object(struct glb *glb, const lam_object *object)
 {
     const lam_mesh *m = scene_mesh(glb->e->scene, object->mesh);
@@ -53,12 +66,16 @@ static bool add_object(struct glb *glb, const lam_object *object)
         export_lose(glb->e, "materials of back faces are omitted: glTF does not support them");
     if (object->one_sided)
         export_lose(glb->e, "back faces are lit from behind: glTF cannot light them like front faces");
-    int mesh = glb_mesh_of(glb, object);
-    json_t *item = mesh < 0 ? NULL : node(glb, object->name, matrix);
-    if (!item)
-        return mesh < 0 ? false : export_no_memory(glb->e, 100);
-    glb_set(glb, item, "mesh", json_integer(mesh));
-    glb_add(glb, glb->nodes, item);
+    bool named = false;
+    for (uint32_t i = 0; i < m->part_count; i++)
+        named |= m->parts[i].name != NULL;
+    if (!named)
+        return add_part(glb, object, -1, object->name, matrix);
+    for (uint32_t i = 0; i < m->part_count; i++) {
+        const lam_part *part = &m->parts[i];
+        if (part->triangle_count && !add_part(glb, object, (int)i, part->name ? part->name : object->name, matrix))
+            return false;
+    }
     return true;
 }
 

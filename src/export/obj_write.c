@@ -104,6 +104,29 @@ static void put_name(struct text *text, const char *word, const char *name)
     text_print(text, "%s %s\n", word, clean);
 }
 
+// Returns the length of the object's name in "object/group", or 0 if there is no group.
+static size_t object_length(const char *name)
+{
+    const char *slash = name ? strchr(name, '/') : NULL;
+    return slash && slash[1] ? (size_t)(slash - name) : 0;
+}
+
+// Writes the name of a part after the part named `before` (may be NULL), such that the reader joins it again.
+static void put_part_name(struct text *text, const char *name, const char *before)
+{
+    size_t length = object_length(name);
+    char object[200];
+    if (length == 0 || length >= sizeof object) {
+        put_name(text, "o", name);
+        return;
+    }
+    memcpy(object, name, length);
+    object[length] = 0;
+    if (object_length(before) != length || memcmp(before, name, length) != 0)
+        put_name(text, "o", object);
+    put_name(text, "g", name + length + 1);
+}
+
 static bool put_kind(struct exporting *e, const struct mtl_names *materials, const lam_mesh *m, int size,
                      struct firsts *first)
 {
@@ -119,7 +142,7 @@ static bool put_kind(struct exporting *e, const struct mtl_names *materials, con
         const lam_part *part = m->parts ? &m->parts[i] : &whole;
         const char *own = m->parts ? mtl_name(materials, part->material) : NULL;
         if (part->name && part->name != name)
-            put_name(&e->text, "g", part->name);
+            put_part_name(&e->text, part->name, name);
         if (own && own != material)
             put_name(&e->text, "usemtl", own);
         name = part->name;

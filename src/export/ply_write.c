@@ -20,8 +20,7 @@ static void put_vertex(struct exporting *e, const lam_mesh *m, size_t c)
 
 static void lose(struct exporting *e, bool points)
 {
-    if (e->scene->objects.count > 1)
-        export_lose(e, "objects become one mesh (%d): PLY does not support it", e->scene->objects.count);
+    export_lose_objects(e, "PLY does not support them");
     if (e->scene->materials.count)
         export_lose(e, "materials are omitted (%d): PLY does not support them", e->scene->materials.count);
     if (e->flat[EXPORT_LINES].line_count)

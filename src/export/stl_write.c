@@ -31,8 +31,7 @@ static bool write(struct exporting *e)
     if (!e->scene)
         return true;
     export_lose(e, "normals are omitted: STL has one per triangle, and most readers compute smooth normals");
-    if (e->scene->objects.count > 1)
-        export_lose(e, "objects become one mesh (%d): STL does not support it", e->scene->objects.count);
+    export_lose_objects(e, "STL does not support them");
     if (m->colors)
         export_lose(e, "colours are omitted: programs disagree on how STL stores them");
     if (m->texcoords)

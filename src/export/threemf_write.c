@@ -7,6 +7,7 @@
 #ifdef HAVE_LIBZIP
 
 #include "dynamic_library.h"
+#include "texture_levels.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,6 +68,19 @@ static const char *unit_of(const struct exporting *e)
     return "millimeter";
 }
 
+// Returns the diffuse colour times the mean of its texture, which is the last level.
+static void mean_color(const lam_material *material, float color[4])
+{
+    const lam_texture_map *map = material->maps[LAM_MAP_DIFFUSE];
+    texel mean = {1, 1, 1, 1};
+    if (map)
+        mean = texel_at(map->texture, map->texture->level_count - 1, 0, 0);
+    color[0] = material->diffuse.r * mean[0];
+    color[1] = material->diffuse.g * mean[1];
+    color[2] = material->diffuse.b * mean[2];
+    color[3] = material->diffuse.a;
+}
+
 // Adds the materials of the parts in the order of their first use; `numbers` receives the index of each.
 static bool add_materials(struct exporting *e, struct text *text, const lam_mesh *m, int *numbers)
 {
@@ -81,7 +95,8 @@ static bool add_materials(struct exporting *e, struct text *text, const lam_mesh
             continue;
         numbers[index] = count++;
         const lam_material *material = export_material(e, index);
-        const float color[4] = {material->diffuse.r, material->diffuse.g, material->diffuse.b, material->diffuse.a};
+        float color[4];
+        mean_color(material, color);
         lam_mesh one = {.colors = color, .color_count = 1, .colors_format = LAM_COLORS_LINEAR_F32};
         uint8_t bytes[4];
         export_color_bytes(&one, 0, bytes);
@@ -90,7 +105,7 @@ static bool add_materials(struct exporting *e, struct text *text, const lam_mesh
         text_print(text, "\" displaycolor=\"#%02X%02X%02X%02X\"/>\n", bytes[0], bytes[1], bytes[2], bytes[3]);
         for (int k = 0; k < LAM_MAP_COUNT; k++)
             if (material->maps[k])
-                export_lose(e, "textures of materials are omitted: lambent writes only colours to 3MF");
+                export_lose(e, "textures become their mean colour: lambent writes only colours to 3MF");
         export_lose(e, "of materials the diffuse colour is kept: base materials of 3MF have no more");
     }
     text_add(text, "</basematerials>\n");
@@ -212,8 +227,7 @@ static void lose(struct exporting *e)
 {
     const lam_mesh *m = &e->flat[EXPORT_TRIANGLES];
     export_lose(e, "normals are omitted: 3MF does not support them, and most readers compute smooth normals");
-    if (e->scene->objects.count > 1)
-        export_lose(e, "objects become one object (%d)", e->scene->objects.count);
+    export_lose_objects(e, "lambent writes one object to 3MF");
     if (m->texcoords)
         export_lose(e, "texture coordinates are omitted: lambent writes only colours to 3MF");
     if (m->colors)

@@ -68,6 +68,40 @@ class Convert(Case):
                 self.assertLess(primitive["material"], len(root["materials"]))
         return root, data
 
+    # --- names
+
+    def test_names(self):
+        """Solids of STL, and objects and groups of OBJ, keep their names in GLB and OBJ; other formats say that they lose them."""
+        facet = "facet normal 0 0 1\nouter loop\nvertex %d 0 0\nvertex %d 1 0\nvertex %d 0 1\nendloop\nendfacet\n"
+        (self.folder / "two.stl").write_text("".join(f"solid {name}\n{facet % (x, x + 1, x)}endsolid {name}\n" for name, x in (("left", 0), ("right", 2))))
+        (self.folder / "g.obj").write_text("o body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng door\nf 1 2 3\ng window\nf 1 2 4\no wheel\nf 2 3 4\n")
+        for model, names in (("two.stl", ["left", "right"]), ("g.obj", ["body/door", "body/window", "wheel"])):
+            self.same(model, "a.obj")
+            self.convert(model, "b.glb")
+            self.convert("b.glb", "c.obj")
+            root, _ = self.check_glb("b.glb")
+            self.assertEqual([node["name"] for node in root["nodes"]], names)
+            for written in ("a.obj", "c.obj"):
+                found, thing = [], None
+                for word, _, name in (line.partition(" ") for line in (self.folder / written).read_text().splitlines()):
+                    if word == "o":
+                        thing = name
+                    if word in "og":
+                        found[len(found) - (found[-1:] == [thing] and word == "g"):] = [name if word == "o" else f"{thing}/{name}"]
+                self.assertEqual(found, names, written)
+                self.assertIn("triangle", self.good(written, "--hide", names[0], "-s", 16, "-o", "a.png").stdout)
+            for output in ("a.stl", "a.ply", "a.3mf"):
+                self.assertIn(f"names of parts are omitted ({len(names)})", " ".join(self.convert(model, output)["losses"]))
+
+    def test_texture_in_3mf(self):
+        """A texture becomes its mean colour."""
+        self.good("cube", "-b", "#ff8000", "--hide", "cube", "-s", 8, "-o", "t.png")
+        (self.folder / "t.mtl").write_text("newmtl m\nKd 1 1 1\nmap_Kd t.png\n")
+        (self.folder / "t.obj").write_text("mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n")
+        self.assertIn("mean colour", " ".join(self.convert("t.obj", "t.3mf")["losses"]))
+        with zipfile.ZipFile(self.folder / "t.3mf") as archive:
+            self.assertIn(b'displaycolor="#FF8000FF"', archive.read("3D/3dmodel.model"))
+
     # --- round trips
 
     def test_glb_to_glb(self):

@@ -42,6 +42,19 @@ class Info(GltfCase):
                       "NO_such: unknown", "0 'skin.png', png; not read"):
             self.assertIn(words, text)
 
+    def test_names(self):
+        """Each name of an object or a part is listed once, and --hide accepts it."""
+        (self.folder / "names.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\no body\ng door\nf 1 2 3\ng window\nf 1 3 2\ng door\nf 1 2 3\n")
+        self.assertEqual(self.info("names.obj")[0]["names"], [{"name": "body", "objects": 1, "parts": 0}, {"name": "body/door", "objects": 0, "parts": 2},
+                                                              {"name": "body/window", "objects": 0, "parts": 1}])
+        text = self.good("info", "names.obj").stdout.decode()
+        self.assertIn("names       'body', 1 object\n            'body/door', 2 parts\n            'body/window', 1 part\n", text)
+        self.assertEqual([row["name"] for row in self.info("cube")[0]["names"]], ["cube"])
+        for name in ("body/door", "body/window"):
+            self.good("names.obj", "--hide", name, "-s", 8, "-o", "hidden.png")
+        (self.folder / "none.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.assertEqual(self.info("none.obj")[0]["names"], [])
+
     def test_measure(self):
         """Area, and the volume of what is closed, in the model's units where the format names none."""
         for model, area, volume in (("cube.obj", 24, 8), ("cube.stl", 24, 8), ("cube.ply", 24, 8), ("sphere", 12.566, 4.18879), ("plane", 4, None)):

@@ -82,8 +82,9 @@ const struct topic topics[] = {
      "numbers as a figure."},
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. It lists the format, the "
-     "program that wrote the file, the size and up axis, triangles, meshes, parts and objects, materials (numbers and "
-     "maps), textures and their sizes, lights, cameras, scenes, animations and their lengths, variants, glTF "
+     "program that wrote the file, the size and up axis, triangles, meshes, parts and objects, the names that `--hide` "
+     "accepts, materials (numbers and maps), textures and their sizes, lights, cameras, scenes, animations and their "
+     "lengths, variants, glTF "
      "extensions (supported, ignored or unknown), memory, the loading time, and warnings. Each list is limited to 8 "
      "rows; `--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF (in metres) and 3MF "
      "(which states its unit), it prints size, area and volume in millimetres. Other formats define no unit. `info` "

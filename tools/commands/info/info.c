@@ -58,8 +58,11 @@ static int print_one(const char *model, const struct options *given, bool first)
     struct info info = {.job = &job, .error = &error};
     job.times.start = clock_ms();
     struct info_textures textures = {0};
+    struct info_names names = {0};
     info.textures = &textures;
-    bool ok = load(&info, &job, &options, &error) && info_textures_list(job.scene, &textures, &error);
+    info.names = &names;
+    bool ok = load(&info, &job, &options, &error) && info_textures_list(job.scene, &textures, &error) &&
+              info_names_list(job.scene, &names, &error);
     if (ok) {
         error = (lam_error){0}; // discards the error of the first attempt
         measure_drawing(&info, &job);
@@ -73,6 +76,7 @@ static int print_one(const char *model, const struct options *given, bool first)
         info_text(&info);
     }
     free(textures.items);
+    free(names.items);
     lam_scene_free(job.scene);
     return exit_code_of(error.code)->code;
 }

@@ -24,12 +24,25 @@ const char *info_texture_file(const struct info_texture *texture, const char *mo
 const char *info_texture_format(const struct info_texture *texture); // "png"; NULL if unknown
 const char *info_color_space(const struct info_texture *texture);    // "srgb" or "linear"; NULL if unused
 
+// A name of objects or parts, and how many have it.
+struct info_name {
+    const char *name;
+    int objects, parts;
+    int order; // of its first use
+};
+struct info_names {
+    struct info_name *items; // from malloc
+    int count;
+};
+bool info_names_list(const lam_scene *scene, struct info_names *names, lam_error *error);
+
 // A loaded model, or the error of loading it.
 struct info {
     const struct job *job;
     const lam_error *error; // LAM_OK if the model is loaded
     bool needs_lenient;     // it can only be drawn with --lenient
     const struct info_textures *textures;
+    const struct info_names *names;
     uint64_t
         // the memory for drawing a picture of INFO_SIDE² pixels, including the picture; 0 if it cannot be drawn
         drawing_bytes;

@@ -228,6 +228,15 @@ static void write_model(struct json *json, const struct info *info)
     json_text(json, "generator", file->generator);
     json_text(json, "copyright", file->copyright);
     write_geometry(json, job);
+    json_open(json, "names", '[');
+    for (int i = 0; i < info->names->count; i++) {
+        json_open(json, NULL, '{');
+        json_text(json, "name", info->names->items[i].name);
+        json_count(json, "objects", (uint64_t)info->names->items[i].objects);
+        json_count(json, "parts", (uint64_t)info->names->items[i].parts);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
     json_open(json, "materials", '[');
     for (int i = 0; i < lam_scene_material_count(scene); i++)
         write_material(json, lam_scene_material(scene, i), info->textures, job->model);

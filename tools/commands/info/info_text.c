@@ -153,6 +153,21 @@ static void print_factors(const lam_material *m)
         printf(", alpha blended");
 }
 
+// Prints the names that --hide accepts, beside the names of materials.
+static void print_names_to_hide(const struct info_names *names)
+{
+    char name[NAME_BYTES + 12];
+    for (int i = 0; i < names->count && !omitted(i, names->count); i++) {
+        const struct info_name *row = &names->items[i];
+        printf("%-12s%s, ", label("names", i), shown(row->name, name));
+        if (row->objects)
+            printf("%d object%s", row->objects, plural((uint64_t)row->objects));
+        if (row->parts)
+            printf("%s%d part%s", row->objects ? ", " : "", row->parts, plural((uint64_t)row->parts));
+        printf("\n");
+    }
+}
+
 static void print_materials(const lam_scene *scene)
 {
     char name[NAME_BYTES + 12];
@@ -278,6 +293,7 @@ void info_text(const struct info *info)
     if (file->copyright)
         printf("%-12s%s\n", "copyright", plain(file->copyright, LINE_BYTES, text));
     print_geometry(info);
+    print_names_to_hide(info->names);
     print_materials(scene);
     print_textures(info->textures, job->model);
     print_lights(scene);

@@ -23,7 +23,7 @@ struct import_source {
     // `bytes` contains the whole file. parallel_rows.h reads both.
     const struct file_parts *parts;
     // The owner of `bytes`. An importer whose arrays point into them may move it to the scene's arena
-    // (file_move_to_arena). NULL with load_stream.
+    // (file_move_to_arena). NULL if the file is read in parts.
     struct file_bytes *file;
     const lam_load_params *params;
     struct pool *pool;         // may be NULL: no threads

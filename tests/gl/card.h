@@ -7,9 +7,6 @@
 #include <string.h>
 
 // Whether a driver with this name (lam_device_name, GL_RENDERER) draws on a graphics card.
-static inline bool is_card(const char *name)
-{
-    return !strstr(name, "llvmpipe") && !strstr(name, "softpipe");
-}
+static inline bool is_card(const char *name) { return !strstr(name, "llvmpipe") && !strstr(name, "softpipe"); }
 
 #endif

@@ -5,6 +5,8 @@
 
 void known_text(struct known_table *t, const char *name, const char *text)
 {
+    if (t->count == KNOWN_MAX)
+        abort(); // the tables of facts have grown: increase KNOWN_MAX
     t->rows[t->count++] = (struct known){name, text};
 }
 
@@ -12,6 +14,8 @@ void known_flag(struct known_table *t, const char *name, bool holds) { known_tex
 
 struct text *known_made(struct known_table *t, const char *name)
 {
+    if (t->made_count == KNOWN_MADE_MAX)
+        abort(); // increase KNOWN_MADE_MAX
     known_text(t, name, "");
     t->of_made[t->made_count] = &t->rows[t->count - 1];
     return &t->made[t->made_count++];

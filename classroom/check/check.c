@@ -298,6 +298,24 @@ static bool try_inferred(struct run *r, const struct contract *contract, enum fi
     return true;
 }
 
+// Finds the errors of a fragment shader that fits no contract and has no vertex shader. Sets the verdict if it does not
+// compile.
+static bool compile_alone(struct run *r, lam_error *error)
+{
+    static const char vertex[] = "#version 330\nvoid main() { gl_Position = vec4(0.0); }\n";
+    free(r->vertex);
+    r->vertex = strdup(vertex);
+    if (!r->vertex)
+        return fail_memory(error, sizeof vertex);
+    if (!read_shaders(r, &r->shipped[0]->contract, error) || !draw(r, 1, error))
+        return false;
+    if (r->drawn.state == DRAWN_REFUSED && r->drawn.refused_fragment)
+        return true;
+    r->diagnostics.count = 0; // the errors of linking with an empty vertex shader
+    forget_scenes(r);
+    return true;
+}
+
 // Infers the roles of the inputs from their use, in each possible space. It accepts the first interpretation under
 // which the shaders are correct, or else one in which a single mistake explains the difference.
 static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
@@ -310,6 +328,10 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     int explained = -1, differs = -1;
     lam_error unread = {0};
     bool ok = p->vertex != NULL, done = false;
+    if (!ok && !nearest && !compile_alone(r, error))
+        return false;
+    if (!ok && r->report->verdict != LAM_CHECK_PASSES)
+        return true;
     if (!ok)
         return fail_unknown(r,
                             "the names match no known contract, and without its vertex shader the roles of a fragment "

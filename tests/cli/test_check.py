@@ -669,6 +669,12 @@ class Unruly(CheckTest):
         self.bad(1, "check", "s.frag", "-s", "64x32", says="square", leaves=("s.frag", "s.vert"))
         (self.folder / "s.frag").write_text("void main() { gl_FragColor = vec4(1.0); }\n")
         self.bad(1, "check", "s.frag", says=("no verdict", "--contract"), leaves=("s.frag", "s.vert"))
+        # A shader of unknown names that does not compile: its error, not the names.
+        for text, line in (("#version 330\nin vec3 foo;\nout vec4 col;\nvoid main() { col = vec4(foo, 1.0) }\n", 4), ("void main() { gl_FragColor = strange; }\n", 1)):
+            (self.folder / "s.frag").write_text(text)
+            said = self.run_program("check", "s.frag")
+            self.assertEqual(said.returncode, 6)
+            self.assertIn(f"s.frag:{line}: error", said.stdout.decode())
 
 
 class Contracts(CheckTest):

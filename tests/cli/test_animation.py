@@ -128,6 +128,8 @@ class Turntable(Animated):
         # A light of the world: the camera goes around the model, against the turn.
         light = ["--light", "directional:direction=-1/-1/-1"]
         animation = self.animated("cube.obj", *light, "--turntable", "4", "--turntable-light", "model")
+        self.assertEqual(self.good("cube.obj", *light, "--turntable", "4,light=model", "-o", "-").stdout,
+                         self.good("cube.obj", *light, "--turntable", "4", "--turntable-light", "model", "-o", "-").stdout)
         for k in range(4):
             self.good("cube.obj", *light, "--azimuth", 30 - 90 * k, "--sweep", "azimuth=%d..%d" % (30 - 90 * k, 390 - 90 * k),
                       "--frames", "2", *SMALL, "-o", "around.png")

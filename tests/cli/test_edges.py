@@ -31,6 +31,27 @@ class Edges(Case):
         self.assertEqual(pixel(dark, 32, 32), (0, 0, 0, 255))
         self.assertEqual(max(pixel(dark, x, 32)[0] for x in range(64)), 255)
 
+    def test_keys(self):
+        """Keys in the value have the effect of the options that they replace, also over a scene file's settings and in a look."""
+        model, old = self.model(), ("--edges", "crease,boundary", "--edge-width", 3, "--edge-color", "0.5/0/0/0.5", "--edge-angle", 20)
+        drawn = self.png(model, *FRONT, *old)
+        keys = "crease,boundary,width=3,color=0.5/0/0/0.5,angle=20"
+        self.assertEqual(self.png(model, *FRONT, "--edges", keys), drawn)
+        self.assertEqual(self.png(model, *FRONT, "--edges=color=0.5/0/0/0.5,angle=20,crease,width=3,boundary"), drawn)
+        self.assertEqual(self.png(model, *FRONT, "--edges", "width=2"), self.png(model, *FRONT, "--edges", "all", "--edge-width", 2))
+        wire = self.png(model, *FRONT, "--wireframe", "--wireframe-width", 2, "--wireframe-color", "red")
+        for words in (("-w", "width=2,color=red"), ("--wireframe", "color=red,width=2"), ("--wireframe=width=2,color=red",)):
+            self.assertEqual(self.png(*words, model, *FRONT), wire)
+            self.assertEqual(self.png(model, *FRONT, *words), wire)
+        (self.folder / "a.json").write_text(json.dumps({"lambent": 1, "edges": ["crease"], "edge_width": 9, "objects": [{"file": model}]}))
+        (self.folder / "own.look").write_text("edges crease,boundary,width=3,color=0.5/0/0/0.5,angle=20\n")
+        self.given.update(("a.json", "own.look"))
+        self.assertEqual(self.png("a.json", *FRONT, "--edges", keys), self.png("a.json", *FRONT, *old))
+        self.assertEqual(self.png(model, *FRONT, "--look", "own.look"), drawn)
+        listed = self.good("--help").stdout.decode()
+        for hidden in ("edge-width", "wireframe-color", "one-sided", "shininess", "opacity", "reflectivity", "turntable-light"):
+            self.assertNotIn(f" --{hidden} ", listed)
+
     def test_scene_file(self):
         edges = {"wireframe": True, "edges": ["crease", "silhouette"], "edge_color": [1, 0, 0, 1], "edge_width": 2, "edge_angle": 30, "hidden_lines": "dash",
                  "surfaces": False}
@@ -85,6 +106,10 @@ class Edges(Case):
     def test_mistakes(self):
         self.bad(1, "cube", "--edges", "corners", says="crease")
         self.bad(1, "cube", "--edge-width", "0", says="--edge-width")
+        self.bad(1, "cube", "--edges", "width=0", says="option '--edges': width: found '0'")
+        self.bad(1, "cube", "--edges", "all,widht=2", says="found 'widht=2', expected angle=DEGREES, width=PIXELS, color=COLOR")
+        self.bad(1, "cube", "--edges", "all,color=nocolor", says="option '--edges': color: found 'nocolor'")
+        self.bad(1, "cube", "--wireframe=red", says="option '--wireframe': found 'red', expected width=PIXELS")
         self.bad(1, "cube", "--wireframe-color", "nocolor", says="nocolor")
 
     def test_opengl_has_the_same_lines(self):

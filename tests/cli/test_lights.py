@@ -3,6 +3,7 @@ import json
 import os
 import math
 import re
+import shutil
 import unittest
 
 from harness import ROOT, Case, pixel, read_png
@@ -380,6 +381,7 @@ class Materials(Pictures):
         # Sides: with the unchanged normal the back is dark; culled it disappears.
         dark = self.picture(*lit, "--one-sided", *DIFFUSE_ONLY, model="one.obj")
         self.assertEqual(pixel(dark, 44, 44), (0, 0, 0, 255))
+        self.assertEqual(dark, self.picture(*lit, "--back-faces", "one-sided", *DIFFUSE_ONLY, model="one.obj"))
         self.assertEqual(self.picture(*lit, "--two-sided", model="one.obj"), self.picture(*lit, model="one.obj"))
         self.assertEqual(set(self.picture(*lit, "--cull", "back", model="one.obj")[2]), {0})
         self.assertEqual(self.picture(*lit, "--cull", "front", model="one.obj"), self.picture(*lit, "--cull", "none", model="one.obj"))
@@ -419,6 +421,10 @@ class Materials(Pictures):
         self.assertEqual(self.picture(*seen, "--hide", "blue", model="both.json"), alone)
         self.assertEqual(self.picture("--hide", "box", model="both.json"), self.picture(model="ball.json"))
         self.bad(1, "both.json", "--hide", "bal", says=["option '--hide': the model has no object, part or material 'bal'", "did you mean 'ball'?"], leaves=("ball.json", "both.json"))
+        for words in (("both.json", "ball.json"), ("batch", "-v", "both.json", "ball.json", "--journal", "none")):
+            said = self.good(*words, "--hide", "box", "-s", 8, "-o", "many/").stderr.decode()
+            self.assertIn("warning: option '--hide': the model has no object, part or material 'box'; it has 'ball', 'red', 'blue'", said)
+        shutil.rmtree(self.folder / "many")
         self.bad(1, "both.json", "--hide", "nothing", says=["'nothing'; it has 'ball', 'box', 'red', 'blue'"], leaves=("ball.json", "both.json"))
 
     def test_list(self):

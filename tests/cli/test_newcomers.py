@@ -59,6 +59,7 @@ class Sentences(Case):
             "compare cube.obj cube.stl": (1, "lambent diff"), "explain cube.obj 5 4": (1, "such as 512,400"),
             "shapes teapot": (1, "lambent teapot"), "materials gold": (1, "--material gold"),
             "cube.obj --fov 60 --projection orthographic": (1, "--fov"), "cube.obj --fov 0": (1, "--fov"),
+            "cube.obj -s 200 200": (1, "'--size': found '200 200', expected one word: 200x200"),
             "cube.obj --camera fovy=180": (1, "--camera"), "cube.obj --camera eye=1/2/3 --fov 60": (1, "'--camera' and '--fov'"),
         })
 

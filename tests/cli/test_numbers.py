@@ -196,11 +196,11 @@ class Sentences(Case):
 
 
 # Options whose default is not a value that can be given, with what stands there.
-NOT_VALUES = {"point-size", "output", "quality", "color", "view", "camera", "light", "material", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
+NOT_VALUES = {"point-size", "output", "quality", "color", "view", "camera", "light", "material", "back-faces", "back-material", "cull", "segments", "environment", "reflectivity", "threads",
               "gl-device", "edges", "time-limit", "memory-limit", "triangle-limit", "object-limit", "layer-limit", "expansion-limit", "pixel-limit", "file-limit", "json-depth-limit", "allow-path", "show", "up", "reflection", "isa", "device", "repeat", "scene", "variant", "animation", "time", "views", "sizes", "journal"}
 # What else to give so that the option matters, and another value of it.
 CONTEXT = {
-    "turntable-light": (["--turntable", "3"], "model"), "frames": (["--sweep", "zoom=1..2"], "4"), "fps": (["--turntable", "3"], "12"),
+    "frames": (["--sweep", "zoom=1..2"], "4"), "fps": (["--turntable", "3"], "12"),
     "sandbox": ([], None), "retry-failed": ([], None), "shard": ([], None), "shard-by": ([], None), "size": ([], "64"), "samples": ([], "2"), "exposure": ([], "1"), "tone": ([], "aces"), "crease-angle": ([], "20"), "compress": ([], None), "term": ([], None),
     "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"), "fov": ([], "40"),
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
@@ -210,8 +210,7 @@ CONTEXT = {
     "texture-filter": (["floor.obj"], None),
     "shadow-terminator": (["--shadows", "--light", "point:position=2r/3r/1r"], "off"),
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),
-    "wireframe-width": (["--wireframe"], "2"), "wireframe-color": (["--wireframe"], "red"), "edge-angle": (["--edges", "crease"], "20"),
-    "edge-width": (["--edges", "all"], "3"), "edge-color": (["--edges", "all"], "red"), "hidden-lines": (["--wireframe"], "show"), "surfaces": ([], "off"),
+    "hidden-lines": (["--wireframe"], "show"), "surfaces": ([], "off"),
     "look": ([], "classic"), "ground": ([], "checker"), "ao": ([], "off"), "cavity": ([], "off"), "brighten": (["dark.obj"], "off"), "specular-aa": (["--material", "#ffc356,metallic=1,roughness=0.3"], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
     "environment-rotation": (["--environment", "studio", "--reflectivity", "0.5"], "90"),
 }
@@ -256,6 +255,21 @@ class Defaults(Case):
                     self.assertFalse(self.good(*words, f"--{name}", other, "-o", "-").stdout == without, f"--{name} {other} changes nothing")
                 tried += 1
         self.assertGreaterEqual(tried, len(CONTEXT))
+
+    def test_defaults_of_keys(self):
+        """The same for the keys in the values of --edges, --wireframe and --turntable, whose defaults stand in the text."""
+        made = generated("markdown")
+        for words, key, standard, other, text in (
+                (["--edges"], "angle", "40", "20", "`angle` (40 degrees)"), (["--edges"], "width", "1.5", "3", "`width` (1.5 pixels)"),
+                (["--edges"], "color", "black", "red", "`color` (black)"), (["--wireframe"], "width", "1", "2", "the width in pixels (1)"),
+                (["--wireframe"], "color", "black", "red", "the colour (black)"), (["--turntable", "3"], "light", "camera", "model", "keeping them with the camera")):
+            with self.subTest((words, key)):
+                self.assertIn(text, made)
+                plain = {"--edges": ["all"]}.get(words[0], words[1:])
+                draw = lambda *value: self.good("tent.obj", "-s", "96", words[0], *value, "-o", "-").stdout
+                joined = lambda value: [",".join([*plain, f"{key}={value}"])]
+                self.assertEqual(draw(*joined(standard)), draw(*plain))
+                self.assertNotEqual(draw(*joined(other)), draw(*plain))
 
     def other_commands(self, made):
         """Options that belong to another command than the one that draws."""

@@ -335,7 +335,7 @@ class CommandLine(Case):
                               "--colour": "--color", "-size": "--size", "--crease": "--crease-angle"}.items():
             self.bad(1, "cube.obj", word, "3", says=[f"unknown option '{word}'", f"did you mean '{nearest}'?"])
         for word, nearest in {"--resolution": "size", "--bg": "background", "--antialias": "samples", "--width": "size",
-                              "--transparency": "opacity", "--gpu": "device", "--ortho": "projection",
+                              "--transparency": "material opacity=SHARE", "--gpu": "device", "--ortho": "projection",
                               "--smooth": "shading", "--hdri": "environment", "--sun": "light", "--Size": "size", "--light_scale": "light-scale"}.items():
             self.bad(1, "cube.obj", word, "3", says=[f"unknown option '{word}'", f"did you mean '--{nearest}'?"])
         done = self.bad(1, "cube.obj", "--entirely-else", says="unknown option '--entirely-else'")

@@ -121,7 +121,7 @@ static void shared_options(const struct command *command)
         char left[64], text[1000] = "";
         size_t used = 0;
         for (const struct option *o = option_table; o->name && used < sizeof text; o++)
-            if ((int)o->group == group && option_is_taken(o, command->groups) && is_shared(o, command))
+            if ((int)o->group == group && !o->now && option_is_taken(o, command->groups) && is_shared(o, command))
                 used += (size_t)snprintf(text + used, sizeof text - used, "%s--%s", used ? ", " : "", o->name);
         if (!used)
             continue;

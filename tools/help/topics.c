@@ -137,7 +137,7 @@ const struct topic topics[] = {
      "`--material glass,roughness=0.3` blurs the scene behind the glass, `glass,diffuse=0.2/0.8/0.5` tints the glass, "
      "and `thickness` refracts the light. Glass requires the CPU device, Phong shading and a physical reflection "
      "model. For the formulas, see `docs/lighting/layers.md`. For opaque surfaces that let some light through, use "
-     "`--opacity`."},
+     "`--material opacity=0.5`."},
     {"settings", "The user's own defaults", BIT(SETTINGS), TOPIC_NO_TABLE,
      "The file `lambent.json` in the folder `~/.config/lambent` overrides the default picture settings. It uses the "
      "keys of scene files: `{\"image\": {\"background\": \"white\"}, \"shadows\": true}`. Looks and options on the "

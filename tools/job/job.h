@@ -58,6 +58,7 @@ struct job {
     const lam_bytes *model_bytes; // the model itself, named by `model`; NULL if it is a file
     const char *output;           // path of the picture; "-" means standard output
     lam_bytes *picture_bytes;     // receives the picture in the format of `output`; NULL if a file is written
+    bool one_of_many;             // several models share the options; one may lack a name of --hide
     bool makes_folder;            // also create the folder of an explicitly named picture
     const lam_cancel *cancel;     // stops the job; if NULL, only Ctrl-C does
     const char *format;           // the format of the picture: "png"

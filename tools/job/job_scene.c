@@ -63,8 +63,10 @@ static bool set_color(const struct options *o, lam_scene *scene, lam_error *erro
 
 // Colour, shininess and opacity are set before the back materials, so that back materials derived from the front
 // include them.
-static bool apply_materials(const struct options *o, lam_scene *scene, lam_error *error)
+static bool apply_materials(const struct job *job, lam_error *error)
 {
+    const struct options *o = job->options;
+    lam_scene *scene = job->scene;
     if (!set_materials(&o->material.materials, false, "material", o, scene, error) ||
         (o->material.model_color && !set_color(o, scene, error)))
         return false;
@@ -83,7 +85,7 @@ static bool apply_materials(const struct options *o, lam_scene *scene, lam_error
     if (!set_materials(&o->material.back_materials, true, "back-material", o, scene, error))
         return false;
     for (int i = 0; i < o->material.hidden.count; i++)
-        if (!material_option_hide(o->material.hidden.items[i], scene, error))
+        if (!material_option_hide(o->material.hidden.items[i], job->one_of_many, scene, error))
             return false;
     return true;
 }
@@ -207,7 +209,7 @@ bool job_apply_options(struct job *job, const lam_control *control, struct model
     if (!(sphere->radius > 0))
         sphere->radius = 1;
     bool threads = lam_reflection_describe(o->draw.reflection)->tangents;
-    return apply_materials(o, scene, error) && apply_sides(o, scene, error) && apply_rig(job, error) &&
+    return apply_materials(job, error) && apply_sides(o, scene, error) && apply_rig(job, error) &&
            (!threads || lam_scene_make_tangents(scene, control, error));
 }
 
@@ -249,12 +251,14 @@ bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *er
 
 // --- drawing
 
-// Returns a colour that the command line has checked, or else the default.
+// Returns a colour that the command line has checked, or else the default. More keys may follow a comma.
 static lam_rgba color_or(const char *text, int mode, lam_rgba otherwise)
 {
     lam_rgba color;
     lam_error unused;
-    return text && lam_color_parse(text, (lam_color_mode)mode, &color, &unused) ? color : otherwise;
+    char alone[80];
+    snprintf(alone, sizeof alone, "%.*s", text ? (int)strcspn(text, ",") : 0, text ? text : "");
+    return text && lam_color_parse(alone, (lam_color_mode)mode, &color, &unused) ? color : otherwise;
 }
 
 lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
@@ -271,10 +275,8 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
     draw.rig = rig;
     draw.edge_color = color_or(o->shading.edge_color, o->picture.color_mode, draw.edge_color);
     draw.wireframe_color = color_or(o->shading.wireframe_color, o->picture.color_mode, draw.wireframe_color);
-    lam_rgba ground;
-    lam_error unused; // the command line has checked the colour
-    if (o->shading.ground_color &&
-        lam_color_parse(o->shading.ground_color, (lam_color_mode)o->picture.color_mode, &ground, &unused))
-        draw.ground_color = (lam_rgb){ground.r, ground.g, ground.b};
+    lam_rgba ground = {draw.ground_color.r, draw.ground_color.g, draw.ground_color.b, 1};
+    ground = color_or(o->shading.ground_color, o->picture.color_mode, ground);
+    draw.ground_color = (lam_rgb){ground.r, ground.g, ground.b};
     return draw;
 }

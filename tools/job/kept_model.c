@@ -26,7 +26,7 @@ static bool changes_drawing_only(const struct option *option)
         return false;
     return option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
            option->group == GROUP_MATERIALS || option->setting || strcmp(option->name, "cull") == 0 ||
-           strcmp(option->name, "reflectivity") == 0;
+           strcmp(option->name, "back-faces") == 0 || strcmp(option->name, "reflectivity") == 0;
 }
 
 // Returns a key for the model and its load options, from malloc.

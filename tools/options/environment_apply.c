@@ -74,7 +74,7 @@ static void warn_unseen(const struct options *options, lam_scene *scene)
         if (object_mirrors(scene, lam_scene_object(scene, i)))
             return;
     lam_scene_add_warning(scene,
-                          "the environment is invisible: no material has a reflectivity (--reflectivity 0.5 sets one)");
+                          "the environment is invisible: no material has a reflectivity (--material reflectivity=0.5)");
 }
 
 bool environment_apply(const struct options *options, struct environment_cache *cache, lam_scene *scene,

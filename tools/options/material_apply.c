@@ -258,7 +258,7 @@ static int hide_materials(const char *target, lam_scene *scene, lam_error *error
     return found;
 }
 
-bool material_option_hide(const char *target, lam_scene *scene, lam_error *error)
+bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, lam_error *error)
 {
     int found = hide_objects(target, scene, error);
     if (found == 0)
@@ -267,7 +267,11 @@ bool material_option_hide(const char *target, lam_scene *scene, lam_error *error
         found = hide_materials(target, scene, error);
     if (found == 0) {
         struct material_option option = {.target = target};
-        return not_found(&option, false, "hide", scene, error);
+        lam_error reason;
+        not_found(&option, false, "hide", scene, &reason);
+        if (may_lack)
+            lam_scene_add_warning(scene, reason.text);
+        return may_lack || complain(error, reason.code, "%s", reason.text);
     }
     return found > 0;
 }

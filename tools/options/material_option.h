@@ -30,8 +30,8 @@ bool material_option_set(const struct material_option *option, bool back, const 
                          lam_error *error);
 
 // Hides the objects with this name; if there are none, the parts; if there are none either, the surfaces with a
-// material of this name (--hide).
-bool material_option_hide(const char *target, lam_scene *scene, lam_error *error);
+// material of this name (--hide). If the model has no such name, adds a warning if it `may_lack` one, and fails otherwise.
+bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, lam_error *error);
 
 // Adds a warning to the scene for each coefficient above 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene);

@@ -209,6 +209,10 @@ static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "draw both side
                                          {"front", LAM_CULL_FRONT, NULL},
                                          {NULL, 0, NULL}};
 
+static const struct word back_face_words[] = {{"two-sided", 0, "with the reversed normal"},
+                                              {"one-sided", 1, "like front faces, with the unchanged normal"},
+                                              {NULL, 0, NULL}};
+
 static const struct word normals_words[] = {
     {"file", LAM_NORMALS_FILE, "the file's normals, or smooth normals if the file contains none"},
     {"smooth", LAM_NORMALS_SMOOTH, "computed smooth normals; the file's normals are ignored"},
@@ -531,14 +535,14 @@ struct option option_table[OPTIONS_MAX] = {
      "list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 is sharp.",
-     "The value replaces the shininess of every material, including materials set by `--material`.",
-     .store = store_number, .others = "gloss glossiness specular-exponent exponent", FIELD(material.shininess),
-     .has_field = offsetof(struct options, material.has_shininess), .min = 0, .max = 1e30},
+     "The value replaces the shininess of every material, including materials set by `--material`.", .now = "material",
+     .key = "shininess", .store = store_number, .others = "gloss glossiness specular-exponent exponent",
+     FIELD(material.shininess), .has_field = offsetof(struct options, material.has_shininess), .min = 0, .max = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
      "The value replaces the opacity of every material, including materials set by `--material`. The alpha of vertex "
      "colours still multiplies it.",
-     .store = store_number, .others = "alpha transparency translucency", FIELD(material.opacity),
-     .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
+     .now = "material", .key = "opacity", .store = store_number, .others = "alpha transparency translucency",
+     FIELD(material.opacity), .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
 
     {"shading", 0, GROUP_SHADING, "METHOD", .brief = "flat, gouraud or phong",
      .others = "flat smooth gouraud phong interpolation", .has_field = offsetof(struct options, shading.has_shading)},
@@ -577,23 +581,29 @@ struct option option_table[OPTIONS_MAX] = {
      "points in full light or full shadow still use only 48 rays. Fewer rays are faster but cause visible banding.",
      .others = "soft-shadow-samples light-samples"},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, NULL,
-     "Lambent omits edges behind surfaces (see `--hidden-lines`) and edges that split polygons of OBJ and PLY files "
-     "into triangles. `--surfaces off` draws only the lines. Lines are smooth with any value of `--samples`. Light, "
+     "`--wireframe width=2,color=red` sets the width in pixels (1) and the colour (black). If the alpha of the colour "
+     "is "
+     "below 1, the surfaces show through. Lambent omits edges behind surfaces (see `--hidden-lines`) and edges that "
+     "split polygons of OBJ and PLY files into triangles. `--surfaces off` draws only the lines. Lines are smooth with "
+     "any value of `--samples`. Light, "
      "exposure, tone curve and distance do not affect the colour and width of lines. For pictures, see "
      "`docs/edges.md`.",
-     .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
-    {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .others = "wire-width"},
+     .keyed = true, .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
+    {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .now = "wireframe", .key = "width", .others = "wire-width"},
     {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "If the alpha is below 1, the surfaces show through.",
-     .kind = VALUE_COLOR, .store = store_color, .others = "wire-color", FIELD(shading.wireframe_color)},
+     .kind = VALUE_COLOR, .store = store_color, .now = "wireframe", .key = "color", .others = "wire-color",
+     FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
-     "At a `crease` edge, two faces meet at an angle larger than `--edge-angle`, or more than two faces meet. A "
-     "`boundary` edge belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing "
-     "face. `--edges all --surfaces off` makes a technical drawing.",
-     .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
-    {"edge-angle", 0, GROUP_SHADING, "DEGREES", .others = "feature-angle sharp-angle"},
-    {"edge-width", 0, GROUP_SHADING, "PIXELS", .others = "outline-width"},
+     "At a `crease` edge, two faces meet at an angle larger than `angle`, or more than two faces meet. A `boundary` "
+     "edge "
+     "belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing face. The keys "
+     "`angle` (40 degrees), `width` (1.5 pixels) and `color` (black) may follow: `--edges all,width=2,color=red`. Keys "
+     "alone draw all edges. `--edges all --surfaces off` makes a technical drawing.",
+     .keyed = true, .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
+    {"edge-angle", 0, GROUP_SHADING, "DEGREES", .now = "edges", .key = "angle", .others = "feature-angle sharp-angle"},
+    {"edge-width", 0, GROUP_SHADING, "PIXELS", .now = "edges", .key = "width", .others = "outline-width"},
     {"edge-color", 0, GROUP_SHADING, "COLOR", "black", NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
-     .others = "outline-color", FIELD(shading.edge_color)},
+     .now = "edges", .key = "color", .others = "outline-color", FIELD(shading.edge_color)},
     {"hidden-lines", 0, GROUP_SHADING, "STYLE", NULL, NULL,
      "Lambent traces rays from each edge to the eye to determine exactly whether the edge is hidden, so lines along a "
      "surface have no gaps. A surface hides the lines behind it if its opacity is at least 0.5; glass hides nothing.",
@@ -606,10 +616,12 @@ struct option option_table[OPTIONS_MAX] = {
      "interpolation, and limits the shininess to 128. It also attenuates the ambient light of each light and limits it "
      "to the light's cone.",
      .words = NULL},
+    {"back-faces", 0, GROUP_SHADING, "KIND", "the model's", "The lighting of back faces: two-sided or one-sided.",
+     "`--cull back` omits them.", back_face_words, .store = store_back_faces, .others = "backfaces double-sided"},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, for every material.", NULL,
-     .store = store_switch, FIELD(shading.two_sided)},
+     .store = store_switch, .now = "back-faces", FIELD(shading.two_sided)},
     {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces like front faces, with the unchanged normal.", NULL,
-     .store = store_switch, FIELD(shading.one_sided)},
+     .store = store_switch, .now = "back-faces", FIELD(shading.one_sided)},
     {"cull", 0, GROUP_SHADING, "SIDE", "the model's",
      "Omit the back or front faces of all objects: none, back or front.", NULL, cull_words, .store = store_word,
      .others = "culling backface-culling", FIELD(shading.cull),
@@ -631,16 +643,17 @@ struct option option_table[OPTIONS_MAX] = {
      "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, TGA, PPM, "
      "PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in OpenGL's order: "
      "`px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are built in. To use a "
-     "file named `sky`, write `./sky`. Classic materials reflect the environment only if they have a reflectivity (see "
-     "`--reflectivity`). `docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
+     "file named `sky`, write `./sky`. Classic materials reflect the environment only if they have a reflectivity "
+     "(`--material reflectivity=0.5`). `docs/lighting/reflection.md` describes how Lambent maps each kind around the "
+     "model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Rotate the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
      FIELD(shading.environment_rotation_deg), .min = -3600, .max = 3600},
     {"reflectivity", 0, GROUP_SHADING, "SHARE", "the materials' own",
-     "The share of the environment that every material reflects: 0.5 or r/g/b.", NULL, .store = store_reflectivity,
-     .others = "mirror reflective", FIELD(material.reflectivity),
+     "The share of the environment that every material reflects: 0.5 or r/g/b.", NULL, .now = "material",
+     .key = "reflectivity", .store = store_reflectivity, .others = "mirror reflective", FIELD(material.reflectivity),
      .has_field = offsetof(struct options, material.has_reflectivity), .max = 1000},
 
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
@@ -648,12 +661,13 @@ struct option option_table[OPTIONS_MAX] = {
      "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
      "exposure. By default, and with a name that ends in `.png` or `.webp`, Lambent writes all frames to one animated "
      "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a "
-     "separate file, in any format. For examples, see `docs/animation.md`.",
-     .store = store_integer, .others = "spin turnaround orbit rotate360 animate gif apng", FIELD(animation.turntable),
-     .min = 2, .max = 100000},
+     "separate file, in any format. `36,light=model` turns the lights with the model instead of keeping them with the "
+     "camera; lights in an object's frame always turn with the object. For examples, see `docs/animation.md`.",
+     .store = store_integer, .keyed = true, .others = "spin turnaround orbit rotate360 animate gif apng",
+     FIELD(animation.turntable), .min = 2, .max = 100000},
     {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
-     "Keep the lights of a turntable with the camera, or turn them with the model: camera or model.",
-     "Lights in an object's frame always turn with the object.", turntable_light_words, .store = store_word,
+     "Keep the lights of a turntable with the camera, or turn them with the model: camera or model.", NULL,
+     turntable_light_words, .store = store_word, .now = "turntable", .key = "light",
      .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
     {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
      "Animate a number: light.azimuth=0..360, roughness=0..1; repeatable.",

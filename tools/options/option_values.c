@@ -73,6 +73,16 @@ bool store_word(const struct option *option, const char *value, struct options *
     return true;
 }
 
+bool store_back_faces(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    int one;
+    if (!read_word(option, value, &one, error))
+        return false;
+    options->shading.one_sided = one;
+    options->shading.two_sided = !one;
+    return true;
+}
+
 bool store_word_flag(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     int flag;

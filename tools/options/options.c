@@ -101,7 +101,72 @@ const struct option *option_find(const char *name) { return find_long(name, strl
 bool option_given(const struct options *options, const char *name)
 {
     const struct option *option = option_find(name);
-    return option && options->given[option - option_table];
+    return option && (options->given[option - option_table] || options->by_key[option - option_table]);
+}
+
+// Returns the option that "width" means in the value of `edges`, or NULL.
+static const struct option *find_key(const struct option *option, const char *key, size_t length)
+{
+    for (const struct option *o = option_table; option->keyed && o->name; o++)
+        if (o->key && strcmp(o->now, option->name) == 0 && is_name(o->key, key, length))
+            return o;
+    return NULL;
+}
+
+// Returns whether a text begins with a key of the option's value and an equals sign.
+static bool begins_with_key(const struct option *option, const char *text)
+{
+    size_t length = strcspn(text, "=,");
+    return text[length] == '=' && find_key(option, text, length);
+}
+
+static bool unknown_key(const struct option *option, const char *text, lam_error *error)
+{
+    char known[100] = "";
+    for (const struct option *o = option_table; o->name; o++)
+        if (o->key && strcmp(o->now, option->name) == 0)
+            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s=%s", *known ? ", " : "", o->key,
+                     o->value);
+    return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s", text, known);
+}
+
+// Stores "width=2" of `length` letters.
+static bool store_key(const struct option *option, const char *text, size_t length, struct options *options,
+                      lam_error *error)
+{
+    char value[64];
+    size_t start = strcspn(text, "=") + 1;
+    const struct option *key = find_key(option, text, start - 1);
+    if (!key || length - start >= sizeof value)
+        return unknown_key(option, text, error);
+    snprintf(value, sizeof value, "%.*s", (int)(length - start), text + start);
+    lam_error reason = {0};
+    if (!key->store(key, value, options, &reason))
+        return complain(error, LAM_BAD_ARGUMENT, "%s: %.300s", key->key, reason.text);
+    if (key->store == store_color)
+        *(const char **)((char *)options + key->field) = text + start;
+    options->by_key[key - option_table] = true;
+    options->values[key - option_table] = text + start;
+    return true;
+}
+
+bool option_store(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    char own[256] = "";
+    size_t used = 0;
+    if (!option->keyed || !value)
+        return option->store(option, value, options, error);
+    for (const char *at = value; at; at = at[strcspn(at, ",")] ? at + strcspn(at, ",") + 1 : NULL) {
+        size_t length = strcspn(at, ",");
+        bool key = memchr(at, '=', length) != NULL || !option->value;
+        if (key && !store_key(option, at, length, options, error))
+            return false;
+        if (!key && used < sizeof own)
+            used += (size_t)snprintf(own + used, sizeof own - used, "%s%.*s", used ? "," : "", (int)length, at);
+    }
+    if (!used && option->store == store_words) // only keys
+        return option->store(option, "all", options, error);
+    return option->store(option, own, options, error);
 }
 
 // Returns whether other programs use this name for the option.
@@ -120,15 +185,21 @@ static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_e
     snprintf(typed, sizeof typed, "%.*s", (int)(length < 60 ? length : 60), name);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++)
-        if (option_is_taken(o, groups) && !o->now) {
-            suggest_try(&nearest, o->name);
+        if (option_is_taken(o, groups)) {
+            if (!o->now)
+                suggest_try(&nearest, o->name);
             suggest_also(&nearest, o->name, o->others);
         }
     if (nearest.distance > 0 && is_one_of(typed, model_names))
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; a model needs no option: lambent MODEL",
                         typed);
-    if (nearest.best)
-        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?", typed, nearest.best);
+    const struct option *meant = nearest.best ? option_find(nearest.best) : NULL;
+    if (meant && meant->now && meant->key)
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s %s=%s'?", typed, meant->now,
+                        meant->key, meant->value);
+    if (meant)
+        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?", typed,
+                        meant->now ? meant->now : meant->name);
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
 }
 
@@ -148,8 +219,8 @@ static bool unknown_letter(const char *word, char letter, uint64_t groups, lam_e
                         "unknown option '-%c'; for the file '%s' write './%s', or '--' before it", letter, word, word);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++)
-        if (option_is_taken(o, groups) && !o->now)
-            suggest_also(&nearest, o->name, o->others);
+        if (option_is_taken(o, groups))
+            suggest_also(&nearest, o->now ? o->now : o->name, o->others);
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'%s%s%s", letter,
                     nearest.best ? "; did you mean '--" : "", nearest.best ? nearest.best : "",
                     nearest.best ? "'?" : "");
@@ -257,14 +328,14 @@ static bool take_look_line(void *user, int line, char *name, char *value, lam_er
                         "%.100s:%d: found '%.60s', expected an option of the picture, such as --ao",
                         options->lighting.look, line, name);
     const char *given = *value ? value : option->alone;
-    if (!option->value != !given)
+    if (!option->value != !given && !(given && option->keyed))
         return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s %s", options->lighting.look, line, option->name,
                         option->value ? "needs a value" : "takes no value");
     if (is_light(option) ? lines->lights : option_given(lines->before, option->name))
         return true;
     lam_error reason = {0};
     int count = options->lighting.lights.count;
-    if (!option->store(option, given, options, &reason))
+    if (!option_store(option, given, options, &reason))
         return complain(error, LAM_BAD_ARGUMENT, "%.100s:%d: --%s: %.300s", options->lighting.look, line, option->name,
                         reason.text);
     options->lighting.look_lights += options->lighting.lights.count - count;
@@ -331,7 +402,7 @@ static bool apply(const struct option *typed, const char *value, uint64_t groups
     if (look && options->lighting.look)
         return complain(error, LAM_BAD_ARGUMENT, "option '--look': given twice: '%.60s' and '%.60s'",
                         options->lighting.look, value);
-    if (look ? apply_look(value, options, &reason) : option->store(option, value, options, &reason)) {
+    if (look ? apply_look(value, options, &reason) : option_store(option, value, options, &reason)) {
         option_mark(options, option, value, false);
         return true;
     }
@@ -377,8 +448,10 @@ static bool read_long(int count, char **words, int *at, uint64_t groups, struct 
     if (!option)
         return unknown_long(name, length, groups, error);
     const char *value = name[length] ? name + length + 1 : NULL;
-    if (!option->value && value)
+    if (!option->value && value && !option->keyed)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' takes no value; found '%s'", option->name, value);
+    if (!option->value && !value && *at + 1 < count && begins_with_key(option, words[*at + 1]))
+        value = words[++*at];
     bool alone = option->alone && (*at + 1 == count || !follows(option, words[*at + 1], options));
     if (!value && alone && *at + 1 < count && is_mistyped(words[*at + 1]))
         return apply(option, words[*at + 1], groups, options, error); // reports the expected values
@@ -405,6 +478,8 @@ static bool read_letters(int count, char **words, int *at, uint64_t groups, stru
             value = letter[1] ? letter + 1 : next_value(option, count, words, at, error);
             if (!value)
                 return false;
+        } else if (!letter[1] && *at + 1 < count && begins_with_key(option, words[*at + 1])) {
+            value = words[++*at];
         }
         if (!apply(option, value, groups, options, error))
             return false;
@@ -433,15 +508,17 @@ int options_first_operand(int count, char **words)
             const struct option *option = find_long(word + 2, length);
             if (!option)
                 return -1; // "--", or an error
-            bool next = option->value && word[2 + length] != '=' && at + 1 < count;
-            at += next && (!option->alone || follows(option, words[at + 1], &unused));
+            if (word[2 + length] == '=' || at + 1 == count)
+                continue;
+            at += option->value ? !option->alone || follows(option, words[at + 1], &unused)
+                                : begins_with_key(option, words[at + 1]);
             continue;
         }
         for (const char *letter = word + 1; *letter; letter++) {
             const struct option *option = find_letter(*letter);
             if (!option)
                 return -1;
-            at += option->value && !letter[1];
+            at += !letter[1] && (option->value || (at + 1 < count && begins_with_key(option, words[at + 1])));
             if (option->value)
                 break;
         }
@@ -454,6 +531,8 @@ static bool has_long_dash(const char *word)
 {
     return strncmp(word, "–", 3) == 0 || strncmp(word, "—", 3) == 0 || strncmp(word, "−", 3) == 0;
 }
+
+static bool is_number(const char *word) { return *word && !word[strspn(word, "0123456789")]; }
 
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error)
 {
@@ -468,6 +547,12 @@ int options_parse(int count, char **words, uint64_t groups, struct options *opti
                      "found '%.100s', which begins with the dash of a text; options begin with --", word);
             return -1;
         } else if (word[0] != '-' || word[1] == 0) {
+            if (at > 0 && options->picture.has_size && is_number(word) && is_number(words[at - 1]) &&
+                access(word, F_OK) != 0) {
+                complain(error, LAM_BAD_ARGUMENT, "option '--size': found '%s %s', expected one word: %sx%s",
+                         words[at - 1], word, words[at - 1], word);
+                return -1;
+            }
             words[operands++] = word;
         } else if (word[1] == '-') {
             if (!read_long(count, words, &at, groups, options, error))

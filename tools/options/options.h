@@ -38,6 +38,7 @@ struct options {
     struct settings_options settings;
 
     bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
+    bool by_key[OPTIONS_MAX];        // a key in the value of another option sets it (option.key)
     bool by_look[OPTIONS_MAX];       // whether the option comes from --look
     int by_config[OPTIONS_MAX];      // the line in the settings file; 0: not from the file
     const char *values[OPTIONS_MAX]; // the value in the settings file; NULL: no value
@@ -138,6 +139,8 @@ struct option {
     // The option that takes several values separated by commas, suggested if a value contains a comma. May be NULL.
     const char *several;
     const char *now;    // the option that replaces this obsolete one, or NULL
+    const char *key;    // its key in the value of `now`, such as "width" of "edge-width" in "--edges all,width=2"
+    bool keyed;         // other options are keys of its value
     const char *former; // the option that formerly had this name, suggested for its words; or NULL
 };
 
@@ -170,11 +173,15 @@ int options_first_operand(int count, char **words);
 enum { OPTION_WORDS_SIZE = 256 };
 const char *option_words_list(const struct option *option, char text[OPTION_WORDS_SIZE]);
 
-// Returns true if the command line contains the option with this long name.
+// Returns true if the command line contains the option with this long name, or its key in another option's value.
 bool option_given(const struct options *options, const char *name);
 
 // Returns true if a command accepts an option. `groups` has bit g set for each complete group, and TAKES_… bits.
 bool option_is_taken(const struct option *option, uint64_t groups);
+
+// Stores a value, NULL for a switch, which may contain keys for other options ("all,width=2"). Their values may be
+// followed by a comma and the rest of the text.
+bool option_store(const struct option *option, const char *value, struct options *options, lam_error *error);
 
 // Parses a command line without the names of the program and the command. `groups` is as for option_is_taken. Moves the
 // operands to the front of `words` and returns their number, or −1 with LAM_BAD_ARGUMENT.
@@ -219,6 +226,7 @@ bool store_material(const struct option *, const char *, struct options *,
 bool store_texts(const struct option *, const char *, struct options *, lam_error *); // struct texts, unchecked
 bool store_across(const struct option *, const char *, struct options *,
                   lam_error *); // struct texts, at most ACROSS_MAX
+bool store_back_faces(const struct option *, const char *, struct options *, lam_error *); // two_sided, one_sided
 bool store_rotation(const struct option *, const char *, struct options *,
                     lam_error *); // struct texts, checked
 bool store_opaque_color(const struct option *, const char *, struct options *,

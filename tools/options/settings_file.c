@@ -77,18 +77,27 @@ static bool wrong(struct reader *r, const char *group, const char *key, const ch
 static bool unknown_key(struct reader *r, const char *group, const char *key)
 {
     const lam_setting *setting;
-    char text[200];
+    char text[200], keys[100] = "image, environment or a setting of a scene file (docs/settings.md lists them)";
+    const char *other = NULL; // the group in which the key is known
     struct suggestion nearest = suggest_start(key);
-    for (int i = 0; i < GROUPED; i++)
-        if (group && strcmp(grouped[i].group, group) == 0)
+    *keys = group ? 0 : *keys;
+    for (int i = 0; i < GROUPED; i++) {
+        if (group && strcmp(grouped[i].group, group) == 0) {
             suggest_try(&nearest, grouped[i].key);
+            snprintf(keys + strlen(keys), sizeof keys - strlen(keys), "%s%s", *keys ? ", " : "", grouped[i].key);
+        } else if (strcmp(grouped[i].key, key) == 0) {
+            other = grouped[i].group;
+        }
+    }
     for (int i = 0; !group && (setting = lam_draw_setting(i)); i++)
         suggest_try(&nearest, setting->key);
-    if (nearest.best)
+    if (other || (group && lam_draw_setting_find(key) >= 0))
+        snprintf(text, sizeof text, "unknown key; did you mean '%s%s%.60s'?", other ? other : "", other ? "." : "",
+                 key);
+    else if (nearest.best)
         snprintf(text, sizeof text, "unknown key; did you mean '%s'?", nearest.best);
     else
-        snprintf(text, sizeof text, "unknown key, expected the %s of a scene file (docs/settings.md lists them)",
-                 group ? group : "image, environment or a setting");
+        snprintf(text, sizeof text, "unknown key, expected %s%s", group ? "one of " : "", keys);
     return wrong(r, group, key, text);
 }
 

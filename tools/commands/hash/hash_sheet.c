@@ -87,7 +87,8 @@ static bool load(const json_t *record, const char *key, lam_image *image)
     return size == 4 * (size_t)image->width * (size_t)image->height;
 }
 
-static bool draw_row(struct drawing *d, const json_t *record, const char *name, int top, lam_error *error)
+// Draws a model's pictures from column `first`: 0 the old one, 1 the new one.
+static bool draw_row(struct drawing *d, const json_t *record, const char *name, int first, int top, lam_error *error)
 {
     lam_image pictures[2] = {0}, difference = {0};
     const char *const keys[] = {"old_picture", "new_picture"};
@@ -95,7 +96,9 @@ static bool draw_row(struct drawing *d, const json_t *record, const char *name, 
     draw_text(d, (struct point){GAP, top + 18}, 15, ALIGN_LEFT, INK, name);
     for (int i = 0; i < 2; i++) {
         has[i] = load(record, keys[i], &pictures[i]);
-        int left = GAP + i * (CELL + GAP);
+        int left = GAP + (i - first) * (CELL + GAP);
+        if (i < first)
+            continue;
         if (has[i])
             ok = ok && draw_image(d, &pictures[i], left, top + TITLE, name, error);
         else
@@ -120,16 +123,21 @@ bool hash_sheet_write(const struct hash_run *run, json_t *const *records, int *r
         return true;
     *rows = *rows > SHEET_ROWS ? SHEET_ROWS : *rows;
     struct drawing d;
-    int width = GAP + 3 * (CELL + GAP), row = TITLE + CELL + GAP, drawn = 0;
+    bool any_old = false;
+    for (size_t i = 0; i < run->plan.count; i++)
+        any_old |= json_object_get(records[i], "old_picture") != NULL;
+    int first = any_old ? 0 : 1, last = any_old ? 3 : 2; // without old pictures, only the column of the new ones
+    int width = GAP + (last - first) * (CELL + GAP), row = TITLE + CELL + GAP, drawn = 0;
     if (!drawing_open(&d, width, HEAD + *rows * row + GAP, false, true, NULL, error))
         return false;
     static const char *const heads[] = {"old", "new", "difference x 16"};
-    for (int i = 0; i < 3; i++)
-        draw_text(&d, (struct point){GAP + i * (CELL + GAP) + CELL / 2.0, 28}, 18, ALIGN_MIDDLE, INK, heads[i]);
+    for (int i = first; i < last; i++)
+        draw_text(&d, (struct point){GAP + (i - first) * (CELL + GAP) + CELL / 2.0, 28}, 18, ALIGN_MIDDLE, INK,
+                  heads[i]);
     bool ok = true;
     for (size_t i = 0; ok && i < run->plan.count && drawn < *rows; i++)
         if (json_object_get(records[i], "new_picture"))
-            ok = draw_row(&d, records[i], run->names[i], HEAD + drawn++ * row, error);
+            ok = draw_row(&d, records[i], run->names[i], first, HEAD + drawn++ * row, error);
     const char *slash = strrchr(run->sheet, '/');
     ok = ok && writer_check_links(run->sheet, slash ? (size_t)(slash - run->sheet) : 0, error) &&
          drawing_write(&d, run->sheet, error);

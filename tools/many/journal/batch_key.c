@@ -222,7 +222,7 @@ uint64_t batch_key(const struct batch_key_parts *p)
     // A scene file's own settings apply only if the command line sets none, so the key includes which options were
     // typed.
     for (int i = 0; strcmp(p->format, "scene") == 0 && option_table[i].name; i++)
-        if (p->parsed->given[i] && changes_picture(&option_table[i]))
+        if ((p->parsed->given[i] || p->parsed->by_key[i]) && changes_picture(&option_table[i]))
             xxh64_add_text(&hash, option_table[i].name);
     xxh64_add_text(&hash, p->file_count ? NULL : p->model);
     xxh64_add_text(&hash, p->picture);

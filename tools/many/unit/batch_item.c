@@ -344,6 +344,7 @@ static void draw(struct model_run *r)
                       .model = item->model,
                       .model_bytes = item->model_bytes,
                       .picture_bytes = item->contents,
+                      .one_of_many = item->one_of_many,
                       .makes_folder = item->makes_folders,
                       .cancel = item->cancel,
                       .device = r->artist->device,

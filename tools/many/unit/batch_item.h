@@ -20,6 +20,7 @@ struct batch_item {
     lam_bytes *contents;          // receive the pictures; NULL if they are written to the paths
     const int *attempts;          // the attempt number of each picture, starting at 1
     int view_count;
+    bool one_of_many;            // several models are drawn with the same options
     bool several;                // the command line has several views or sizes
     bool makes_folders;          // also create the folders of explicitly named pictures
     const lam_cancel *cancel;    // stops it; if NULL, only Ctrl-C does

@@ -204,6 +204,7 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                .view_count = count,
                                .use = b->use,
                                .index = task->model,
+                               .one_of_many = task->plan->count > 1,
                                .several = o->batch.view_count || o->batch.size_count};
 }
 

@@ -3,7 +3,7 @@
 
 Two rules order the folders (docs/architecture.md). Files never depend on one another in a circle, in the library or in the program; and a folder of
 the library or of the program uses none below it in the list. The include paths of the build keep the library's headers to that order; this
-test checks function calls, and the program's headers (a fifth rule). A sixth: no C file outside src/base/system asks for Windows. The third rule: every file that a page or a comment names exists.
+test checks function calls, and the program's headers (a fifth rule). A sixth: no C file outside src/base/system asks for Windows. A seventh: no folder of the program has more than 25 files. The third rule: every file that a page or a comment names exists.
 The fourth keeps reflection models replaceable: only a lobe's row in src/lighting/lobes.h describes it."""
 import collections
 import functools
@@ -165,6 +165,13 @@ def windows_elsewhere():
                     yield os.path.relpath(os.path.join(path, name), ROOT)
 
 
+def large_folders():
+    """Folders of the program with more than 25 files: nobody finds one at a glance."""
+    for path, _, names in os.walk(os.path.join(ROOT, "tools")):
+        if len(names) > 25:
+            yield os.path.relpath(path, ROOT), len(names)
+
+
 def lobes_asked_by_name():
     """(file, comparison) for each reflection model that the library compares by its name."""
     src = os.path.join(ROOT, "src")
@@ -203,7 +210,7 @@ def options_in_messages():
 def main():
     edges, order = graph(sys.argv[1]), library_folders() + floors()
     bad = 0
-    print("1..7")
+    print("1..8")
     found = circles(edges)
     print("%s 1 - no circle between files" % ("not ok" if found else "ok"))
     for part in found:
@@ -243,6 +250,11 @@ def main():
     for file in asking:
         bad += 1
         print("#   %s asks for it" % file)
+    large = sorted(large_folders())
+    print("%s 8 - no folder of the program has more than 25 files" % ("not ok" if large else "ok"))
+    for folder, count in large:
+        bad += 1
+        print("#   %s has %d" % (folder, count))
     if not edges:
         print("# no objects were found in %s" % sys.argv[1])
     return 1 if bad or not edges else 0

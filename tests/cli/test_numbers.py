@@ -98,7 +98,7 @@ ROWS = [
     ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} up to {}², {} above |", *SAMPLES),
     ("tools/options/option_table.c", "\"{} up to {}x256 pixels, {} up to {}x512, {} above\"", *SAMPLES),
     ("include/lambent/device.h", "for a picture of this size: {} up to {}² pixels, so that thin wires do not break into dashes, {} up to {}², and {} above", *SAMPLES),
-    ("docs/view.md", "more than {} triangles, lines and points", constant("tools/view/view_draw.h", "VIEW_TRIANGLES_MAX")),
+    ("docs/view.md", "more than {} triangles, lines and points", constant("tools/view/drawing/view_draw.h", "VIEW_TRIANGLES_MAX")),
     ("docs/view.md", "files of more than {} MB", counted("megabytes of PAGE_FILES_MAX", lambda: constant("tools/page/page_write.h", "PAGE_FILES_MAX").look_up() / 1e6)),
     ("docs/view.md", "minutes, by default {}", constant("tools/view/view_server.c", "IDLE_MINUTES")),
     ("docs/view.md", "a picture of {} pixels", constant("tools/view/view_gallery.h", "VIEW_THUMBNAIL")),

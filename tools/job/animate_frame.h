@@ -3,7 +3,7 @@
 #define ANIMATE_FRAME_H
 
 #include "job.h"
-#include "job_scene.h"
+#include "job_steps.h"
 #include "sweep_option.h"
 
 struct animation {

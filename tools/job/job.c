@@ -12,7 +12,6 @@
 #include "environment_apply.h"
 #include "interrupt.h"
 #include "job_inputs.h"
-#include "job_scene.h"
 #include "light_markers.h"
 #include "limit_options.h"
 #include "model_guess.h"

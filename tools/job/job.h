@@ -128,7 +128,4 @@ lam_explanation *job_explain(struct job *job, int x, int y, struct progress *pro
 // Runs both steps and makes the shaders of the picture. Returns NULL on failure.
 lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error);
 
-// glass.c: notes that a transparent picture of tinted glass is only correct over white, or that glass is drawn opaque.
-void job_note_glass(struct job *job, const lam_draw_params *draw);
-
 #endif

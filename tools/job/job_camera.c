@@ -7,7 +7,6 @@
 
 #include "animate_frame.h"
 #include "console.h"
-#include "job_scene.h"
 #include "scene_settings.h"
 
 static lam_view view_of(const struct options *o)

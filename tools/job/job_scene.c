@@ -1,5 +1,5 @@
 // job_scene.c: applies the options for materials, rotations and lights to a loaded model.
-#include "job_scene.h"
+#include "job_steps.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "options.h"
 #include "console.h"
 #include "light_place.h"
-#include "material_option.h"
+#include "material_apply.h"
 
 // --- materials
 
@@ -247,6 +247,43 @@ bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *er
         lam_scene_set_ambient(job->scene, (lam_rgb){color.r, color.g, color.b});
     }
     return !o->lighting.has_light_scale || scale_lights(job->scene, o->lighting.light_scale, error);
+}
+
+// --- notes about glass
+
+static bool is_grey(float r, float g, float b) { return r == g && g == b; }
+
+static bool colors_light(const lam_material *m)
+{
+    return m->physical && m->transmission > 0 && m->metallic < 1 &&
+           (!is_grey(m->diffuse.r, m->diffuse.g, m->diffuse.b) || m->maps[LAM_MAP_DIFFUSE] ||
+            (m->thickness > 0 && m->attenuation_distance > 0 &&
+             !is_grey(m->attenuation_color.r, m->attenuation_color.g, m->attenuation_color.b)));
+}
+
+static bool is_shown(const lam_draw_params *draw)
+{
+    bool other = draw->reflection != LAM_REFLECTION_AUTO && !lam_reflection_describe(draw->reflection)->microfacet;
+    return draw->shading == LAM_SHADING_PHONG && !other;
+}
+
+// Its tint is only correct over white, and only some drawing methods show it.
+void job_note_glass(struct job *job, const lam_draw_params *draw)
+{
+    for (int i = 0; !is_shown(draw) && i < lam_scene_material_count(job->scene); i++)
+        if (lam_scene_material(job->scene, i)->physical && lam_scene_material(job->scene, i)->transmission > 0) {
+            lam_scene_add_warning(
+                job->scene, "glass is drawn opaque: only Phong shading with a physical reflection model shows it");
+            return;
+        }
+    if (draw->background.a > 0 || draw->output != LAM_OUTPUT_PICTURE)
+        return;
+    for (int i = 0; i < lam_scene_material_count(job->scene); i++)
+        if (colors_light(lam_scene_material(job->scene, i))) {
+            lam_scene_add_warning(job->scene, "the transparent picture of coloured glass is correct over white; for "
+                                              "another colour behind it, add --background COLOUR");
+            return;
+        }
 }
 
 // --- drawing

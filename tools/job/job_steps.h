@@ -36,4 +36,25 @@ lam_save_params job_save_params(const struct job *job, const lam_control *contro
 // Writes job->image to job->output, and adds to job->bytes and times.encode.
 bool job_write(struct job *job, lam_error *error);
 
+// --- the scene (job_scene.c)
+
+// Applies materials, sides and the rig: everything before the camera and the rotations. Fills `sphere`.
+bool job_apply_options(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error);
+
+// Gets the rotation axis of this picture and the others on its sheet; length 0 if there are several axes. Returns false
+// if there is no rotation.
+bool job_turn_axis(const struct options *o, lam_vec3 *axis);
+
+// Rotates the model about the sphere's centre.
+bool job_turn(struct job *job, const struct model_sphere *sphere, lam_error *error);
+
+// Adds the lights, after the camera has been placed.
+bool job_light(struct job *job, const struct model_sphere *sphere, lam_error *error);
+
+// Returns the drawing parameters for the options, without the background.
+lam_draw_params draw_params_of(const struct options *o, lam_rig rig);
+
+// Notes that a transparent picture of tinted glass is only correct over white, or that glass is drawn opaque.
+void job_note_glass(struct job *job, const lam_draw_params *draw);
+
 #endif

@@ -1,4 +1,4 @@
-// material_option.h: parses the values of --material and --back-material and applies them to a scene.
+// material_option.h: parses the values of --material and --back-material, and warns about coefficients.
 #ifndef MATERIAL_OPTION_H
 #define MATERIAL_OPTION_H
 
@@ -24,14 +24,6 @@ void material_option_mirror(struct material_option *option);
 
 // Returns `material` as changed by the option.
 lam_material material_option_apply(const struct material_option *option, lam_material material);
-
-// Sets the front or back (`back`) material of a scene's objects. Error messages use `name` as the option's name.
-bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
-                         lam_error *error);
-
-// Hides the objects with this name; if there are none, the parts; if there are none either, the surfaces with a
-// material of this name (--hide). If the model has no such name, adds a warning if it `may_lack` one, and fails otherwise.
-bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, lam_error *error);
 
 // Adds a warning to the scene for each coefficient above 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene);

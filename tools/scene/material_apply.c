@@ -1,5 +1,5 @@
-// material_apply.c: applies --material and --back-material to a scene's objects.
-#include "material_option.h"
+// material_apply.c: applies --material, --back-material and --hide to a scene's objects.
+#include "material_apply.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -297,9 +297,9 @@ static void draw_words(struct compare *c, struct point baseline, double width, c
     }
     size_t length = strlen(line), cut = 0;
     for (size_t i = 1; i < length; i++) {
-        bool place = line[i - 1] == ',' || line[i - 1] == ' ';
+        bool breakable = line[i - 1] == ',' || line[i - 1] == ' ';
         size_t half = length / 2, off = i > half ? i - half : half - i, best = cut > half ? cut - half : half - cut;
-        if (place && off < best)
+        if (breakable && off < best)
             cut = i;
     }
     char first[512];
@@ -430,10 +430,10 @@ static bool draw_sheet(struct compare *c, lam_error *error)
     return true;
 }
 
-static bool has_word(const char *const *words, int count, const char *word)
+static bool has_argument(const char *const *words, int count, const char *argument)
 {
     for (int i = 0; i < count; i++)
-        if (strcmp(words[i], word) == 0)
+        if (strcmp(words[i], argument) == 0)
             return true;
     return false;
 }
@@ -461,7 +461,7 @@ static void print_json(const struct compare *c, const char *path)
         const char *own[] = {"--background", c->options->picture.background ? NULL : SHEET_BACKGROUND, "--ao",
                              option_given(c->options, "ao") ? NULL : "off"};
         for (size_t k = 0; k < sizeof own / sizeof *own; k += 2)
-            if (own[k + 1] && !has_word(words, count, own[k])) {
+            if (own[k + 1] && !has_argument(words, count, own[k])) {
                 json_text(&json, NULL, own[k]);
                 json_text(&json, NULL, own[k + 1]);
             }

@@ -30,8 +30,8 @@ static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
             fprintf(file, "= ");
         shader_numbers(file, u->value, u->count, false);
         // Only the first element of a list has a meaning.
-        const char *place = strchr(u->name, '[');
-        bool first = !place || strncmp(place, "[0]", 3) == 0;
+        const char *bracket = strchr(u->name, '[');
+        bool first = !bracket || strncmp(bracket, "[0]", 3) == 0;
         fprintf(file, "%s%s%s\n", u->count && first ? "  " : "", first ? "// " : "", first ? u->meaning : "");
     }
 }

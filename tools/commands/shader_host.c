@@ -34,8 +34,8 @@ static void identifier(FILE *file, const char *name)
 // Returns true for the first element of a list, whose comment describes the list.
 static bool is_first(const lam_shader_uniform *u)
 {
-    const char *place = strchr(u->name, '[');
-    return !place || strncmp(place, "[0]", 3) == 0;
+    const char *bracket = strchr(u->name, '[');
+    return !bracket || strncmp(bracket, "[0]", 3) == 0;
 }
 
 static void set_uniform(FILE *file, const lam_shader_uniform *u)

@@ -9,33 +9,33 @@
 #include "plot.h"
 #include "topics.h"
 
-static struct typed_word whole(const char *word) { return (struct typed_word){word, word, 0}; }
+static struct typed_word whole(const char *argument) { return (struct typed_word){argument, argument, 0}; }
 
 // Returns the option of a word that expects its value in the next word, otherwise NULL.
-static const struct option *expects_value(const char *word)
+static const struct option *expects_value(const char *argument)
 {
     const struct option *option = NULL;
-    if (word[0] == '-' && word[1] == '-')
-        option = option_find(word + 2); // not "--name=value"
-    else if (word[0] == '-' && word[1] && !word[2])
+    if (argument[0] == '-' && argument[1] == '-')
+        option = option_find(argument + 2); // not "--name=value"
+    else if (argument[0] == '-' && argument[1] && !argument[2])
         for (const struct option *o = option_table; o->name && !option; o++)
-            option = o->letter == word[1] ? o : NULL;
+            option = o->letter == argument[1] ? o : NULL;
     return option && option->value ? option : NULL;
 }
 
-static void complete_option(const struct command *command, const char *word)
+static void complete_option(const struct command *command, const char *argument)
 {
-    const char *equals = strchr(word, '=');
+    const char *equals = strchr(argument, '=');
     if (equals) {
         char name[64];
-        snprintf(name, sizeof name, "%.*s", (int)(equals - word - 2), word + 2);
+        snprintf(name, sizeof name, "%.*s", (int)(equals - argument - 2), argument + 2);
         const struct option *option = option_find(name);
-        struct typed_word value = {word, equals + 1, (int)(equals + 1 - word)};
+        struct typed_word value = {argument, equals + 1, (int)(equals + 1 - argument)};
         if (option && option->value && option_is_taken(option, command->groups))
             complete_value(option, &value);
         return;
     }
-    struct typed_word name = {"--", strncmp(word, "--", 2) == 0 ? word + 2 : "", 2};
+    struct typed_word name = {"--", strncmp(argument, "--", 2) == 0 ? argument + 2 : "", 2};
     for (const struct option *o = option_table; o->name; o++)
         if (option_is_taken(o, command->groups) && !o->now)
             complete_offer(&name, o->name, "", o->summary);
@@ -53,18 +53,18 @@ static void complete_shapes(const struct typed_word *typed)
         complete_offer(typed, lam_shape_name(i), "", lam_shape_summary(i));
 }
 
-static bool is_topic(const char *word)
+static bool is_topic(const char *argument)
 {
     const struct topic *t = topics;
-    while (t->word && strcmp(t->word, word) != 0)
+    while (t->name && strcmp(t->name, argument) != 0)
         t++;
-    return t->word;
+    return t->name;
 }
 
 static void complete_topics(const struct typed_word *typed)
 {
-    for (const struct topic *t = topics; t->word; t++)
-        complete_offer(typed, t->word, "", t->title);
+    for (const struct topic *t = topics; t->name; t++)
+        complete_offer(typed, t->name, "", t->title);
     for (const struct command *c = command_table; c->name; c++)
         if (!is_topic(c->name))
             complete_offer(typed, c->name, "", c->summary);
@@ -74,9 +74,9 @@ static void complete_topics(const struct typed_word *typed)
 }
 
 // Completes operand number `index`, counted from 0.
-static void complete_operand(const struct command *command, int index, const char *word)
+static void complete_operand(const struct command *command, int index, const char *argument)
 {
-    struct typed_word typed = whole(word);
+    struct typed_word typed = whole(argument);
     if (command->max_operands >= 0 && index >= command->max_operands)
         return;
     switch ((enum command_index)(command - command_table)) {

@@ -4,17 +4,17 @@
 
 #include "options.h"
 
-// The unfinished word: `before` is complete, `piece` is the beginning of the rest.
+// The unfinished word: `before` is complete, `prefix` is the beginning of the rest.
 struct typed_word {
-    const char *before, *piece;
+    const char *before, *prefix;
     int before_length;
 };
 
-// Prints a candidate if it begins with `piece`: the whole word, then `ending`, a tab and the summary, which may be
+// Prints a candidate if it begins with `prefix`: the whole word, then `ending`, a tab and the summary, which may be
 // NULL.
-void complete_offer(const struct typed_word *typed, const char *word, const char *ending, const char *summary);
+void complete_offer(const struct typed_word *typed, const char *candidate, const char *ending, const char *summary);
 
-// Lets the shell add the names of files that begin with `piece`.
+// Lets the shell add the names of files that begin with `prefix`.
 void complete_files(void);
 
 // Prints the candidates for the value of an option.

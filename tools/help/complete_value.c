@@ -8,11 +8,11 @@
 #include "sheet.h"
 #include "sweep_option.h"
 
-void complete_offer(const struct typed_word *typed, const char *word, const char *ending, const char *summary)
+void complete_offer(const struct typed_word *typed, const char *candidate, const char *ending, const char *summary)
 {
-    if (strncmp(word, typed->piece, strlen(typed->piece)) != 0)
+    if (strncmp(candidate, typed->prefix, strlen(typed->prefix)) != 0)
         return;
-    printf("%.*s%s%s\t", typed->before_length, typed->before, word, ending);
+    printf("%.*s%s%s\t", typed->before_length, typed->before, candidate, ending);
     for (const char *s = summary ? summary : ""; *s; s++)
         if (*s != '`')
             putchar(*s);
@@ -24,19 +24,19 @@ void complete_files(void) { printf(":files\n"); }
 // Returns the word that begins after `complete` letters of `piece`.
 static struct typed_word after(const struct typed_word *typed, size_t complete)
 {
-    return (struct typed_word){typed->before, typed->piece + complete, typed->before_length + (int)complete};
+    return (struct typed_word){typed->before, typed->prefix + complete, typed->before_length + (int)complete};
 }
 
 // Returns the part of `piece` after its last comma.
 static struct typed_word after_comma(const struct typed_word *typed)
 {
-    const char *comma = strrchr(typed->piece, ',');
-    return after(typed, comma ? (size_t)(comma + 1 - typed->piece) : 0);
+    const char *comma = strrchr(typed->prefix, ',');
+    return after(typed, comma ? (size_t)(comma + 1 - typed->prefix) : 0);
 }
 
-static void complete_words(const struct word *words, const struct typed_word *typed)
+static void complete_words(const struct choice *words, const struct typed_word *typed)
 {
-    for (const struct word *w = words; w->name; w++) {
+    for (const struct choice *w = words; w->name; w++) {
         // The user replaces a name in capitals with a text: "light:NAME".
         char fixed[64];
         snprintf(fixed, sizeof fixed, "%s", w->name);
@@ -79,18 +79,18 @@ static void offer_key(const struct typed_word *typed, const char *key, const lam
 
 static void complete_material(const struct typed_word *typed)
 {
-    if (strchr(typed->piece, '@')) // the model is not loaded, so the names of its objects are unknown
+    if (strchr(typed->prefix, '@')) // the model is not loaded, so the names of its objects are unknown
         return;
     struct typed_word pair = after_comma(typed);
-    size_t equals = strcspn(pair.piece, "=");
-    if (pair.piece[equals]) {
+    size_t equals = strcspn(pair.prefix, "=");
+    if (pair.prefix[equals]) {
         struct typed_word value = after(&pair, equals + 1);
         char key[64];
-        snprintf(key, sizeof key, "%.*s", (int)equals, pair.piece);
-        complete_field(field_of(lam_material_field, pair.piece, equals), key, &value);
+        snprintf(key, sizeof key, "%.*s", (int)equals, pair.prefix);
+        complete_field(field_of(lam_material_field, pair.prefix, equals), key, &value);
         return;
     }
-    if (pair.piece == typed->piece) {
+    if (pair.prefix == typed->prefix) {
         for (int i = 0; i < LAM_MATERIAL_COUNT; i++)
             complete_offer(&pair, lam_material_name((lam_material_id)i), "", "a material");
         complete_offer(&pair, "glass", "", "a material");
@@ -103,36 +103,36 @@ static void complete_material(const struct typed_word *typed)
 static void complete_light_key(lam_light_type type, const struct typed_word *typed)
 {
     struct typed_word pair = after_comma(typed);
-    size_t equals = strcspn(pair.piece, "=");
-    if (!pair.piece[equals]) {
+    size_t equals = strcspn(pair.prefix, "=");
+    if (!pair.prefix[equals]) {
         for (int i = 0; lam_light_key(type, i); i++)
             offer_key(&pair, lam_light_key(type, i), lam_light_field);
         return;
     }
     struct typed_word value = after(&pair, equals + 1);
     char key[64];
-    snprintf(key, sizeof key, "%.*s", (int)equals, pair.piece);
+    snprintf(key, sizeof key, "%.*s", (int)equals, pair.prefix);
     if (strcmp(key, "frame") == 0) {
         complete_offer(&value, "world", "", "the frame of the scene");
         complete_offer(&value, "camera", "", "the frame of the eye");
         complete_offer(&value, "view", "", "the axes of the camera, from the middle of the scene");
         complete_offer(&value, "object", "", "the frame of the model");
     }
-    complete_field(field_of(lam_light_field, pair.piece, equals), key, &value);
+    complete_field(field_of(lam_light_field, pair.prefix, equals), key, &value);
 }
 
 static void complete_light(const struct typed_word *typed)
 {
-    struct typed_word type = after(typed, *typed->piece == '+');
-    size_t length = strcspn(type.piece, ":");
-    if (type.piece == typed->piece)
+    struct typed_word type = after(typed, *typed->prefix == '+');
+    size_t length = strcspn(type.prefix, ":");
+    if (type.prefix == typed->prefix)
         complete_offer(&type, "none", "", "only ambient light");
     for (int i = 0; i < LAM_LIGHT_TYPE_COUNT; i++) {
-        const char *word = lam_light_type_describe((lam_light_type)i)->word;
-        if (!type.piece[length]) {
-            complete_offer(&type, word, "", NULL);
-            complete_offer(&type, word, ":", NULL);
-        } else if (strlen(word) == length && memcmp(word, type.piece, length) == 0) {
+        const char *candidate = lam_light_type_describe((lam_light_type)i)->word;
+        if (!type.prefix[length]) {
+            complete_offer(&type, candidate, "", NULL);
+            complete_offer(&type, candidate, ":", NULL);
+        } else if (strlen(candidate) == length && memcmp(candidate, type.prefix, length) == 0) {
             struct typed_word keys = after(&type, length + 1);
             complete_light_key((lam_light_type)i, &keys);
         }
@@ -156,15 +156,15 @@ static void complete_environment(const struct typed_word *typed)
 // Completes "OPTION", or "OPTION=value,value".
 static void complete_varied(const struct typed_word *typed)
 {
-    size_t length = strcspn(typed->piece, "=");
+    size_t length = strcspn(typed->prefix, "=");
     for (const struct option *o = option_table; o->name; o++) {
         if (!sheet_varies(o))
             continue;
-        if (!typed->piece[length]) {
+        if (!typed->prefix[length]) {
             if (o->words)
                 complete_offer(typed, o->name, "", o->summary);
             complete_offer(typed, o->name, "=", o->summary);
-        } else if (strlen(o->name) == length && memcmp(o->name, typed->piece, length) == 0) {
+        } else if (strlen(o->name) == length && memcmp(o->name, typed->prefix, length) == 0) {
             struct typed_word values = after(typed, length + 1);
             if (o->words || o->kind == VALUE_COLOR)
                 values = after_comma(&values);

@@ -57,7 +57,7 @@ void help_row(const char *left, int column, int width, const char *text)
 
 static void print_words(const struct option *option)
 {
-    for (const struct word *w = option->words; w && w->name; w++) {
+    for (const struct choice *w = option->words; w && w->name; w++) {
         char left[96];
         snprintf(left, sizeof left, "%*s%s", LETTER_COLUMN, "", w->name);
         if (w->summary)

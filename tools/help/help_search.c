@@ -80,7 +80,7 @@ static void search_options(struct search *search)
         add(&texts, o->alias);
         add(&texts, o->others);
         add(&texts, o->summary);
-        for (const struct word *w = o->words; w && w->name; w++) {
+        for (const struct choice *w = o->words; w && w->name; w++) {
             add(&texts, w->name);
             add(&texts, search->whole ? w->summary : NULL);
         }
@@ -116,12 +116,12 @@ static void search_commands(struct search *search)
 static void search_topics(struct search *search)
 {
     int count = 0;
-    for (const struct topic *t = topics; t->word; t++) {
+    for (const struct topic *t = topics; t->name; t++) {
         struct texts_of texts = {0};
-        add(&texts, t->word);
+        add(&texts, t->name);
         add(&texts, t->title);
         add(&texts, search->whole ? t->text : NULL);
-        try_row(search, &texts, "Subjects:", &count, t->word, t->title);
+        try_row(search, &texts, "Subjects:", &count, t->name, t->title);
     }
 }
 

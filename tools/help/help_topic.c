@@ -17,36 +17,36 @@
 enum { LIST_COLUMN = 15 };
 
 // Returns the extension of a model's name.
-static bool is_model_ending(const char *word)
+static bool is_model_ending(const char *query)
 {
     for (int format = 0; lam_model_format_name(format); format++)
         for (const char *at = lam_model_format_extensions(format); *at; at += strspn(at, " ")) {
             size_t length = strcspn(at, " ");
-            if (strlen(word) == length && strncasecmp(at, word, length) == 0)
+            if (strlen(query) == length && strncasecmp(at, query, length) == 0)
                 return true;
             at += length;
         }
     return false;
 }
 
-static const struct topic *find_topic(const char *word)
+static const struct topic *find_topic(const char *query)
 {
-    if (is_model_ending(word + (*word == '.')))
-        word = "formats";
-    for (const struct topic *t = topics; t->word; t++)
-        if (strcmp(t->word, word) == 0)
+    if (is_model_ending(query + (*query == '.')))
+        query = "formats";
+    for (const struct topic *t = topics; t->name; t++)
+        if (strcmp(t->name, query) == 0)
             return t;
     return NULL;
 }
 
 // Finds an option from "light", "--light", "-o" or "o".
-static const struct option *find_option(const char *word)
+static const struct option *find_option(const char *query)
 {
-    char letter = word[0] != '-' && !word[1] ? word[0] : word[0] == '-' && word[1] && !word[2] ? word[1] : 0;
+    char letter = query[0] != '-' && !query[1] ? query[0] : query[0] == '-' && query[1] && !query[2] ? query[1] : 0;
     for (const struct option *o = option_table; o->name && letter; o++)
         if (o->letter == letter)
             return o;
-    const struct option *option = option_find(word + (strncmp(word, "--", 2) == 0 ? 2 : 0));
+    const struct option *option = option_find(query + (strncmp(query, "--", 2) == 0 ? 2 : 0));
     return option && option->now ? option_find(option->now) : option;
 }
 
@@ -62,7 +62,7 @@ static void print_options(uint64_t groups, const struct command *command)
 // Prints options with the defaults of the command that the subject describes.
 static void print_topic(const struct topic *topic)
 {
-    const struct command *command = find_command(topic->word);
+    const struct command *command = find_command(topic->name);
     if (command)
         help_command_head(command);
     printf("%s%s\n", command ? "\n" : "", topic->title);
@@ -97,9 +97,9 @@ static void topic_summary(const struct topic *topic, char *text, size_t size)
 static void print_list(void)
 {
     printf("Usage: lambent help TOPIC\n\nSubjects:\n");
-    for (const struct topic *t = topics; t->word; t++) {
+    for (const struct topic *t = topics; t->name; t++) {
         char left[40], text[600];
-        snprintf(left, sizeof left, "  %s", t->word);
+        snprintf(left, sizeof left, "  %s", t->name);
         topic_summary(t, text, sizeof text);
         help_row(left, LIST_COLUMN, HELP_WIDTH, text);
     }
@@ -110,11 +110,11 @@ static void print_list(void)
 }
 
 // Returns the nearest name, or NULL if no name is near.
-static const char *nearest_name(const char *word)
+static const char *nearest_name(const char *query)
 {
-    struct suggestion nearest = suggest_start(word);
-    for (const struct topic *t = topics; t->word; t++)
-        suggest_try(&nearest, t->word);
+    struct suggestion nearest = suggest_start(query);
+    for (const struct topic *t = topics; t->name; t++)
+        suggest_try(&nearest, t->name);
     for (const struct command *c = command_table; c->name; c++)
         suggest_try(&nearest, c->name);
     for (const struct option *o = option_table; o->name; o++) {
@@ -150,10 +150,10 @@ static int search(int count, char **words)
 int run_help(int operand_count, char **operands, const struct options *options)
 {
     (void)options;
-    const char *word = operand_count == 1 ? operands[0] : NULL; // several words are searched for
-    const struct topic *topic = word ? find_topic(word) : NULL;
-    const struct command *command = word ? find_command(word) : NULL;
-    const struct option *option = word ? find_option(word) : NULL;
+    const char *query = operand_count == 1 ? operands[0] : NULL; // several words are searched for
+    const struct topic *topic = query ? find_topic(query) : NULL;
+    const struct command *command = query ? find_command(query) : NULL;
+    const struct option *option = query ? find_option(query) : NULL;
     if (!operand_count) {
         print_list();
     } else if (topic) {
@@ -169,10 +169,10 @@ int run_help(int operand_count, char **operands, const struct options *options)
         print_help(command);
     } else if (option) {
         help_option(option, command_table, true);
-        for (const struct topic *t = topics; t->word; t++)
+        for (const struct topic *t = topics; t->name; t++)
             if (t->groups & 1ull << option->group)
-                printf("\nMore: lambent help %s\n", t->word);
-    } else if (word && strcmp(word, "all") == 0) {
+                printf("\nMore: lambent help %s\n", t->name);
+    } else if (query && strcmp(query, "all") == 0) {
         print_help(command_table);
     } else {
         return search(operand_count, operands);

@@ -70,7 +70,7 @@ static void roff_option(const struct option *o)
     }
     if (o->details)
         roff_line(o->details);
-    for (const struct word *w = o->words; w && w->name && w->summary; w++) {
+    for (const struct choice *w = o->words; w && w->name && w->summary; w++) {
         printf(".br\n\\fB");
         roff(w->name);
         printf("\\fR: ");
@@ -121,7 +121,7 @@ void generate_man(void)
         printf("\n");
         roff_line(c->summary);
     }
-    for (const struct topic *t = topics; t->word; t++) {
+    for (const struct topic *t = topics; t->name; t++) {
         if (!t->text)
             continue;
         printf(".SH \"");
@@ -164,7 +164,7 @@ static void markdown_option(const struct option *o)
         putchar(' ');
         cell(o->details);
     }
-    for (const struct word *w = o->words; w && w->name && w->summary; w++) {
+    for (const struct choice *w = o->words; w && w->name && w->summary; w++) {
         printf("<br>`%s`: ", w->name);
         cell(w->summary);
     }
@@ -200,7 +200,7 @@ void generate_markdown(void)
         cell(c->summary);
         printf(" |\n");
     }
-    for (const struct topic *t = topics; t->word; t++) {
+    for (const struct topic *t = topics; t->name; t++) {
         if (!t->text)
             continue;
         printf("\n## %s\n\n", t->title);

@@ -183,5 +183,5 @@ const struct topic topics[] = {
      "If `NO_COLOR` is set and not empty, Lambent prints messages without colours. `TERM=dumb` also disables the "
      "progress bar. The locale has no effect: numbers always use a decimal point."},
     {"exit-codes", "Exit codes", 0, TOPIC_EXIT_CODES, NULL},
-    {.word = NULL},
+    {.name = NULL},
 };

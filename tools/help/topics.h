@@ -7,13 +7,13 @@
 enum topic_table { TOPIC_NO_TABLE, TOPIC_LIGHT_FIELDS, TOPIC_MATERIAL_FIELDS, TOPIC_EXIT_CODES };
 
 struct topic {
-    const char *word; // the argument of `lambent help WORD`
+    const char *name; // the argument of `lambent help WORD`
     const char *title;
     uint64_t groups;        // bit g: options of group g belong to the subject
     enum topic_table table; // shown below the options
     const char *text;       // paragraphs with `code` in back quotes, a section of the man page, or NULL
 };
 
-extern const struct topic topics[]; // in the order of the man page; ends with a NULL word
+extern const struct topic topics[]; // in the order of the man page; ends with a NULL name
 
 #endif

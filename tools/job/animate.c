@@ -79,7 +79,7 @@ static bool has_frame_names(const struct options *o)
     return output_name_is_pattern(o->picture.output) && output_name_has(o->picture.output, "frame");
 }
 
-static const char word[] = "{frame}";
+static const char placeholder[] = "{frame}";
 
 static int digits_of(int count)
 {
@@ -98,7 +98,7 @@ bool animation_is_frame(const struct options *o, const char *pattern, const char
 {
     int count = animation_count(o), digits = digits_of(count);
     char number[16];
-    for (const char *next; (next = strstr(pattern, word)); pattern = next + sizeof word - 1) {
+    for (const char *next; (next = strstr(pattern, placeholder)); pattern = next + sizeof placeholder - 1) {
         size_t before = (size_t)(next - pattern);
         if (strncmp(pattern, path, before) != 0 || (int)strspn(path + before, "0123456789") < digits)
             return false;
@@ -120,7 +120,7 @@ static char *path_of_frame(const struct animation *a, int frame)
     if (!out)
         return NULL;
     const char *at = a->pattern;
-    for (const char *next; (next = strstr(at, word)); at = next + sizeof word - 1)
+    for (const char *next; (next = strstr(at, placeholder)); at = next + sizeof placeholder - 1)
         fprintf(out, "%.*s%0*d", (int)(next - at), at, digits, frame);
     fputs(at, out);
     if (fclose(out) == 0)

@@ -16,7 +16,7 @@ static lam_vec3 unit(lam_vec3 v)
 }
 
 // Returns a transform with its origin at p and axes scaled by `size`, the second along d.
-static lam_mat4 place(lam_vec3 p, lam_vec3 d, double size, double along)
+static lam_mat4 placement(lam_vec3 p, lam_vec3 d, double size, double along)
 {
     lam_vec3 other = fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
     lam_vec3 x =
@@ -134,9 +134,9 @@ bool light_markers_add(struct job *job, lam_error *error)
         if (is_outside(job, p, 0.03 * radius) && !(has_cone && !is_outside(job, tip, 0.06 * radius)))
             add_name(&outside, l, i + 1);
         int material = glowing(scene, l->diffuse, error);
-        ok = put(scene, ball, material, place(p, d, 0.03 * radius, 0.03 * radius), error);
+        ok = put(scene, ball, material, placement(p, d, 0.03 * radius, 0.03 * radius), error);
         if (has_cone)
-            ok = ok && put(scene, cone, material, place(tip, d, 0.03 * radius, 0.06 * radius), error);
+            ok = ok && put(scene, cone, material, placement(tip, d, 0.03 * radius, 0.06 * radius), error);
     }
     warn_outside(scene, &outside);
     free(lights);

@@ -74,11 +74,11 @@ bool batch_process_start(struct batch_process *process, batch_work *work, void *
 // Reads the available bytes. Returns false at the end.
 static bool receive(struct batch_process *process)
 {
-    char piece[16 << 10];
-    ssize_t got = read(process->from, piece, sizeof piece);
+    char chunk[16 << 10];
+    ssize_t got = read(process->from, chunk, sizeof chunk);
     if (got < 0)
         return errno == EINTR || errno == EAGAIN;
-    return got > 0 && batch_answer_add(&process->answer, piece, (size_t)got);
+    return got > 0 && batch_answer_add(&process->answer, chunk, (size_t)got);
 }
 
 int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status)

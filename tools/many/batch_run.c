@@ -102,11 +102,11 @@ static void *work(void *user)
 // of a long one.
 static void warm(const char *path)
 {
-    enum { PIECE = 128 << 10, MAX = 256 << 20 };
+    enum { CHUNK = 128 << 10, MAX = 256 << 20 };
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     off_t end = file >= 0 ? lseek(file, 0, SEEK_END) : 0;
-    for (off_t at = 0; at < end && at < MAX && !interrupted(); at += PIECE)
-        if (posix_fadvise(file, at, PIECE, POSIX_FADV_WILLNEED) != 0)
+    for (off_t at = 0; at < end && at < MAX && !interrupted(); at += CHUNK)
+        if (posix_fadvise(file, at, CHUNK, POSIX_FADV_WILLNEED) != 0)
             break;
     if (file >= 0)
         close(file);

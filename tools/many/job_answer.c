@@ -16,7 +16,7 @@
 #include "option_names.h"
 
 // Bytes that a pipe accepts without blocking if poll() reports space (PIPE_BUF).
-enum { PIECE = 4096 };
+enum { CHUNK = 4096 };
 
 // The longest wait for a reader after an interrupt.
 static const double patience_ms = 500;
@@ -64,7 +64,7 @@ static void write_text(struct job_answers *answers, const char *text, size_t siz
         ssize_t wrote = -1;
         errno = EINTR;
         if (wait_writable(&since_ms))
-            wrote = write(STDOUT_FILENO, text, size < PIECE ? size : PIECE);
+            wrote = write(STDOUT_FILENO, text, size < CHUNK ? size : CHUNK);
         else
             job_answers_fail(answers, EPIPE);
         if (wrote < 0 && errno != EINTR && errno != EAGAIN)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum { POOL = 192, NAME_SIZE = 40 };
-static struct word pool[POOL];
+static struct choice pool[POOL];
 static int pool_used;
 
 // Option names use - instead of the _ in keys.
@@ -22,23 +22,23 @@ static void add_word(const char *name, int value, const char *summary)
 {
     if (pool_used == POOL)
         abort(); // the tables have grown: increase POOL
-    pool[pool_used++] = (struct word){name, value, summary};
+    pool[pool_used++] = (struct choice){name, value, summary};
 }
 
 // Fills the words of an option. For a bit mask, the first word sets all bits.
-static const struct word *words_of(const lam_setting *setting)
+static const struct choice *words_of(const lam_setting *setting)
 {
-    const struct word *first = &pool[pool_used];
-    const char *word;
+    const struct choice *first = &pool[pool_used];
+    const char *choice;
     int value, bits = 0;
     for (int i = 0; setting->word(i, &value); i++)
         bits |= value;
     if (setting->type == LAM_SETTING_WORDS)
         add_word("all", bits, NULL);
-    for (int i = 0; (word = setting->word(i, &value)); i++) {
+    for (int i = 0; (choice = setting->word(i, &value)); i++) {
         const char *summary = setting->word_summary ? setting->word_summary(i) : "";
         if (summary)
-            add_word(word, value, *summary ? summary : NULL);
+            add_word(choice, value, *summary ? summary : NULL);
     }
     add_word(NULL, 0, NULL);
     return first;
@@ -69,15 +69,15 @@ static void put_number(char *text, double number)
 // Formats the number, or the word that means 0.
 static const char *standard_of(const lam_setting *setting, char text[NAME_SIZE])
 {
-    const char *word;
+    const char *choice;
     int value;
     if (setting->type == LAM_SETTING_FLAG || setting->type == LAM_SETTING_RGB || setting->type == LAM_SETTING_RGBA)
         return NULL;
     if (setting->type == LAM_SETTING_WORDS)
         return "none";
-    for (int i = 0; setting->word && (word = setting->word(i, &value)); i++)
+    for (int i = 0; setting->word && (choice = setting->word(i, &value)); i++)
         if (value == 0)
-            return word;
+            return choice;
     put_number(text, setting->standard);
     return text;
 }

@@ -38,43 +38,43 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_VIEWER] = "Viewer (view)",
 };
 
-static const struct word sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
-                                           {"8", 8, NULL}, {"16", 16, NULL}, {NULL, 0, NULL}};
+static const struct choice sample_words[] = {{"1", 1, NULL}, {"2", 2, NULL},   {"4", 4, NULL},
+                                             {"8", 8, NULL}, {"16", 16, NULL}, {NULL, 0, NULL}};
 
 // Filled by option_table_fill with "auto" and the built-in contracts.
 enum { CONTRACT_WORDS_MAX = 24 };
-static struct word contract_words[CONTRACT_WORDS_MAX] = {{"auto", 0, NULL}};
+static struct choice contract_words[CONTRACT_WORDS_MAX] = {{"auto", 0, NULL}};
 
-static const struct word sandbox_words[] = {{"auto", SANDBOX_AUTO, "use every method that the kernel supports"},
-                                            {"require", SANDBOX_REQUIRE, "use all methods, or fail"},
-                                            {"off", SANDBOX_OFF, "use no sandbox"},
-                                            {NULL, 0, NULL}};
+static const struct choice sandbox_words[] = {{"auto", SANDBOX_AUTO, "use every method that the kernel supports"},
+                                              {"require", SANDBOX_REQUIRE, "use all methods, or fail"},
+                                              {"off", SANDBOX_OFF, "use no sandbox"},
+                                              {NULL, 0, NULL}};
 
-static const struct word shard_by_words[] = {
+static const struct choice shard_by_words[] = {
     {"name", SHARD_BY_NAME,
      "by the hash of each model's name: adding a model does not move other models to another shard"},
     {"list", SHARD_BY_LIST, "into consecutive blocks of one sorted list, so that each shard reads only its own models"},
     {NULL, 0, NULL}};
-static const struct word light_frame_words[] = {
+static const struct choice light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
     {"camera", LAM_FRAME_CAMERA, "in eye space: used as given"},
     {NULL, 0, NULL}};
 
-static const struct word highlight_words[] = {
+static const struct choice highlight_words[] = {
     {"phong", LAM_REFLECTION_PHONG, "r.v"}, {"blinn-phong", LAM_REFLECTION_BLINN_PHONG, "n.h"}, {NULL, 0, NULL}};
 
-static const struct word term_words[] = {{"all", LAM_CHECK_TERM_ALL, NULL},
-                                         {"ambient", LAM_CHECK_TERM_AMBIENT, NULL},
-                                         {"diffuse", LAM_CHECK_TERM_DIFFUSE, NULL},
-                                         {"specular", LAM_CHECK_TERM_SPECULAR, NULL},
-                                         {NULL, 0, NULL}};
+static const struct choice term_words[] = {{"all", LAM_CHECK_TERM_ALL, NULL},
+                                           {"ambient", LAM_CHECK_TERM_AMBIENT, NULL},
+                                           {"diffuse", LAM_CHECK_TERM_DIFFUSE, NULL},
+                                           {"specular", LAM_CHECK_TERM_SPECULAR, NULL},
+                                           {NULL, 0, NULL}};
 
-static const struct word compress_words[] = {
+static const struct choice compress_words[] = {
     {"fast", LAM_COMPRESS_FAST, "compresses a million pixels in a few milliseconds"},
     {"best", LAM_COMPRESS_BEST, "writes the smallest file, in a second or two"},
     {NULL, 0, NULL}};
 
-static const struct word term_words_list[] = {
+static const struct choice term_words_list[] = {
     {"auto", TERM_AUTO, "kitty, iterm2 or sixel, if the terminal supports it and no file is named"},
     {"kitty", TERM_KITTY, "sends the PNG itself: kitty, Ghostty, Konsole"},
     {"iterm2", TERM_ITERM2, "sends the PNG itself: iTerm2, WezTerm"},
@@ -83,12 +83,12 @@ static const struct word term_words_list[] = {
     {"off", TERM_OFF, "shows no picture"},
     {NULL, 0, NULL}};
 
-static const struct word color_mode_words[] = {
+static const struct choice color_mode_words[] = {
     {"srgb", LAM_COLOR_SRGB, "Lambent decodes the colours of files, computes linear light and encodes the picture"},
     {"raw", LAM_COLOR_RAW, "no conversion; the file stores the results of the equations"},
     {NULL, 0, NULL}};
 
-static const struct word show_words[] = {
+static const struct choice show_words[] = {
     {"ambient", LAM_OUTPUT_AMBIENT, "the ambient term"},
     {"diffuse", LAM_OUTPUT_DIFFUSE, "the diffuse term of all lights, and of the environment on physical materials"},
     {"specular", LAM_OUTPUT_SPECULAR, "the highlights of all lights, and of the environment on physical materials"},
@@ -116,25 +116,27 @@ static const struct word show_words[] = {
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of one .exr file"},
     {NULL, 0, NULL}};
 
-static const struct word glsl_words[] = {{"330", LAM_GLSL_330, "OpenGL 3.3"},
-                                         {"120", LAM_GLSL_120, "OpenGL 2.1: attribute and varying, no blocks, no flat"},
-                                         {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
-                                         {NULL, 0, NULL}};
+static const struct choice glsl_words[] = {
+    {"330", LAM_GLSL_330, "OpenGL 3.3"},
+    {"120", LAM_GLSL_120, "OpenGL 2.1: attribute and varying, no blocks, no flat"},
+    {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
+    {NULL, 0, NULL}};
 
-static const struct word style_words[] = {{"full", LAM_SHADER_STYLE_FULL, "the library's equations, for every feature"},
-                                          {"lecture", LAM_SHADER_STYLE_LECTURE, "plain code, as in a lecture"},
-                                          {NULL, 0, NULL}};
+static const struct choice style_words[] = {
+    {"full", LAM_SHADER_STYLE_FULL, "the library's equations, for every feature"},
+    {"lecture", LAM_SHADER_STYLE_LECTURE, "plain code, as in a lecture"},
+    {NULL, 0, NULL}};
 
-static const struct word lights_in_words[] = {
+static const struct choice lights_in_words[] = {
     {"auto", LAM_SHADER_LIGHTS_AUTO, "an array in GLSL 120 and in the lecture style, a block otherwise"},
     {"array", LAM_SHADER_LIGHTS_ARRAY, "plain uniforms, set one by one: lights[0].position"},
     {"block", LAM_SHADER_LIGHTS_BLOCK, "uniform blocks, std140"},
     {"texture", LAM_SHADER_LIGHTS_TEXTURE, "floating-point textures, for thousands of lights"},
     {NULL, 0, NULL}};
 
-static const struct word host_words[] = {{"c", 1, NULL}, {NULL, 0, NULL}};
+static const struct choice host_words[] = {{"c", 1, NULL}, {NULL, 0, NULL}};
 
-static const struct word view_words[] = {
+static const struct choice view_words[] = {
     {"three-quarter", LAM_SIDE_THREE_QUARTER, "30 degrees to the right of the front, 20 above"},
     {"front", LAM_SIDE_FRONT, "from the front (+Z with Y up), level"},
     {"back", LAM_SIDE_BACK, "from behind, level"},
@@ -145,23 +147,23 @@ static const struct word view_words[] = {
     {"iso", LAM_SIDE_ISO, "isometric: 45 degrees to the right, 35.26 above"},
     {NULL, 0, NULL}};
 
-static const struct word projection_words[] = {{"perspective", 0, "a vertical field of view of 30 degrees (`--fov`)"},
-                                               {"orthographic", 1, "parallel, as in a drawing"},
-                                               {NULL, 0, NULL}};
+static const struct choice projection_words[] = {{"perspective", 0, "a vertical field of view of 30 degrees (`--fov`)"},
+                                                 {"orthographic", 1, "parallel, as in a drawing"},
+                                                 {NULL, 0, NULL}};
 
-static const struct word up_words[] = {{"auto", LAM_UP_AUTO, "z for STL and 3MF, y for other formats"},
-                                       {"x", LAM_UP_X, NULL},
-                                       {"y", LAM_UP_Y, "the model's front is +Z"},
-                                       {"z", LAM_UP_Z, "the model's front is -Y"},
-                                       {"-x", LAM_UP_NEGATIVE_X, NULL},
-                                       {"-y", LAM_UP_NEGATIVE_Y, "like y, upside down"},
-                                       {"-z", LAM_UP_NEGATIVE_Z, "like z, upside down"},
-                                       {NULL, 0, NULL}};
+static const struct choice up_words[] = {{"auto", LAM_UP_AUTO, "z for STL and 3MF, y for other formats"},
+                                         {"x", LAM_UP_X, NULL},
+                                         {"y", LAM_UP_Y, "the model's front is +Z"},
+                                         {"z", LAM_UP_Z, "the model's front is -Y"},
+                                         {"-x", LAM_UP_NEGATIVE_X, NULL},
+                                         {"-y", LAM_UP_NEGATIVE_Y, "like y, upside down"},
+                                         {"-z", LAM_UP_NEGATIVE_Z, "like z, upside down"},
+                                         {NULL, 0, NULL}};
 
 // Filled by option_table_fill.
 static char reflection_summary[400], output_summary[200];
 
-static const struct word tone_words[] = {
+static const struct choice tone_words[] = {
     {"auto", LAM_TONE_AUTO, "khronos-neutral for physical materials, none for others"},
     {"none", LAM_TONE_NONE, "each channel is clipped at 1"},
     {"reinhard", LAM_TONE_REINHARD, "x / (1 + x) for each channel"},
@@ -170,14 +172,14 @@ static const struct word tone_words[] = {
     {"khronos-neutral", LAM_TONE_KHRONOS_NEUTRAL, "unchanged colours, compressed highlights"},
     {NULL, 0, NULL}};
 
-static const struct word look_words[] = {
+static const struct choice look_words[] = {
     {"studio", 0, "the default"},
     {"classic", 1, "the old studio: directional lights, no occlusion"},
     {"catalog", 2, "for web pages: the studio and a ground plane that catches a soft shadow"},
     {"technical", 3, "for print: feature edges over light, flat-shaded faces"},
     {NULL, 0, NULL}};
 
-static const struct word rig_words[] = {
+static const struct choice rig_words[] = {
     {"auto", LAM_RIG_AUTO, "the model's own lights; without any, the studio (for glTF the studio environment)"},
     {"none", RIG_DARK, "only ambient light"},
     {"default", RIG_DEFAULT, "the studio instead of the model's own lights"},
@@ -188,38 +190,38 @@ static const struct word rig_words[] = {
     {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
     {NULL, 0, NULL}};
 
-static const struct word turntable_light_words[] = {
+static const struct choice turntable_light_words[] = {
     {"camera", TURNTABLE_LIGHT_CAMERA, "lights stay fixed in the picture while the model turns"},
     {"model", TURNTABLE_LIGHT_MODEL, "lights and environment turn with the model, as if the camera circled it"},
     {NULL, 0, NULL}};
 
-static const struct word device_words[] = {{"auto", DEVICE_AUTO, "the CPU; OpenGL if `--gl-device` names a device"},
-                                           {"cpu", DEVICE_CPU, "the processor: identical bytes on every machine"},
-                                           {"gl", DEVICE_GL, "OpenGL 3.3"},
-                                           {"gles", DEVICE_GLES, "OpenGL ES 3.0, as in WebGL 2"},
-                                           {NULL, 0, NULL}};
+static const struct choice device_words[] = {{"auto", DEVICE_AUTO, "the CPU; OpenGL if `--gl-device` names a device"},
+                                             {"cpu", DEVICE_CPU, "the processor: identical bytes on every machine"},
+                                             {"gl", DEVICE_GL, "OpenGL 3.3"},
+                                             {"gles", DEVICE_GLES, "OpenGL ES 3.0, as in WebGL 2"},
+                                             {NULL, 0, NULL}};
 
-static const struct word texture_filter_words[] = {
+static const struct choice texture_filter_words[] = {
     {"exact", TEXTURE_FILTER_EXACT, "filtering in the shader: within 1/255 of the CPU device's picture"},
     {"hardware", TEXTURE_FILTER_HARDWARE, "filtering by the graphics card: faster, less exact"},
     {NULL, 0, NULL}};
 
-static const struct word cull_words[] = {{"none", LAM_CULL_NONE, "draw both sides"},
-                                         {"back", LAM_CULL_BACK, NULL},
-                                         {"front", LAM_CULL_FRONT, NULL},
-                                         {NULL, 0, NULL}};
+static const struct choice cull_words[] = {{"none", LAM_CULL_NONE, "draw both sides"},
+                                           {"back", LAM_CULL_BACK, NULL},
+                                           {"front", LAM_CULL_FRONT, NULL},
+                                           {NULL, 0, NULL}};
 
-static const struct word back_face_words[] = {{"two-sided", 0, "with the reversed normal"},
-                                              {"one-sided", 1, "like front faces, with the unchanged normal"},
-                                              {NULL, 0, NULL}};
+static const struct choice back_face_words[] = {{"two-sided", 0, "with the reversed normal"},
+                                                {"one-sided", 1, "like front faces, with the unchanged normal"},
+                                                {NULL, 0, NULL}};
 
-static const struct word normals_words[] = {
+static const struct choice normals_words[] = {
     {"file", LAM_NORMALS_FILE, "the file's normals, or smooth normals if the file contains none"},
     {"smooth", LAM_NORMALS_SMOOTH, "computed smooth normals; the file's normals are ignored"},
     {"facet", LAM_NORMALS_FACET, "one normal for each triangle"},
     {NULL, 0, NULL}};
 
-static const struct word sheet_words[] = {
+static const struct choice sheet_words[] = {
     {"summary", SHEET_SUMMARY,
      "flat, smooth, normal interpolation, reflection (of --environment, or of the sky) and anisotropic"},
     {"terms", SHEET_TERMS,
@@ -232,15 +234,16 @@ static const struct word sheet_words[] = {
     {"surfaces", SHEET_SURFACES, "specular, diffuse and translucent"},
     {NULL, 0, NULL}};
 
-static const struct word isa_words[] = {{"auto", LAM_ISA_AUTO, "the widest instruction set that this machine supports"},
-                                        {"scalar", LAM_ISA_SCALAR, "C without vectors"},
-                                        {"plain", LAM_ISA_SCALAR, NULL},
-                                        {"sse4", LAM_ISA_SSE4, "4 lanes"},
-                                        {"avx2", LAM_ISA_AVX2, "8 lanes"},
-                                        {"avx512", LAM_ISA_AVX512, "16 lanes"},
-                                        {"neon", LAM_ISA_NEON, "4 lanes"},
-                                        {"wasm", LAM_ISA_WASM, "WebAssembly's SIMD128, 4 lanes"},
-                                        {NULL, 0, NULL}};
+static const struct choice isa_words[] = {
+    {"auto", LAM_ISA_AUTO, "the widest instruction set that this machine supports"},
+    {"scalar", LAM_ISA_SCALAR, "C without vectors"},
+    {"plain", LAM_ISA_SCALAR, NULL},
+    {"sse4", LAM_ISA_SSE4, "4 lanes"},
+    {"avx2", LAM_ISA_AVX2, "8 lanes"},
+    {"avx512", LAM_ISA_AVX512, "16 lanes"},
+    {"neon", LAM_ISA_NEON, "4 lanes"},
+    {"wasm", LAM_ISA_WASM, "WebAssembly's SIMD128, 4 lanes"},
+    {NULL, 0, NULL}};
 
 struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,

@@ -37,7 +37,7 @@ const char *option_words_list(const struct option *option, char text[OPTION_WORD
 {
     size_t used = 0;
     text[0] = 0;
-    for (const struct word *w = option->words; w->name && used < OPTION_WORDS_SIZE; w++)
+    for (const struct choice *w = option->words; w->name && used < OPTION_WORDS_SIZE; w++)
         used += (size_t)snprintf(text + used, OPTION_WORDS_SIZE - used, "%s%s",
                                  w == option->words ? ""
                                  : w[1].name        ? ", "
@@ -50,7 +50,7 @@ const char *option_words_list(const struct option *option, char text[OPTION_WORD
 static bool read_word(const struct option *option, const char *value, int *found, lam_error *error)
 {
     struct suggestion nearest = suggest_start(value);
-    for (const struct word *w = option->words; w->name; w++) {
+    for (const struct choice *w = option->words; w->name; w++) {
         if (strcmp(w->name, value) == 0) {
             *found = w->value;
             return true;
@@ -96,7 +96,7 @@ bool store_ground(const struct option *option, const char *value, struct options
 {
     lam_rgba color;
     options->shading.ground_color = NULL;
-    for (const struct word *w = option->words; w->name; w++)
+    for (const struct choice *w = option->words; w->name; w++)
         if (strcmp(w->name, value) == 0)
             return store_word(option, value, options, error);
     if (!lam_color_parse(value, LAM_COLOR_SRGB, &color, error) || color.a != 1)
@@ -114,9 +114,9 @@ bool store_words(const struct option *option, const char *value, struct options 
         return true;
     }
     for (const char *from = value; from; from = strchr(from, ',') ? strchr(from, ',') + 1 : NULL) {
-        char word[32];
-        snprintf(word, sizeof word, "%.*s", (int)(strcspn(from, ",") < 31 ? strcspn(from, ",") : 31), from);
-        if (!store_word(option, word, options, error))
+        char name[32];
+        snprintf(name, sizeof name, "%.*s", (int)(strcspn(from, ",") < 31 ? strcspn(from, ",") : 31), from);
+        if (!store_word(option, name, options, error))
             return false;
         all |= *field;
     }
@@ -296,12 +296,12 @@ bool store_views(const struct option *option, const char *value, struct options 
     options->batch.view_count = 0;
     for (const char *at = value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
         struct option one = *option;
-        char word[32];
-        snprintf(word, sizeof word, "%.*s", (int)(strcspn(at, ",") < 31 ? strcspn(at, ",") : 31), at);
+        char name[32];
+        snprintf(name, sizeof name, "%.*s", (int)(strcspn(at, ",") < 31 ? strcspn(at, ",") : 31), at);
         if (options->batch.view_count == VIEWS_MAX)
             return complain(error, LAM_BAD_ARGUMENT, "names more than %d sides", VIEWS_MAX);
         one.field = (size_t)((char *)&options->batch.views[options->batch.view_count] - (char *)options);
-        if (!store_word(&one, word, options, error))
+        if (!store_word(&one, name, options, error))
             return false;
         for (int i = 0; i < options->batch.view_count; i++)
             if (options->batch.views[i] == options->batch.views[options->batch.view_count])

@@ -75,9 +75,9 @@ bool option_is_taken(const struct option *option, uint64_t groups)
     return groups & (1ull << option->group | option->single) && !(option->of_file && groups & WRITES_NO_FILE);
 }
 
-static bool is_name(const char *word, const char *name, size_t length)
+static bool is_name(const char *argument, const char *name, size_t length)
 {
-    return strlen(word) == length && memcmp(word, name, length) == 0;
+    return strlen(argument) == length && memcmp(argument, name, length) == 0;
 }
 
 static const struct option *find_long(const char *name, size_t length)
@@ -172,9 +172,9 @@ bool option_store(const struct option *option, const char *value, struct options
 // Returns whether other programs use this name for the option.
 static const char *const model_names[] = {"i", "in", "input", "infile", "model", "mesh", "shape", "load", "open", NULL};
 
-static bool is_one_of(const char *word, const char *const *words)
+static bool is_one_of(const char *argument, const char *const *words)
 {
-    while (*words && strcmp(*words, word) != 0)
+    while (*words && strcmp(*words, argument) != 0)
         words++;
     return *words;
 }
@@ -204,19 +204,20 @@ static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_e
 }
 
 // Suggests a letter only if a row lists it, since similarity is meaningless for single letters.
-static bool unknown_letter(const char *word, char letter, uint64_t groups, lam_error *error)
+static bool unknown_letter(const char *argument, char letter, uint64_t groups, lam_error *error)
 {
     const char typed[2] = {letter, 0};
     if (letter >= '0' && letter <= '9')
         return complain(error, LAM_BAD_ARGUMENT,
                         "unknown option '%s'; the size of the picture is --size WIDTHxHEIGHT, such as -s 640x480",
-                        word);
+                        argument);
     if (is_one_of(typed, model_names))
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'; a model needs no option: lambent MODEL",
                         letter);
-    if (strchr(word, '.') && access(word, F_OK) == 0)
+    if (strchr(argument, '.') && access(argument, F_OK) == 0)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "unknown option '-%c'; for the file '%s' write './%s', or '--' before it", letter, word, word);
+                        "unknown option '-%c'; for the file '%s' write './%s', or '--' before it", letter, argument,
+                        argument);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++)
         if (option_is_taken(o, groups))
@@ -226,11 +227,12 @@ static bool unknown_letter(const char *word, char letter, uint64_t groups, lam_e
                     nearest.best ? "'?" : "");
 }
 
-static bool is_known_option(const char *word)
+static bool is_known_option(const char *argument)
 {
-    if (word[0] == '-' && word[1] && word[1] != '-')
-        return !word[2] && find_letter(word[1]);
-    return word[0] == '-' && word[1] == '-' && word[2] && find_long(word + 2, strcspn(word + 2, "="));
+    if (argument[0] == '-' && argument[1] && argument[1] != '-')
+        return !argument[2] && find_letter(argument[1]);
+    return argument[0] == '-' && argument[1] == '-' && argument[2] &&
+           find_long(argument + 2, strcspn(argument + 2, "="));
 }
 
 // Returns the option that the user probably meant: the plural form if there are several values, or the option that
@@ -240,7 +242,7 @@ static const struct option *meant_by(const struct option *option, const char *va
     if (option->several && strchr(value, ','))
         return option_find(option->several);
     const struct option *former = option->former ? option_find(option->former) : NULL;
-    for (const struct word *w = former ? former->words : NULL; w && w->name; w++)
+    for (const struct choice *w = former ? former->words : NULL; w && w->name; w++)
         if (strcmp(w->name, value) == 0)
             return former;
     return option;
@@ -411,19 +413,19 @@ static bool apply(const struct option *typed, const char *value, uint64_t groups
 }
 
 // Returns whether the next argument is the value of an option with an optional value.
-static bool follows(const struct option *option, const char *word, const struct options *options)
+static bool follows(const struct option *option, const char *argument, const struct options *options)
 {
     struct options copy = *options;
     lam_error unused;
-    return option->store(option, word, &copy, &unused);
+    return option->store(option, argument, &copy, &unused);
 }
 
 // Returns whether the argument after an option with an optional value is probably a mistyped value: a plain word that
 // names no file, shape or command.
-static bool is_mistyped(const char *word)
+static bool is_mistyped(const char *argument)
 {
-    return isalpha((unsigned char)*word) && !word[strspn(word, "abcdefghijklmnopqrstuvwxyz-")] &&
-           access(word, F_OK) != 0 && lam_shape_find(word) < 0 && !find_command(word);
+    return isalpha((unsigned char)*argument) && !argument[strspn(argument, "abcdefghijklmnopqrstuvwxyz-")] &&
+           access(argument, F_OK) != 0 && lam_shape_find(argument) < 0 && !find_command(argument);
 }
 
 // Returns the value after an option that requires one, or NULL if it is missing.
@@ -500,21 +502,21 @@ int options_first_operand(int count, char **words)
 {
     struct options unused = option_defaults();
     for (int at = 0; at < count; at++) {
-        const char *word = words[at];
-        if (word[0] != '-' || !word[1])
+        const char *argument = words[at];
+        if (argument[0] != '-' || !argument[1])
             return at;
-        if (word[1] == '-') {
-            size_t length = strcspn(word + 2, "=");
-            const struct option *option = find_long(word + 2, length);
+        if (argument[1] == '-') {
+            size_t length = strcspn(argument + 2, "=");
+            const struct option *option = find_long(argument + 2, length);
             if (!option)
                 return -1; // "--", or an error
-            if (word[2 + length] == '=' || at + 1 == count)
+            if (argument[2 + length] == '=' || at + 1 == count)
                 continue;
             at += option->value ? !option->alone || follows(option, words[at + 1], &unused)
                                 : begins_with_key(option, words[at + 1]);
             continue;
         }
-        for (const char *letter = word + 1; *letter; letter++) {
+        for (const char *letter = argument + 1; *letter; letter++) {
             const struct option *option = find_letter(*letter);
             if (!option)
                 return -1;
@@ -527,34 +529,34 @@ int options_first_operand(int count, char **words)
 }
 
 // Detects the dash that word processors insert instead of "--".
-static bool has_long_dash(const char *word)
+static bool has_long_dash(const char *argument)
 {
-    return strncmp(word, "–", 3) == 0 || strncmp(word, "—", 3) == 0 || strncmp(word, "−", 3) == 0;
+    return strncmp(argument, "–", 3) == 0 || strncmp(argument, "—", 3) == 0 || strncmp(argument, "−", 3) == 0;
 }
 
-static bool is_number(const char *word) { return *word && !word[strspn(word, "0123456789")]; }
+static bool is_number(const char *argument) { return *argument && !argument[strspn(argument, "0123456789")]; }
 
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error)
 {
     int operands = 0;
     for (int at = 0; at < count; at++) {
-        char *word = words[at];
-        if (strcmp(word, "--") == 0) {
+        char *argument = words[at];
+        if (strcmp(argument, "--") == 0) {
             while (++at < count)
                 words[operands++] = words[at];
-        } else if (has_long_dash(word) && access(word, F_OK) != 0) {
+        } else if (has_long_dash(argument) && access(argument, F_OK) != 0) {
             complain(error, LAM_BAD_ARGUMENT,
-                     "found '%.100s', which begins with the dash of a text; options begin with --", word);
+                     "found '%.100s', which begins with the dash of a text; options begin with --", argument);
             return -1;
-        } else if (word[0] != '-' || word[1] == 0) {
-            if (at > 0 && options->picture.has_size && is_number(word) && is_number(words[at - 1]) &&
-                access(word, F_OK) != 0) {
+        } else if (argument[0] != '-' || argument[1] == 0) {
+            if (at > 0 && options->picture.has_size && is_number(argument) && is_number(words[at - 1]) &&
+                access(argument, F_OK) != 0) {
                 complain(error, LAM_BAD_ARGUMENT, "option '--size': found '%s %s', expected one word: %sx%s",
-                         words[at - 1], word, words[at - 1], word);
+                         words[at - 1], argument, words[at - 1], argument);
                 return -1;
             }
-            words[operands++] = word;
-        } else if (word[1] == '-') {
+            words[operands++] = argument;
+        } else if (argument[1] == '-') {
             if (!read_long(count, words, &at, groups, options, error))
                 return -1;
         } else if (!read_letters(count, words, &at, groups, options, error)) {

@@ -91,11 +91,11 @@ enum option_group {
     GROUP_COUNT,
 };
 
-// A word that an option accepts as a value. A list ends with a NULL name.
-struct word {
+// A named value that an option accepts. A list ends with a NULL name.
+struct choice {
     const char *name;
     int value;
-    const char *summary; // NULL if the name is clear, or is an alias of the previous word
+    const char *summary; // NULL if the name is clear, or is an alias of the previous name
 };
 
 // The syntax of a value that is not one of the option's words.
@@ -115,12 +115,12 @@ struct option {
     const char *name; // without the dashes
     char letter;      // the short form; 0 if there is none
     enum option_group group;
-    const char *value;        // the value's placeholder in the help; NULL if the option takes none
-    const char *standard;     // the text of the default; NULL hides it
-    const char *summary;      // one sentence for --help
-    const char *details;      // more text for the man page and the docs, `code` in back quotes; may be NULL
-    const struct word *words; // the accepted values; NULL accepts any
-    enum value_kind kind;     // the value's syntax, for the completions
+    const char *value;          // the value's placeholder in the help; NULL if the option takes none
+    const char *standard;       // the text of the default; NULL hides it
+    const char *summary;        // one sentence for --help
+    const char *details;        // more text for the man page and the docs, `code` in back quotes; may be NULL
+    const struct choice *words; // the accepted values; NULL accepts any
+    enum value_kind kind;       // the value's syntax, for the completions
 
     // Stores the value (NULL for a switch) at offset `field` of struct options. On failure, error->text describes the
     // mistake without the option's name.

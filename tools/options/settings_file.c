@@ -246,10 +246,10 @@ static bool take_ground(struct reader *r, const json_t *value)
 // Returns whether the value is a word for the default for which the option has no word.
 static bool is_plain_default(const lam_setting *setting, const json_t *value)
 {
-    const char *word;
+    const char *choice;
     int number;
-    for (int i = 0; setting->word && setting->word_summary && (word = setting->word(i, &number)); i++)
-        if (json_is_string(value) && strcmp(word, json_string_value(value)) == 0)
+    for (int i = 0; setting->word && setting->word_summary && (choice = setting->word(i, &number)); i++)
+        if (json_is_string(value) && strcmp(choice, json_string_value(value)) == 0)
             return number == 0 && !setting->word_summary(i);
     return false;
 }

@@ -46,7 +46,7 @@ bool store_show(const struct option *option, const char *value, struct options *
     }
     char known[400] = "";
     struct suggestion nearest = suggest_start(value);
-    for (const struct word *w = option->words; w->name; w++) {
+    for (const struct choice *w = option->words; w->name; w++) {
         strncat(known, w == option->words ? "" : w[1].name ? ", " : " or ", sizeof known - strlen(known) - 1);
         strncat(known, w->name, sizeof known - strlen(known) - 1);
         suggest_try(&nearest, w->name);

@@ -20,7 +20,7 @@ bool output_name_is_pattern(const char *name) { return name && strpbrk(name, "{}
 struct part {
     const char *text; // literal text, or a word's name
     int length;
-    bool word;
+    bool placeholder;
 };
 
 // Removes the next part from the start of a pattern. Returns false at the end, or at an unmatched brace, in which case
@@ -43,16 +43,17 @@ static bool next_part(const char **pattern, struct part *part)
     return true;
 }
 
-static bool is_word(const struct part *part, const char *name)
+static bool is_placeholder(const struct part *part, const char *name)
 {
-    return part->word && (int)strlen(name) == part->length && memcmp(part->text, name, (size_t)part->length) == 0;
+    return part->placeholder && (int)strlen(name) == part->length &&
+           memcmp(part->text, name, (size_t)part->length) == 0;
 }
 
-bool output_name_has(const char *pattern, const char *word)
+bool output_name_has(const char *pattern, const char *placeholder)
 {
     struct part part;
     while (next_part(&pattern, &part))
-        if (is_word(&part, word))
+        if (is_placeholder(&part, placeholder))
             return true;
     return false;
 }
@@ -61,12 +62,12 @@ bool output_name_check(const char *pattern, unsigned known, lam_error *error)
 {
     struct part part;
     while (next_part(&pattern, &part)) {
-        bool found = !part.word;
+        bool found = !part.placeholder;
         char list[100] = "";
         for (int i = 0; i < WORDS; i++) {
             if (words[i].bit && !(known & words[i].bit))
                 continue;
-            found |= is_word(&part, words[i].name);
+            found |= is_placeholder(&part, words[i].name);
             size_t used = strlen(list);
             snprintf(list + used, sizeof list - used, "%s{%s}", used ? ", " : "", words[i].name);
         }
@@ -122,26 +123,26 @@ static void print_folder(FILE *out, const struct output_words *w)
 
 static void print_word(FILE *out, const struct part *part, const struct output_words *w)
 {
-    if (is_word(part, "stem")) {
+    if (is_placeholder(part, "stem")) {
         int length;
         const char *stem = output_stem(w->model, &length);
         fwrite(stem, 1, (size_t)length, out);
-    } else if (is_word(part, "ext")) {
+    } else if (is_placeholder(part, "ext")) {
         int length;
         const char *end = output_stem(w->model, &length) + length;
         if (strcmp(w->model, "-") != 0 && *end == '.')
             fputs(end + 1, out);
-    } else if (is_word(part, "dir")) {
+    } else if (is_placeholder(part, "dir")) {
         print_folder(out, w);
-    } else if (is_word(part, "view")) {
+    } else if (is_placeholder(part, "view")) {
         fputs(w->view ? w->view : "", out);
-    } else if (is_word(part, "size") && w->width == w->height) {
+    } else if (is_placeholder(part, "size") && w->width == w->height) {
         fprintf(out, "%d", w->width);
-    } else if (is_word(part, "size")) {
+    } else if (is_placeholder(part, "size")) {
         fprintf(out, "%dx%d", w->width, w->height);
-    } else if (is_word(part, "frame") && w->frame == OUTPUT_FRAME_OPEN) {
+    } else if (is_placeholder(part, "frame") && w->frame == OUTPUT_FRAME_OPEN) {
         fputs("{frame}", out);
-    } else if (is_word(part, "frame")) {
+    } else if (is_placeholder(part, "frame")) {
         fprintf(out, "%0*d", w->digits > 0 ? w->digits : 1, w->frame);
     }
 }
@@ -156,11 +157,11 @@ char *output_name_expand(const char *pattern, const struct output_words *w)
     struct part part;
     while (next_part(&pattern, &part)) {
         long before = ftell(out);
-        if (part.word)
+        if (part.placeholder)
             print_word(out, &part, w);
         else
             fwrite(part.text, 1, (size_t)part.length, out);
-        if (is_word(&part, "dir") && ftell(out) == before && *pattern == '/')
+        if (is_placeholder(&part, "dir") && ftell(out) == before && *pattern == '/')
             pattern++;
     }
     if (fclose(out) == 0)

@@ -11,10 +11,10 @@ struct output_words {
     const char *root;  // {dir} is the model's folder relative to this one; may be NULL or ""
     const char *view;  // {view}; NULL if the pattern does not contain it
     int width, height; // {size}: "256" for a square, otherwise "256x128"
-    int frame, digits; // {frame} with at least `digits` digits; OUTPUT_FRAME_OPEN keeps the word
+    int frame, digits; // {frame} with at least `digits` digits; OUTPUT_FRAME_OPEN keeps the placeholder
 };
 
-// Keeps the word {frame} in the name until the number of frames is known.
+// Keeps the placeholder {frame} in the name until the number of frames is known.
 enum { OUTPUT_FRAME_OPEN = -1 };
 
 // The words that a command supports in addition to {stem}, {ext} and {dir}, as bits.
@@ -23,8 +23,8 @@ enum { NAME_VIEW = 1, NAME_SIZE = 2, NAME_FRAME = 4 };
 // Returns true if a name contains a brace of a pattern. "{{" and "}}" are escaped braces.
 bool output_name_is_pattern(const char *name);
 
-// Returns true if the pattern contains the word, which is given without braces.
-bool output_name_has(const char *pattern, const char *word);
+// Returns true if the pattern contains the placeholder, which is given without braces.
+bool output_name_has(const char *pattern, const char *placeholder);
 
 // Checks that a pattern contains only known words in braces and no unmatched brace. `known` has NAME_… bits. Fails with
 // LAM_BAD_ARGUMENT.

@@ -12,7 +12,7 @@
 #include "output.h"
 
 enum {
-    PIECE = 4096,
+    CHUNK = 4096,
     SIXEL = 6 // pixels, the height of a sixel row
 };
 
@@ -26,29 +26,29 @@ static bool show(const lam_bytes *png, const lam_image *image, lam_error *error)
 // Returns the name of a --term word.
 static const char *word_of(enum term_kind kind)
 {
-    const struct word *word = option_find("term")->words;
-    while (word->value != (int)kind)
-        word++;
-    return word->name;
+    const struct choice *method = option_find("term")->words;
+    while (method->value != (int)kind)
+        method++;
+    return method->name;
 }
 
 // Checks whether the command line and the terminal allow --term KIND.
 static bool check_asked(const struct options *o, bool alone, lam_error *error)
 {
-    const char *word = word_of((enum term_kind)o->picture.term);
+    const char *method = word_of((enum term_kind)o->picture.term);
     lam_pixel_format format = LAM_RGBA8;
     if (!alone)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--term %s' shows one picture, expected one model and no animation", word);
+                        "option '--term %s' shows one picture, expected one model and no animation", method);
     if (o->report.json)
         return complain(error, LAM_BAD_ARGUMENT, "options '--term %s' and '--json' both write to standard output",
-                        word);
+                        method);
     if (output_is_named(o->picture.output) && strcmp(o->picture.output, "-") != 0 &&
         (!lam_image_format_for(o->picture.output, &format, NULL) || format != LAM_RGBA8))
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--term %s' shows only 8-bit pictures, found -o %.200s, expected .png, .jpg, .webp or "
                         ".ppm",
-                        word, o->picture.output);
+                        method, o->picture.output);
     return true;
 }
 
@@ -132,23 +132,23 @@ static struct chafa_size fit(const lam_image *image)
 static bool show_png(const lam_bytes *png, const lam_image *image, lam_error *error)
 {
     size_t length;
-    char *text = base64_encode(png->data, png->size, &length), place[32] = "";
+    char *text = base64_encode(png->data, png->size, &length), dimension[32] = "";
     if (!text)
         return complain(error, LAM_LIMIT, "out of memory");
     // The terminal scales the picture and computes the other side from the aspect ratio.
     bool tall, kitty = terminal.kind == TERM_KITTY;
     struct chafa_size size = fit(image);
     if (scale_of(image, &tall) < 1)
-        snprintf(place, sizeof place, "%s=%d", kitty ? (tall ? ",r" : ",c") : (tall ? ";height" : ";width"),
+        snprintf(dimension, sizeof dimension, "%s=%d", kitty ? (tall ? ",r" : ",c") : (tall ? ";height" : ";width"),
                  tall ? size.rows : size.columns);
     if (!kitty)
-        printf("\033]1337;File=inline=1;size=%zu%s:%s\a", png->size, place, text);
-    for (size_t at = 0; kitty && at < length; at += PIECE) {
-        bool more = length - at > PIECE;
+        printf("\033]1337;File=inline=1;size=%zu%s:%s\a", png->size, dimension, text);
+    for (size_t at = 0; kitty && at < length; at += CHUNK) {
+        bool more = length - at > CHUNK;
         printf("\033_G");
         if (at == 0)
-            printf("a=T,f=100,q=2%s,", place);
-        printf("m=%d;%.*s\033\\", more, (int)(more ? PIECE : length - at), text + at);
+            printf("a=T,f=100,q=2%s,", dimension);
+        printf("m=%d;%.*s\033\\", more, (int)(more ? CHUNK : length - at), text + at);
     }
     free(text);
     return true;

@@ -189,16 +189,16 @@ struct words {
 static void put_option(void *user, const char *name, const char *value)
 {
     struct words *words = user;
-    char *word = NULL;
+    char *argument = NULL;
     if (!page_model_has_option(option_find(name)))
         return;
     if (strcmp(name, "environment") == 0 && words->model->environment)
         value = words->model->environment;
-    if (asprintf(&word, "--%s%s%s", name, value ? "=" : "", value ? value : "") < 0)
-        word = NULL;
-    words->failed |= !word;
-    json_text(&words->json, NULL, word);
-    free(word);
+    if (asprintf(&argument, "--%s%s%s", name, value ? "=" : "", value ? value : "") < 0)
+        argument = NULL;
+    words->failed |= !argument;
+    json_text(&words->json, NULL, argument);
+    free(argument);
 }
 
 bool page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model,

@@ -143,9 +143,9 @@ static bool add_variant(struct sheet *sheet, const char *dashed, const char *nam
 // Adds each value of the option once, without "auto", which selects one of the others.
 static bool add_words(struct sheet *sheet, const char *dashed, const struct option *option, lam_error *error)
 {
-    for (const struct word *w = option->words; w->name; w++) {
+    for (const struct choice *w = option->words; w->name; w++) {
         bool known = strcmp(w->name, "auto") == 0;
-        for (const struct word *before = option->words; before != w; before++)
+        for (const struct choice *before = option->words; before != w; before++)
             known = known || before->value == w->value;
         if (!known && !add_variant(sheet, dashed, option->name, w->name, error))
             return false;

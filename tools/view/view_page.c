@@ -41,17 +41,17 @@ struct words {
 static void put_option(void *user, const char *name, const char *value)
 {
     const struct words *w = user;
-    char *word = NULL;
+    char *argument = NULL;
     if (!page_model_has_option(option_find(name)))
         return;
     if (strcmp(name, "environment") == 0 && w->environment)
         value = w->environment;
-    if (asprintf(&word, "--%s%s%s", name, value ? "=" : "", value ? value : "") < 0)
+    if (asprintf(&argument, "--%s%s%s", name, value ? "=" : "", value ? value : "") < 0)
         return;
-    fwrite(word, 1, strlen(word) + 1, w->words);
+    fwrite(argument, 1, strlen(argument) + 1, w->words);
     putc('&', w->fragment);
-    html_address(w->fragment, word);
-    free(word);
+    html_address(w->fragment, argument);
+    free(argument);
 }
 
 static bool take_options(struct view_page *page, const struct options *options, struct view_files *files,
@@ -100,8 +100,9 @@ static bool put_data(FILE *out, const struct view_page *page, const char *model,
     if (model) {
         json_open(&json, NULL, '[');
         json_text(&json, NULL, model);
-        for (const char *word = page->words; word < page->words + page->words_size; word += strlen(word) + 1)
-            json_text(&json, NULL, word);
+        for (const char *argument = page->words; argument < page->words + page->words_size;
+             argument += strlen(argument) + 1)
+            json_text(&json, NULL, argument);
         json_close(&json, ']');
     }
     bool ok = fclose(list) == 0 || complain(error, LAM_LIMIT, "out of memory");
@@ -121,19 +122,19 @@ static const char *const policy = "; base-uri 'none'", *const own_policy = "; co
 
 static bool fill(struct view_page *page, const char *text, const char *model, lam_error *error)
 {
-    const char *place = strstr(text, policy), *end = NULL;
+    const char *directive = strstr(text, policy), *end = NULL;
     for (const char *at = text; (at = strstr(at, "</body>")); at++)
         end = at;
-    if (!place || !end || place > end)
+    if (!directive || !end || directive > end)
         return complain(error, LAM_UNSUPPORTED,
                         "the page that LAMBENT_PAGE or the build names is not the lambent.html of `make web`");
     FILE *out = open_memstream(&page->text, &page->size);
     if (!out)
         return complain(error, LAM_LIMIT, "out of memory");
-    fwrite(text, 1, (size_t)(place - text), out);
+    fwrite(text, 1, (size_t)(directive - text), out);
     fputs(own_policy, out);
-    place += strlen(policy);
-    fwrite(place, 1, (size_t)(end - place), out);
+    directive += strlen(policy);
+    fwrite(directive, 1, (size_t)(end - directive), out);
     bool ok = put_data(out, page, model, error);
     fputs(end, out);
     if ((ferror(out) | fclose(out)) && ok)

@@ -210,16 +210,16 @@ static enum MHD_Result answer_page(struct view_connection *c)
 }
 
 // Returns the rest of an address after a prefix, which is a path in the page.
-static const char *path_after(const char *address, const char *word)
+static const char *path_after(const char *address, const char *route)
 {
-    size_t length = strlen(word);
-    return strncmp(address, word, length) == 0 && address[length] == '/' ? address + length : NULL;
+    size_t length = strlen(route);
+    return strncmp(address, route, length) == 0 && address[length] == '/' ? address + length : NULL;
 }
 
 static enum MHD_Result answer_address(struct view_connection *c, const char *address)
 {
     static const struct {
-        const char *word;
+        const char *route;
         enum view_kind kind;
     } tasks[] = {{"model", VIEW_MODEL}, {"draw", VIEW_PIXELS}, {"picture", VIEW_PICTURE}, {"explain", VIEW_EXPLAIN}};
     const struct view *view = c->view;
@@ -247,7 +247,7 @@ static enum MHD_Result answer_address(struct view_connection *c, const char *add
     if ((path = path_after(address, "thumb")))
         return begin_thumbnail(c, path);
     for (size_t i = 0; i < sizeof tasks / sizeof *tasks; i++)
-        if (strcmp(address, tasks[i].word) == 0)
+        if (strcmp(address, tasks[i].route) == 0)
             return begin_words(c, tasks[i].kind);
     return view_answer_text(view, c->connection, 404, "no such page");
 }

@@ -25,7 +25,7 @@ void view_watch_start(struct view_watch *watch)
 void view_watch_end(struct view_watch *watch)
 {
     for (int i = 0; i < watch->count; i++) {
-        free(watch->items[i].place);
+        free(watch->items[i].real_path);
         free(watch->items[i].folder);
         free(watch->items[i].only);
     }
@@ -36,15 +36,16 @@ void view_watch_end(struct view_watch *watch)
 }
 
 // Takes ownership of `folder` and `only`.
-static void add(struct view_watch *watch, const char *place, char *folder, char *only)
+static void add(struct view_watch *watch, const char *real_path, char *folder, char *only)
 {
     struct view_watched *grown = NULL;
-    char *own_place = strdup(place);
-    int number = own_place && folder && watch->count < WATCHED_MAX ? inotify_add_watch(watch->file, place, events) : -1;
+    char *own_path = strdup(real_path);
+    int number =
+        own_path && folder && watch->count < WATCHED_MAX ? inotify_add_watch(watch->file, real_path, events) : -1;
     for (int i = 0; i < watch->count && number >= 0; i++) {
         struct view_watched *w = &watch->items[i];
         bool same = strcmp(w->folder, folder) == 0 && (only ? w->only && strcmp(w->only, only) == 0 : !w->only);
-        if (same && strcmp(w->place, place) == 0) {
+        if (same && strcmp(w->real_path, real_path) == 0) {
             w->number = number; // another folder may have taken its name
             number = -1;
         }
@@ -53,10 +54,10 @@ static void add(struct view_watch *watch, const char *place, char *folder, char 
         grown = realloc(watch->items, (size_t)(watch->count + 1) * sizeof *grown);
     if (grown) {
         watch->items = grown;
-        grown[watch->count++] = (struct view_watched){number, own_place, folder, only};
+        grown[watch->count++] = (struct view_watched){number, own_path, folder, only};
         return;
     }
-    free(own_place);
+    free(own_path);
     free(folder);
     free(only);
 }
@@ -93,12 +94,12 @@ void view_watch_add(struct view_watch *watch, const struct view_files *files, co
     if (watch->file < 0 || !slash)
         return;
     char *folder = strndup(path, (size_t)(slash - path)),
-         *place = folder ? view_files_path(files, *folder ? folder : "/") : NULL;
-    if (place && is_there(files, folder))
-        add(watch, place, folder, NULL);
+         *real_path = folder ? view_files_path(files, *folder ? folder : "/") : NULL;
+    if (real_path && is_there(files, folder))
+        add(watch, real_path, folder, NULL);
     else
         free(folder);
-    free(place);
+    free(real_path);
     if (files->model && strcmp(path, files->model) == 0)
         add_target(watch, files);
 }
@@ -144,7 +145,7 @@ static void find_again(struct view_watch *watch, const struct view_files *files,
         struct view_watched *w = &watch->items[i];
         if (w->number >= 0 || (!w->only && !is_there(files, w->folder)))
             continue;
-        w->number = inotify_add_watch(watch->file, w->place, events);
+        w->number = inotify_add_watch(watch->file, w->real_path, events);
         if (w->number >= 0)
             report(files, w, "", listener);
     }

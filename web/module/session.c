@@ -313,7 +313,7 @@ static void option_json(struct json *json, const struct option *o)
     }
     if (o->words) {
         json_open(json, "words", '[');
-        for (const struct word *w = o->words; w->name; w++) {
+        for (const struct choice *w = o->words; w->name; w++) {
             json_open(json, NULL, '{');
             json_text(json, "name", w->name);
             json_text(json, "summary", w->summary);

@@ -186,10 +186,10 @@ static bool check_looks(const struct batch_job *job, const struct batch_job_rule
 {
     static const char option[] = "--look";
     for (int i = 0; i < job->word_count; i++) {
-        const char *word = job->words[i], *value = NULL;
-        if (strncmp(word, option, sizeof option - 1) == 0 && word[sizeof option - 1] == '=')
-            value = word + sizeof option;
-        else if (strcmp(word, option) == 0 && i + 1 < job->word_count)
+        const char *argument = job->words[i], *value = NULL;
+        if (strncmp(argument, option, sizeof option - 1) == 0 && argument[sizeof option - 1] == '=')
+            value = argument + sizeof option;
+        else if (strcmp(argument, option) == 0 && i + 1 < job->word_count)
             value = job->words[i + 1];
         if (value && *value && !look_find(value) && !job_roots_have(rules->roots, value, false, error))
             return false;

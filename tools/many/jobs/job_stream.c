@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PIECE = 64 << 10, KEPT = 1 << 20 };
+enum { CHUNK = 64 << 10, KEPT = 1 << 20 };
 
 // Makes space for more bytes: consumed bytes are removed first, and a large buffer is freed once it is empty.
 static bool make_room(struct job_stream *s)
@@ -16,14 +16,14 @@ static bool make_room(struct job_stream *s)
         s->end -= s->start;
         s->start = 0;
     }
-    size_t wanted = s->end + PIECE, capacity = s->capacity;
+    size_t wanted = s->end + CHUNK, capacity = s->capacity;
     if (!s->end && capacity > KEPT) {
         free(s->data);
         s->data = NULL;
         s->capacity = capacity = 0;
     }
     while (capacity < wanted)
-        capacity = capacity ? 2 * capacity : PIECE;
+        capacity = capacity ? 2 * capacity : CHUNK;
     char *data = capacity > s->capacity ? realloc(s->data, capacity) : s->data;
     if (!data)
         return false;
@@ -38,7 +38,7 @@ bool job_stream_read(struct job_stream *s)
         errno = ENOMEM;
         return false;
     }
-    ssize_t got = read(s->file, s->data + s->end, PIECE);
+    ssize_t got = read(s->file, s->data + s->end, CHUNK);
     if (got < 0)
         return errno == EINTR || errno == EAGAIN;
     s->ended = got == 0;

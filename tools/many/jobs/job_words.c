@@ -14,16 +14,16 @@ enum { WORDS_MAX = 1000 };
 // --- from JSON to words
 
 // Appends a word from malloc and takes ownership of it; the word is NULL if memory ran out.
-static bool append(char ***words, int *count, char *word, lam_error *error)
+static bool append(char ***words, int *count, char *argument, lam_error *error)
 {
-    char **more = word && *count < WORDS_MAX ? realloc(*words, ((size_t)*count + 2) * sizeof *more) : NULL;
+    char **more = argument && *count < WORDS_MAX ? realloc(*words, ((size_t)*count + 2) * sizeof *more) : NULL;
     if (!more) {
-        free(word);
+        free(argument);
         return *count < WORDS_MAX ? complain(error, LAM_LIMIT, "out of memory")
                                   : complain(error, LAM_BAD_ARGUMENT, "key 'options': more than %d words", WORDS_MAX);
     }
     *words = more;
-    more[(*count)++] = word;
+    more[(*count)++] = argument;
     more[*count] = NULL;
     return true;
 }
@@ -41,7 +41,7 @@ static bool typed(const json_t *value, char number[32], const char **text)
 
 static bool has_word(const struct option *option, const char *name)
 {
-    for (const struct word *w = option ? option->words : NULL; w && w->name; w++)
+    for (const struct choice *w = option ? option->words : NULL; w && w->name; w++)
         if (strcmp(w->name, name) == 0)
             return true;
     return false;
@@ -51,7 +51,7 @@ static bool has_word(const struct option *option, const char *name)
 static bool append_option(char ***words, int *count, const char *name, const json_t *value, lam_error *error)
 {
     const struct option *option = option_find(name);
-    char number[32], *word = NULL;
+    char number[32], *argument = NULL;
     const char *text;
     if (json_is_boolean(value) && has_word(option, "off")) {
         text = json_is_true(value) ? "on" : "off";
@@ -65,9 +65,9 @@ static bool append_option(char ***words, int *count, const char *name, const jso
         return complain(error, LAM_BAD_ARGUMENT,
                         "key 'options': option '%.60s': expected a string, a number, true, or a list of them", name);
     }
-    if ((text ? asprintf(&word, "--%s=%s", name, text) : asprintf(&word, "--%s", name)) < 0)
-        word = NULL;
-    return append(words, count, word, error);
+    if ((text ? asprintf(&argument, "--%s=%s", name, text) : asprintf(&argument, "--%s", name)) < 0)
+        argument = NULL;
+    return append(words, count, argument, error);
 }
 
 static bool from_object(json_t *object, char ***words, int *count, lam_error *error)

@@ -54,11 +54,11 @@ static void print_number(FILE *out, double value)
 // Prints the name of an enumeration value, or a number.
 static void print_word(FILE *out, const struct option *option, int value)
 {
-    const struct word *word = option->words;
-    while (word && word->name && word->value != value)
-        word++;
-    if (word && word->name)
-        fputs(word->name, out);
+    const struct choice *choice = option->words;
+    while (choice && choice->name && choice->value != value)
+        choice++;
+    if (choice && choice->name)
+        fputs(choice->name, out);
     else
         fprintf(out, "%d", value);
 }
@@ -143,20 +143,20 @@ char *batch_options_text(const struct options *o, lam_error *error)
 }
 
 // Quotes a word for a shell.
-static void put_word(FILE *out, const char *word)
+static void put_argument(FILE *out, const char *argument)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%";
-    bool quotes = !*word || word[strspn(word, plain)];
+    bool quotes = !*argument || argument[strspn(argument, plain)];
     if (!quotes) {
-        fputs(word, out);
+        fputs(argument, out);
         return;
     }
     putc('\'', out);
-    for (; *word; word++)
-        if (*word == '\'')
+    for (; *argument; argument++)
+        if (*argument == '\'')
             fputs("'\\''", out);
         else
-            putc(*word == '\n' || *word == '\r' ? ' ' : *word, out);
+            putc(*argument == '\n' || *argument == '\r' ? ' ' : *argument, out);
     putc('\'', out);
 }
 
@@ -169,7 +169,7 @@ static void put_given(FILE *out, const struct option *option, const struct optio
         fprintf(out, "%s--%s", ftell(out) ? " " : "", option->name);
         if (texts || value) {
             putc(' ', out);
-            put_word(out, texts ? texts->items[i] : value);
+            put_argument(out, texts ? texts->items[i] : value);
         }
     }
 }

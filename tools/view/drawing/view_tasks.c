@@ -207,7 +207,7 @@ void view_tasks_step(struct view_tasks *tasks)
     double now = clock_ms();
     for (int i = 0; i < tasks->count; i++) {
         struct view_process *p = &tasks->processes[i];
-        for (int pieces = 0; pieces < 64 && p->pid > 0 && is_readable(p->from); pieces++)
+        for (int reads = 0; reads < 64 && p->pid > 0 && is_readable(p->from); reads++)
             receive(tasks, p);
         if (p->pid > 0 && p->task && p->cancelled)
             kill(p->pid, SIGUSR1); // repeated, since the process may not have read the request yet

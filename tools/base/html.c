@@ -32,6 +32,15 @@ void html_text(FILE *file, const char *text)
     }
 }
 
+void html_script(FILE *file, const char *json)
+{
+    for (const char *c = json; *c; c++)
+        if (*c == '<')
+            fputs("\\u003c", file);
+        else
+            putc(*c, file);
+}
+
 void html_address(FILE *file, const char *path)
 {
     for (const unsigned char *c = (const unsigned char *)path; *c; c++)

@@ -7,6 +7,9 @@
 // Writes a text, which may be inside quotes. Invisible characters (text_hidden) become "?". Does nothing for NULL.
 void html_text(FILE *file, const char *text);
 
+// Writes JSON so that a script element can contain it: escapes '<'.
+void html_script(FILE *file, const char *json);
+
 // Writes a path as an address: escapes every byte except letters, digits, slashes and a few punctuation marks.
 void html_address(FILE *file, const char *path);
 

@@ -58,12 +58,6 @@ static bool sum_times(const struct journal_sum *sum, struct times *times, lam_er
     return true;
 }
 
-static const char *text_of(const json_t *record, const char *key)
-{
-    const char *text = json_string_value(json_object_get(record, key));
-    return text ? text : "";
-}
-
 // Counts the failures by class, as a batch does.
 static bool sum_classes(const struct journal_sum *sum, struct batch_tally *tally, lam_error *error)
 {
@@ -76,7 +70,7 @@ static bool sum_classes(const struct journal_sum *sum, struct batch_tally *tally
             continue;
         json_t *record = journal_sum_record(sum, i);
         const struct exit_code *code = exit_codes;
-        while (code->meaning && !(code->name && strcmp(code->name, text_of(record, "class")) == 0))
+        while (code->meaning && !(code->name && strcmp(code->name, journal_value(record, "class")) == 0))
             code++;
         batch_count_class(tally, code->meaning ? code->name : "failed");
         json_decref(record);
@@ -118,7 +112,7 @@ static void print_failures(const struct journal_sum *sum)
     for (size_t i = 0; i < sum->count && count < LINES; i++) {
         json_t *record = sum->entries[i].ms > 0 ? NULL : journal_sum_record(sum, i);
         if (record) {
-            printf("%s\n", text_of(record, "error"));
+            printf("%s\n", journal_value(record, "error"));
             count++;
         }
         json_decref(record);
@@ -140,7 +134,7 @@ static void print_sum(const struct journal_sum *sum, const struct batch_tally *t
         json_t *record = journal_sum_record(sum, (size_t)(times->longest - sum->entries));
         printf("; %.4g s of work; a picture: median %.4g ms, 90 %% below %.4g, 99 %% below %.4g, longest %.4g (%s)",
                times->total_ms / 1e3, times->median_ms, times->percent_90_ms, times->percent_99_ms, times->longest_ms,
-               text_of(record, "model"));
+               journal_value(record, "model"));
         json_decref(record);
     }
     printf("\n");
@@ -242,7 +236,7 @@ static bool write_page(struct journal_sum *sum, const struct batch_tally *tally,
 {
     for (size_t i = 0; i < sum->count; i++) {
         json_t *record = sum->entries[i].ms > 0 ? journal_sum_record(sum, i) : NULL;
-        char *output = record ? journal_path(text_of(record, "output")) : NULL;
+        char *output = record ? journal_path(journal_value(record, "output")) : NULL;
         if (output)
             batch_page_thumbnail(path, output, false);
         free(output);

@@ -58,12 +58,6 @@ static void uniforms(struct json *json, const char *key, const lam_shader_unifor
     json_close(json, ']');
 }
 
-static void yes_or_no(struct json *json, const char *key, bool yes)
-{
-    fprintf(json->file, "%s\"%s\": %s", json->comma ? ", " : "", key, yes ? "true" : "false");
-    json->comma = true;
-}
-
 static void draws(struct json *json, const lam_shader *s)
 {
     static const char *const culls[] = {"none", "back", "front"};
@@ -78,9 +72,9 @@ static void draws(struct json *json, const lam_shader *s)
         json_text(json, "material", d->material_name);
         json_text(json, "front", d->clockwise ? "clockwise" : "counter-clockwise");
         json_text(json, "cull", culls[d->cull]);
-        yes_or_no(json, "translucent", d->translucent);
-        yes_or_no(json, "has_colors", d->has_colors);
-        yes_or_no(json, "has_tangents", d->has_tangents);
+        json_flag(json, "translucent", d->translucent);
+        json_flag(json, "has_colors", d->has_colors);
+        json_flag(json, "has_tangents", d->has_tangents);
         json_numbers(json, "origin", d->origin, 3);
         uniforms(json, "uniforms", d->uniforms, d->uniform_count);
         json_close(json, '}');
@@ -96,8 +90,8 @@ void shader_json(FILE *file, const lam_shader *s, const char *model)
     json_text(&json, "model", model);
     json_text(&json, "glsl", lam_glsl_name(s->glsl));
     json_text(&json, "lights_in", lights[s->lights]);
-    yes_or_no(&json, "products", s->products);
-    yes_or_no(&json, "flat", s->flat);
+    json_flag(&json, "products", s->products);
+    json_flag(&json, "flat", s->flat);
     json_text(&json, "vertex", s->vertex);
     json_text(&json, "fragment", s->fragment);
     json_text(&json, "application", s->application);

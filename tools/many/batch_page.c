@@ -112,12 +112,6 @@ static const char head[] =
     "  background: #f2f2f2; border-radius: 4px }\n"
     "</style>\n";
 
-static const char *text_of(const json_t *record, const char *key)
-{
-    const char *text = json_string_value(json_object_get(record, key));
-    return text ? text : "";
-}
-
 // Writes the address of a file relative to the page.
 static void put_address(FILE *out, const char *page, const char *path)
 {
@@ -136,11 +130,11 @@ static void put_address(FILE *out, const char *page, const char *path)
 static void put_failure(FILE *out, const json_t *record)
 {
     fputs("<li><b class=\"bad\">", out);
-    html_text(out, text_of(record, "class"));
+    html_text(out, journal_value(record, "class"));
     fputs("</b> ", out);
-    html_text(out, text_of(record, "model"));
+    html_text(out, journal_value(record, "model"));
     fputs("<br>", out);
-    html_text(out, text_of(record, "error"));
+    html_text(out, journal_value(record, "error"));
     long long attempt = json_integer_value(json_object_get(record, "attempt"));
     if (attempt > 1)
         fprintf(out, " <small>(%lld tries)</small>", attempt);
@@ -149,15 +143,16 @@ static void put_failure(FILE *out, const json_t *record)
 
 static void put_picture(FILE *out, const char *page, const json_t *record)
 {
-    char *output = journal_path(text_of(record, "output")), *thumbnail = output ? thumbnail_path(page, output) : NULL;
+    char *output = journal_path(journal_value(record, "output")),
+         *thumbnail = output ? thumbnail_path(page, output) : NULL;
     if (thumbnail) {
         fputs("<figure><a class=\"thumb\" href=\"", out);
         put_address(out, page, output);
         fputs("\"><img loading=\"lazy\" alt=\"\" src=\"", out);
         put_address(out, page, thumbnail);
         fputs("\"></a><figcaption>", out);
-        html_text(out, text_of(record, "model"));
-        fprintf(out, "<br><small>%s, %lld triangles, %.1f ms</small>", text_of(record, "view"),
+        html_text(out, journal_value(record, "model"));
+        fprintf(out, "<br><small>%s, %lld triangles, %.1f ms</small>", journal_value(record, "view"),
                 json_integer_value(json_object_get(record, "triangles")),
                 json_number_value(json_object_get(json_object_get(record, "times_ms"), "total")));
         const json_t *list = json_object_get(record, "warnings"), *warning;
@@ -179,7 +174,7 @@ static void put_records(FILE *out, const struct batch_page *page, bool failures)
 {
     for (size_t i = 0; i < page->record_count; i++) {
         json_t *record = page->record(page->user, i);
-        bool failed = record && strcmp(text_of(record, "class"), "ok") != 0;
+        bool failed = record && strcmp(journal_value(record, "class"), "ok") != 0;
         if (record && failed && failures)
             put_failure(out, record);
         else if (record && !failed && !failures)

@@ -437,10 +437,8 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
         say_error(error.text);
     }
     free_batch(&b);
-    if (interrupted()) {
-        fflush(stdout);
+    if (interrupted())
         interrupt_finish();
-    }
     return code;
 }
 

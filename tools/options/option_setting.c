@@ -83,7 +83,7 @@ static const char *standard_of(const lam_setting *setting, char text[NAME_SIZE])
 }
 
 static const struct {
-    bool (*store)(const struct option *, const char *, struct options *, lam_error *);
+    option_parser *store;
     const char *value; // the placeholder
 } kinds[] = {
     [LAM_SETTING_WORD] = {store_word, "WORD"},

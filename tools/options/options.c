@@ -24,47 +24,47 @@ struct options option_defaults(void)
                             .check.search_limit = 10000};
 }
 
+// The offsets of the lists that struct options owns.
+static const size_t lists[] = {offsetof(struct options, lighting.lights),
+                               offsetof(struct options, material.materials),
+                               offsetof(struct options, material.back_materials),
+                               offsetof(struct options, material.hidden),
+                               offsetof(struct options, shading.rotations),
+                               offsetof(struct options, shading.sheet_rotations),
+                               offsetof(struct options, sheet.across),
+                               offsetof(struct options, limits.allow_paths),
+                               offsetof(struct options, batch.lists),
+                               offsetof(struct options, animation.sweeps),
+                               offsetof(struct options, captions.texts)};
+
+enum { LISTS = sizeof lists / sizeof *lists };
+
+static struct texts *list_at(struct options *options, int index)
+{
+    return (struct texts *)(void *)((char *)options + lists[index]);
+}
+
 void options_free(struct options *options)
 {
-    free(options->lighting.lights.items);
-    free(options->material.materials.items);
-    free(options->material.back_materials.items);
-    free(options->material.hidden.items);
-    free(options->shading.rotations.items);
-    free(options->shading.sheet_rotations.items);
-    free(options->sheet.across.items);
-    free(options->limits.allow_paths.items);
-    free(options->batch.lists.items);
-    free(options->animation.sweeps.items);
-    free(options->captions.texts.items);
+    for (int i = 0; i < LISTS; i++)
+        free(list_at(options, i)->items);
     free(options->lighting.look_text);
     free(options->settings.values);
 }
 
-static bool texts_copy(struct texts *texts)
-{
-    const char **items = malloc(((size_t)texts->count + 1) * sizeof *items);
-    for (int i = 0; items && i < texts->count; i++)
-        items[i] = texts->items[i];
-    texts->items = items;
-    return items != NULL;
-}
-
 bool options_copy(struct options *to, const struct options *from)
 {
+    bool ok = true;
     *to = *from;
     to->lighting.look_text = to->settings.values = NULL; // free a copy before its original
-    bool ok = texts_copy(&to->lighting.lights);
-    ok = texts_copy(&to->material.materials) && ok;
-    ok = texts_copy(&to->material.back_materials) && ok;
-    ok = texts_copy(&to->material.hidden) && ok;
-    ok = texts_copy(&to->shading.rotations) && ok;
-    ok = texts_copy(&to->shading.sheet_rotations) && ok;
-    ok = texts_copy(&to->sheet.across) && ok;
-    ok = texts_copy(&to->limits.allow_paths) && ok;
-    ok = texts_copy(&to->batch.lists) && ok;
-    ok = texts_copy(&to->animation.sweeps) && ok;
-    ok = texts_copy(&to->captions.texts) && ok;
+    for (int i = 0; i < LISTS; i++) {
+        struct texts *list = list_at(to, i);
+        const char **items = malloc(((size_t)list->count + 1) * sizeof *items);
+        if (items && list->count)
+            memcpy(items, list->items, (size_t)list->count * sizeof *items);
+        list->items = items;
+        ok = ok && items;
+    }
     if (!ok)
         options_free(to);
     return ok;
@@ -150,7 +150,9 @@ static bool store_key(const struct option *option, const char *text, size_t leng
     return true;
 }
 
-bool option_store(const struct option *option, const char *value, struct options *options, lam_error *error)
+// Stores a value, NULL for a switch, which may contain keys for other options ("all,width=2"). Their values may be
+// followed by a comma and the rest of the text.
+static bool option_store(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     char own[256] = "";
     size_t used = 0;

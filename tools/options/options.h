@@ -111,6 +111,9 @@ enum value_kind {
     VALUE_SWEPT,  // a key and numbers
 };
 
+struct option;
+typedef bool option_parser(const struct option *option, const char *value, struct options *options, lam_error *error);
+
 struct option {
     const char *name; // without the dashes
     char letter;      // the short form; 0 if there is none
@@ -124,7 +127,7 @@ struct option {
 
     // Stores the value (NULL for a switch) at offset `field` of struct options. On failure, error->text describes the
     // mistake without the option's name.
-    bool (*store)(const struct option *option, const char *value, struct options *options, lam_error *error);
+    option_parser *store;
     size_t field, has_field;    // a bool to set as well; 0 if there is none
     double min, max;            // for numbers that are not library settings
     uint64_t single;            // TAKES_…, if a command may accept the option without its group
@@ -179,58 +182,24 @@ bool option_given(const struct options *options, const char *name);
 // Returns true if a command accepts an option. `groups` has bit g set for each complete group, and TAKES_… bits.
 bool option_is_taken(const struct option *option, uint64_t groups);
 
-// Stores a value, NULL for a switch, which may contain keys for other options ("all,width=2"). Their values may be
-// followed by a comma and the rest of the text.
-bool option_store(const struct option *option, const char *value, struct options *options, lam_error *error);
-
 // Parses a command line without the names of the program and the command. `groups` is as for option_is_taken. Moves the
 // operands to the front of `words` and returns their number, or −1 with LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error);
 
 // Parsers for the `store` member of the table. Each comment names the type of the field.
-bool store_switch(const struct option *, const char *, struct options *, lam_error *);  // bool
-bool store_text(const struct option *, const char *, struct options *, lam_error *);    // const char *
-bool store_word(const struct option *, const char *, struct options *, lam_error *);    // int, a bit mask
-bool store_words(const struct option *, const char *, struct options *, lam_error *);   // int, a bit mask
-bool store_glsl(const struct option *, const char *, struct options *, lam_error *);    // int, a bit mask
-bool store_up(const struct option *, const char *, struct options *, lam_error *);      // likewise
-bool store_integer(const struct option *, const char *, struct options *, lam_error *); // int
-bool store_number(const struct option *, const char *, struct options *, lam_error *);  // double
-bool store_path(const struct option *, const char *, struct options *, lam_error *);    // struct texts
-// double, infinity for "none"
-bool store_seconds(const struct option *, const char *, struct options *, lam_error *);
-bool store_count(const struct option *, const char *, struct options *, lam_error *); // uint64_t
-bool store_float(const struct option *, const char *, struct options *, lam_error *); // float
-// float, degrees in the text
-bool store_angle(const struct option *, const char *, struct options *, lam_error *);
-bool store_cutoff(const struct option *, const char *, struct options *, lam_error *); // float, −1 for 0
-// bool, from words with the values 0 and 1
-bool store_word_flag(const struct option *, const char *, struct options *, lam_error *);
-bool store_exposure(const struct option *, const char *, struct options *, lam_error *);     // double, or "auto"
-bool store_size(const struct option *, const char *, struct options *, lam_error *);         // width, height
-bool store_views(const struct option *, const char *, struct options *, lam_error *);        // views, view_count
-bool store_sizes(const struct option *, const char *, struct options *, lam_error *);        // sizes, size_count
-bool store_jobs(const struct option *, const char *, struct options *, lam_error *);         // const char *
-bool store_list(const struct option *, const char *, struct options *, lam_error *);         // struct texts
-bool store_segments(const struct option *, const char *, struct options *, lam_error *);     // slices, stacks
-bool store_bytes(const struct option *, const char *, struct options *, lam_error *);        // uint64_t
-bool store_color(const struct option *, const char *, struct options *, lam_error *);        // const char *, checked
-bool store_ground(const struct option *, const char *, struct options *, lam_error *);       // ground, checked
-bool store_show(const struct option *, const char *, struct options *, lam_error *);         // const char *, checked
-bool store_reflectivity(const struct option *, const char *, struct options *, lam_error *); // lam_rgb
-bool store_camera(const struct option *, const char *, struct options *,
-                  lam_error *);                                                       // const char *, checked
-bool store_light(const struct option *, const char *, struct options *, lam_error *); // struct texts, checked
-bool store_material(const struct option *, const char *, struct options *,
-                    lam_error *);                                                     // struct texts, checked
-bool store_texts(const struct option *, const char *, struct options *, lam_error *); // struct texts, unchecked
-bool store_across(const struct option *, const char *, struct options *,
-                  lam_error *); // struct texts, at most ACROSS_MAX
-bool store_back_faces(const struct option *, const char *, struct options *, lam_error *); // two_sided, one_sided
-bool store_rotation(const struct option *, const char *, struct options *,
-                    lam_error *); // struct texts, checked
-bool store_opaque_color(const struct option *, const char *, struct options *,
-                        lam_error *); // const char *, checked
+option_parser store_switch, store_word_flag; // bool; the second from words with the values 0 and 1
+option_parser store_text, store_jobs;        // const char *
+option_parser store_color, store_opaque_color, store_show, store_camera; // const char *, checked
+option_parser store_word, store_words, store_glsl, store_up;     // int, the value of a word; store_words: a bit mask
+option_parser store_integer;                                     // int
+option_parser store_number, store_seconds;                       // double; store_seconds: infinity for "none"
+option_parser store_float, store_angle, store_cutoff;            // float; from degrees; −1 for 0
+option_parser store_count, store_bytes;                          // uint64_t
+option_parser store_light, store_material, store_rotation;       // struct texts, checked
+option_parser store_texts, store_path, store_list, store_across; // struct texts; store_across: at most ACROSS_MAX
+option_parser store_reflectivity;                                // lam_rgb
+// Store several members of struct options.
+option_parser store_exposure, store_size, store_views, store_sizes, store_segments, store_ground, store_back_faces;
 
 // Reads a plain decimal number such as "-1.5e3" at the start of `text`; hexadecimal numbers and "inf" are rejected.
 // Returns the rest of the text, or NULL if there is no number or it is too large.

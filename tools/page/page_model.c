@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "console.h"
+#include "html.h"
 #include "environment_option.h"
 #include "json.h"
 #include "plan.h"
@@ -216,11 +217,8 @@ bool page_model_words(FILE *out, const struct job *job, const struct options *gi
     each_given_option(given, put_option, &words);
     json_close(&words.json, ']');
     bool ok = fclose(list) == 0 && !words.failed;
-    for (const char *c = text; ok && *c; c++)
-        if (*c == '<')
-            fputs("\\u003c", out);
-        else
-            putc(*c, out);
+    if (ok)
+        html_script(out, text);
     free(text);
     return ok || complain(error, LAM_LIMIT, "out of memory");
 }

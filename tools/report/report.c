@@ -308,7 +308,7 @@ static void json_plan(struct json *json, const struct job *job)
     json_close(json, '}');
 }
 
-static void json_error(struct json *json, const lam_error *error)
+void json_error(struct json *json, const lam_error *error)
 {
     if (!error || error->code == LAM_OK) {
         json_none(json, "error");

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "job.h"
+#include "json.h"
 
 // Prints "koala.png  1024x1024  99994 triangles  38 ms" on standard error.
 void report_line(const struct job *job);
@@ -19,6 +20,9 @@ FILE *report_stream(const struct options *options);
 // Reports a failure that does not belong to a job, such as a wrong command line or a missing device; also as JSON if
 // requested. Returns the exit code.
 int report_failure(const lam_error *error, const struct options *options);
+
+// Writes the key "error": the class, the exit code and the text, or null if there is none.
+void json_error(struct json *json, const lam_error *error);
 
 // Prints one line in the format of docs/report.schema.json. If `job` is NULL, `error` concerns the command line.
 void report_json(FILE *file, const struct job *job, const lam_error *error);

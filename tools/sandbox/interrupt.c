@@ -2,6 +2,7 @@
 #include "interrupt.h"
 
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -35,6 +36,7 @@ bool interrupted(void) { return caught != 0; }
 void interrupt_finish(void)
 {
     writer_end();
+    fflush(stdout);
     signal(caught, SIG_DFL);
     raise(caught);
     _exit(128 + caught); // reached only if the signal is blocked

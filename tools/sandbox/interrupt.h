@@ -12,7 +12,7 @@ void interrupt_start(void);
 const lam_cancel *interrupt_flag(void);
 bool interrupted(void);
 
-// Ends the program with the received signal, so that the parent process sees the cause. For example, a shell reports
+// Writes pending output and ends the program with the received signal, so that the parent process sees the cause. For example, a shell reports
 // 130 for Ctrl-C and stops its loop.
 void interrupt_finish(void) __attribute__((noreturn));
 

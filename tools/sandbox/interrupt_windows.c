@@ -3,6 +3,7 @@
 #include "interrupt.h"
 
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "writer.h"
@@ -25,5 +26,6 @@ bool interrupted(void) { return caught != 0; }
 void interrupt_finish(void)
 {
     writer_end();
+    fflush(stdout);
     _exit(128 + caught);
 }

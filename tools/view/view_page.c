@@ -77,15 +77,10 @@ static bool take_options(struct view_page *page, const struct options *options, 
 
 // --- the page
 
-// Writes JSON with '<' escaped, so that a script element can contain it.
 static void put_json(FILE *out, const char *id, const char *json)
 {
     fprintf(out, "<script type=\"application/json\" id=\"%s\">", id);
-    for (const char *c = json; *c; c++)
-        if (*c == '<')
-            fputs("\\u003c", out);
-        else
-            putc(*c, out);
+    html_script(out, json);
     fputs("</script>\n", out);
 }
 

@@ -182,9 +182,7 @@ int run_explain(int operand_count, char **operands, const struct options *option
     free(figure);
     job_free(&job);
     lam_device_free(job.device);
-    if (interrupted()) {
-        fflush(stdout);
+    if (interrupted())
         interrupt_finish();
-    }
     return code;
 }

@@ -105,9 +105,7 @@ int run_info(int operand_count, char **operands, const struct options *options)
         int code = print_one(operands[i], options, i == 0);
         worst = code > worst ? code : worst;
     }
-    if (interrupted()) {
-        fflush(stdout);
+    if (interrupted())
         interrupt_finish();
-    }
     return worst;
 }

@@ -1,8 +1,8 @@
 // info_json.c: prints a model on one line in the format of docs/info.schema.json.
 #include "info.h"
 
-#include "exit_codes.h"
 #include "json.h"
+#include "report.h"
 
 // Writes the shortest number that parses to the same float.
 static void json_float(struct json *json, const char *key, float value)
@@ -285,15 +285,7 @@ void info_json(const struct info *info)
     for (int i = 0; job->scene && lam_scene_warning(job->scene, i); i++)
         json_message(&json, NULL, lam_scene_warning(job->scene, i));
     json_close(&json, ']');
-    if (info->error->code) {
-        json_open(&json, "error", '{');
-        json_text(&json, "code", exit_code_of(info->error->code)->name);
-        json_count(&json, "exit", (uint64_t)exit_code_of(info->error->code)->code);
-        json_message(&json, "text", info->error->text);
-        json_close(&json, '}');
-    } else {
-        json_none(&json, "error");
-    }
+    json_error(&json, info->error);
     json_close(&json, '}');
     putchar('\n');
 }

@@ -354,6 +354,12 @@ json_t *journal_find(const struct journal *j, const char *output)
     return record;
 }
 
+const char *journal_value(const json_t *record, const char *key)
+{
+    const char *text = json_string_value(json_object_get(record, key));
+    return text ? text : "";
+}
+
 char *journal_line(const json_t *record)
 {
     char *text = json_dumps(record, JSON_COMPACT | JSON_REAL_PRECISION(9)), *line = NULL;

@@ -36,6 +36,9 @@ json_t *journal_find(const struct journal *journal, const char *output);
 // Appends a record. One thread at a time may call it. Fails with LAM_CANNOT_WRITE.
 bool journal_add(struct journal *journal, const json_t *record, lam_error *error);
 
+// Returns the text of a record's key, or "" if there is none.
+const char *journal_value(const json_t *record, const char *key);
+
 // Returns a record as a line with its line end, from malloc, or NULL if memory runs out.
 char *journal_line(const json_t *record);
 

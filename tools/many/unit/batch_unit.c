@@ -60,17 +60,11 @@ void batch_unit_free(struct batch_unit *u)
 
 // --- decisions by the journal
 
-static const char *text_of(const json_t *record, const char *key)
-{
-    const char *text = json_string_value(json_object_get(record, key));
-    return text ? text : "";
-}
-
 // Returns whether the picture exists and has the journal's hash.
 static bool is_untouched(const json_t *record, const char *output)
 {
     uint64_t hash, recorded;
-    return xxh64_parse(text_of(record, "hash"), &recorded) && xxh64_file(output, &hash) && hash == recorded;
+    return xxh64_parse(journal_value(record, "hash"), &recorded) && xxh64_file(output, &hash) && hash == recorded;
 }
 
 // Returns the current path of one of the record's files, allocated with malloc. If the file was in the folder of the
@@ -102,24 +96,24 @@ static bool has_same_key(const json_t *record, const struct batch_unit *u, int v
     uint64_t recorded;
     char(*hashes)[XXH64_TEXT] = calloc(count + 1, sizeof *hashes);
     const char **texts = calloc(count + 1, sizeof *texts);
-    bool same = hashes && texts && xxh64_parse(text_of(record, "key"), &recorded);
+    bool same = hashes && texts && xxh64_parse(journal_value(record, "key"), &recorded);
     if (same)
         json_array_foreach(files, i, file)
         {
             uint64_t hash;
-            char *path = path_now(text_of(file, "path"), text_of(record, "model"), model);
+            char *path = path_now(journal_value(file, "path"), journal_value(record, "model"), model);
             texts[i] = hashes[i];
             if (path && xxh64_file(path, &hash))
                 xxh64_print(hash, hashes[i]);
             else
                 strcpy(hashes[i], "absent");
-            same &= path && strcmp(hashes[i], text_of(file, "hash")) == 0;
+            same &= path && strcmp(hashes[i], journal_value(file, "hash")) == 0;
             free(path);
         }
     if (same) {
         const struct batch_plan *plan = u->task.plan;
         const struct job_view *v = &plan->views[view];
-        const char *dot = strrchr(u->outputs[view], '.'), *format = text_of(record, "format");
+        const char *dot = strrchr(u->outputs[view], '.'), *format = journal_value(record, "format");
         struct batch_key_parts parts = {.options = u->task.options_text,
                                         .parsed = plan->options,
                                         .model = model,
@@ -141,7 +135,7 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
                                  uint16_t *attempts)
 {
     struct stat found;
-    bool written = strcmp(text_of(record, "class"), "ok") == 0;
+    bool written = strcmp(journal_value(record, "class"), "ok") == 0;
     if (b->way == JOURNAL_SAME)
         return written && has_same_key(record, u, view) && is_untouched(record, u->outputs[view]) ? PICTURE_SAME
                                                                                                   : PICTURE_OPEN;

@@ -1,6 +1,8 @@
 // exit_codes.c: the program's exit codes.
 #include "exit_codes.h"
 
+#include <string.h>
+
 const struct exit_code exit_codes[] = {
     {0, LAM_OK, "ok", "done"},
     {1, LAM_BAD_ARGUMENT, "usage", "the command line is wrong"},
@@ -26,4 +28,12 @@ const struct exit_code *exit_code_of(lam_code code)
     while (row->meaning && row->of != (int)code)
         row++;
     return row;
+}
+
+const char *exit_code_name(const char *name)
+{
+    const struct exit_code *row = exit_codes;
+    while (row->meaning && !(row->name && strcmp(row->name, name) == 0))
+        row++;
+    return row->meaning ? row->name : "failed";
 }

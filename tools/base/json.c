@@ -72,6 +72,15 @@ void shortest_number(double value, char text[32])
     }
 }
 
+void shortest_float(float value, char text[32])
+{
+    for (int digits = 1; digits <= 9; digits++) {
+        snprintf(text, 32, "%.*g", digits, (double)value);
+        if (strtof(text, NULL) == value)
+            return;
+    }
+}
+
 void json_number(struct json *json, const char *key, double value)
 {
     before(json, key);

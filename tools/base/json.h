@@ -32,6 +32,9 @@ void json_flag(struct json *json, const char *key, bool value);
 void json_numbers(struct json *json, const char *key, const double *values, int count);
 void json_vector(struct json *json, const char *key, lam_vec3 v);
 
+// Formats the decimal number with the fewest digits that reads back as the same float.
+void shortest_float(float value, char text[32]);
+
 // Formats the shortest decimal number that reads back as `value`, at most 24 bytes with the closing zero.
 void shortest_number(double value, char text[32]);
 

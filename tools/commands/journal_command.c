@@ -69,10 +69,7 @@ static bool sum_classes(const struct journal_sum *sum, struct batch_tally *tally
         if (sum->entries[i].ms > 0)
             continue;
         json_t *record = journal_sum_record(sum, i);
-        const struct exit_code *code = exit_codes;
-        while (code->meaning && !(code->name && strcmp(code->name, journal_value(record, "class")) == 0))
-            code++;
-        batch_count_class(tally, code->meaning ? code->name : "failed");
+        batch_count_class(tally, exit_code_name(journal_value(record, "class")));
         json_decref(record);
         if (!record)
             return complain(error, LAM_LIMIT, "out of memory");

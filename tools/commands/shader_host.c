@@ -1,21 +1,16 @@
 // shader_host.c: prints the C code of `lambent shader --host c`: OpenGL calls that set every uniform to the scene's
 // value.
+#include "json.h"
 #include "shader.h"
 
 #include <ctype.h>
-#include <stdlib.h>
 #include <string.h>
 
 void shader_numbers(FILE *file, const float *values, int count, bool code)
 {
     for (int i = 0; i < count; i++) {
         char text[32];
-        // Finds the fewest digits that parse to the same float.
-        for (int digits = 1; digits <= 9; digits++) {
-            snprintf(text, sizeof text, "%.*g", digits, (double)values[i]);
-            if (strtof(text, NULL) == values[i])
-                break;
-        }
+        shortest_float(values[i], text);
         fprintf(file, "%s%s%s", i ? ", " : "", text, code && strpbrk(text, ".e") ? "f" : "");
     }
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file_io.h"
 #include "job_inputs.h"
 #include "options.h"
 #include "environment_option.h"
@@ -98,8 +99,7 @@ static bool take_environment(const struct options *o, lam_picture_settings *s, c
 static bool is_below(const char *path, const char *folder)
 {
     char *real = realpath(path, NULL);
-    size_t length = strlen(folder);
-    bool below = !real || (strncmp(real, folder, length) == 0 && (real[length] == '/' || folder[length - 1] == '/'));
+    bool below = !real || is_in_folder(real, folder);
     free(real);
     return below;
 }

@@ -133,15 +133,6 @@ static bool read_text(struct rest *rest, char **to, size_t size)
     return read_bytes(rest, *to, size);
 }
 
-// Returns the table's own string for the name of a class.
-static const char *class_name(const char *name)
-{
-    for (const struct exit_code *code = exit_codes; code->meaning; code++)
-        if (code->name && strcmp(code->name, name) == 0)
-            return code->name;
-    return "failed";
-}
-
 // Parses an answer. Returns false if it is incomplete.
 static bool read_answer(struct batch_unit *u, const struct batch_answer *answer)
 {
@@ -168,7 +159,7 @@ static bool read_answer(struct batch_unit *u, const struct batch_answer *answer)
         }
         u->pictures[i] = picture.picture;
         u->is_new[i] = picture.is_new;
-        u->classes[i] = class_name(picture.class);
+        u->classes[i] = exit_code_name(picture.class);
     }
     u->code = sent.code;
     u->warnings = sent.warnings;

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "file_io.h"
 #include "interrupt.h"
 #include "progress.h"
 
@@ -33,16 +34,6 @@ bool batch_answer_add(struct batch_answer *answer, const void *data, size_t size
     return true;
 }
 
-static void send_all(int to, const struct batch_answer *answer)
-{
-    for (size_t at = 0; at < answer->size;) {
-        ssize_t sent = write(to, answer->data + at, answer->size - at);
-        if (sent < 0 && errno != EINTR)
-            _exit(1);
-        at += sent > 0 ? (size_t)sent : 0;
-    }
-}
-
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user)
 {
     int pipes[2];
@@ -57,8 +48,7 @@ bool batch_process_start(struct batch_process *process, batch_work *work, void *
         close(pipes[0]);
         struct batch_answer answer = {0};
         work(user, &answer);
-        send_all(pipes[1], &answer);
-        _exit(0);
+        _exit(!write_all(pipes[1], answer.data, answer.size));
     }
     int reason = errno;
     close(pipes[1]);

@@ -88,29 +88,20 @@ static void put(struct job_answers *answers, json_t *answer)
 
 // --- their contents
 
-static void set(json_t *answer, const char *key, json_t *value) { json_object_set_new(answer, key, value); }
-
-static void set_text(json_t *answer, const char *key, const char *text)
-{
-    char *clean = text ? journal_text(text) : NULL;
-    set(answer, key, clean ? json_string(clean) : json_null());
-    free(clean);
-}
-
 static json_t *start(json_t *id, const char *outcome)
 {
     json_t *answer = json_object();
-    set(answer, "id", id ? json_incref(id) : json_null());
-    set(answer, "outcome", json_string(outcome));
+    json_object_set_new(answer, "id", id ? json_incref(id) : json_null());
+    json_object_set_new(answer, "outcome", json_string(outcome));
     return answer;
 }
 
 static void set_class(json_t *answer, const struct exit_code *code, const char *error)
 {
-    set(answer, "class", json_string(code->name));
-    set(answer, "exit", json_integer(code->code));
+    json_object_set_new(answer, "class", json_string(code->name));
+    json_object_set_new(answer, "exit", json_integer(code->code));
     char shown[MESSAGE_SIZE];
-    set_text(answer, "error", error ? name_options(error, shown) : NULL);
+    journal_set_text(answer, "error", error ? name_options(error, shown) : NULL);
 }
 
 void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, const char *outcome,
@@ -118,7 +109,7 @@ void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, co
 {
     json_t *answer = start(id, outcome);
     if (line)
-        set(answer, "line", json_integer((json_int_t)line));
+        json_object_set_new(answer, "line", json_integer((json_int_t)line));
     set_class(answer, exit_code_of(error->code), error->text);
     put(answers, answer);
 }
@@ -129,7 +120,7 @@ static bool add_data(json_t *picture, const lam_bytes *bytes)
     size_t length = 0;
     char *text = bytes->data ? base64_encode(bytes->data, bytes->size, &length) : NULL;
     if (text)
-        set(picture, "data", json_stringn_nocheck(text, length));
+        json_object_set_new(picture, "data", json_stringn_nocheck(text, length));
     free(text);
     return text || !bytes->data;
 }
@@ -164,7 +155,7 @@ static void set_whole(json_t *answer, const struct batch_unit *u, const char *ou
     if (failed) {
         static const char *const shared[] = {"class", "exit", "error"};
         for (int i = 0; i < 3; i++)
-            set(answer, shared[i], json_deep_copy(json_object_get(failed, shared[i])));
+            json_object_set_new(answer, shared[i], json_deep_copy(json_object_get(failed, shared[i])));
         return;
     }
     const char *model = u->task.plan->models[0].path;
@@ -193,9 +184,9 @@ void job_answer_unit(struct job_answers *answers, const struct batch_unit *u)
         else
             json_decref(picture);
     }
-    set(answer, "id", json_incref(u->task.job->id));
+    json_object_set_new(answer, "id", json_incref(u->task.job->id));
     if (list)
-        set(answer, "pictures", list);
+        json_object_set_new(answer, "pictures", list);
     if (ok)
         put(answers, answer);
     else

@@ -2,14 +2,13 @@
 #include "look_option.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "looks.inc"
 #include "suggest.h"
 
@@ -39,41 +38,14 @@ void look_summary(const char *text, char *out, size_t size)
     snprintf(out, size, "%.*s", *text == '#' ? (int)strcspn(from, "\n") : 0, from);
 }
 
-// Opens a regular file. Rejects folders, pipes and devices, since opening them can block forever or have side effects.
-// Returns −1 and sets errno on failure.
-static int open_file(const char *path)
-{
-    struct stat about;
-    if (stat(path, &about) != 0)
-        return -1;
-    int file = S_ISREG(about.st_mode) ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY) : -1;
-    if (file >= 0 && fstat(file, &about) == 0 && !S_ISREG(about.st_mode)) {
-        close(file);
-        file = -1;
-    }
-    errno = S_ISREG(about.st_mode) ? errno : 0;
-    return file;
-}
-
-// Reads up to `size` bytes. Returns false if the file cannot be read.
-static bool read_bytes(int file, char *to, size_t size, size_t *length)
-{
-    ssize_t got = 1;
-    for (*length = 0; *length < size && got != 0; *length += got > 0 ? (size_t)got : 0) {
-        got = read(file, to + *length, size - *length);
-        if (got < 0 && errno != EINTR)
-            return false;
-    }
-    return true;
-}
-
 // Returns a writable copy of a look's text, allocated with malloc.
 static char *copy_of_look(const char *name, lam_error *error)
 {
     const char *built_in = look_find(name);
     size_t room = built_in ? strlen(built_in) : FILE_MAX + 1; // one byte more than the size limit
     char *text = malloc(room + 1);
-    int file = built_in ? -1 : open_file(name);
+    uint64_t unused;
+    int file = built_in ? -1 : open_regular(name, &unused);
     if (!text || (!built_in && file < 0)) {
         int reason = text ? errno : ENOMEM;
         struct suggestion nearest = suggest_start(name);
@@ -91,7 +63,7 @@ static char *copy_of_look(const char *name, lam_error *error)
     size_t length = room;
     if (built_in)
         memcpy(text, built_in, room);
-    bool whole = built_in || (read_bytes(file, text, room, &length) && length <= FILE_MAX);
+    bool whole = built_in || (read_up_to(file, text, room, &length) && length <= FILE_MAX);
     if (file >= 0)
         close(file);
     text[length] = 0;

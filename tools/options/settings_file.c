@@ -3,7 +3,6 @@
 #include "settings_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +12,7 @@
 
 #include "console.h"
 #include "environment_option.h"
+#include "file_io.h"
 #include "json.h"
 #include "suggest.h"
 
@@ -321,26 +321,24 @@ static void default_path(char *path, size_t size)
         *path = 0;
 }
 
-// Reads a regular file; folders, pipes and devices are never opened. Returns the text, from malloc.
+// Returns the text, from malloc.
 static char *read_text(const char *path, size_t *length, lam_error *error)
 {
-    struct stat about;
-    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) {
+    uint64_t unused;
+    int file = open_regular(path, &unused);
+    if (file < 0 && errno == 0) {
         complain(error, LAM_CANNOT_READ, "%.300s: not a regular file, expected settings (JSON)", path);
         return NULL;
     }
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    char *text = file >= 0 && fstat(file, &about) == 0 && S_ISREG(about.st_mode) ? malloc(FILE_MAX + 2) : NULL;
-    ssize_t got = text ? 1 : -1;
-    for (*length = 0; got > 0 && *length <= FILE_MAX; *length += got > 0 ? (size_t)got : 0)
-        got = read(file, text + *length, FILE_MAX + 1 - *length);
-    if (got < 0)
+    char *text = file >= 0 ? malloc(FILE_MAX + 2) : NULL;
+    bool read = text && read_up_to(file, text, FILE_MAX + 1, length);
+    if (!read)
         complain(error, LAM_CANNOT_READ, "%.300s: cannot read: %s", path, strerror(errno));
     else if (*length > FILE_MAX)
         complain(error, LAM_CANNOT_READ, "%.300s: longer than 64 KiB, expected settings", path);
     if (file >= 0)
         close(file);
-    if (got >= 0 && *length <= FILE_MAX) {
+    if (read && *length <= FILE_MAX) {
         text[*length] = 0;
         return text;
     }

@@ -6,6 +6,7 @@
 // Attributes (4 means sixel graphics) and the cell size (16 t): https://invisible-island.net/xterm/ctlseqs/ctlseqs.html
 #include "terminal.h"
 
+#include "file_io.h"
 #include "progress.h"
 
 #include <errno.h>
@@ -54,20 +55,6 @@ static enum term_kind kind_by_name(void)
     if (env_is("TERM_PROGRAM", "iTerm.app") || env_is("TERM_PROGRAM", "WezTerm"))
         return TERM_ITERM2;
     return TERM_AUTO;
-}
-
-static bool write_all(int file, const char *text, size_t size)
-{
-    while (size) {
-        ssize_t done = write(file, text, size);
-        if (done < 0 && errno == EINTR)
-            continue;
-        if (done <= 0)
-            return false;
-        text += done;
-        size -= (size_t)done;
-    }
-    return true;
 }
 
 // Returns the answer "ESC [ ? numbers c" in the bytes read, or NULL if it has not arrived yet.

@@ -2,16 +2,15 @@
 #include "page_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "console.h"
+#include "file_io.h"
 
 #ifndef LAMBENT_DATADIR // Meson's datadir
 #define LAMBENT_DATADIR "share"
@@ -73,45 +72,28 @@ char *page_file_find(lam_error *error)
     return NULL;
 }
 
-// Reads `size` bytes. Returns false with errno, or with errno 0 if the file ends earlier.
-static bool read_all(int file, char *bytes, size_t size)
-{
-    for (size_t at = 0; at < size;) {
-        ssize_t count = read(file, bytes + at, size - at);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count == 0)
-            errno = 0;
-        if (count <= 0)
-            return false;
-        at += (size_t)count;
-    }
-    return true;
-}
-
 char *page_file_read(const char *path, size_t most, size_t *size, lam_error *error)
 {
-    struct stat about;
+    uint64_t length = 0;
     *size = 0;
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    int file = open_regular(path, &length);
     char *bytes = NULL;
-    if (file < 0 || fstat(file, &about) != 0) {
-        complain(error, LAM_CANNOT_READ, "%s: cannot read: %s", path, strerror(errno));
-    } else if (!S_ISREG(about.st_mode)) {
-        complain(error, LAM_CANNOT_READ, "%s: cannot read: is not a regular file", path);
-    } else if ((uint64_t)about.st_size > most) {
-        *size = (size_t)about.st_size;
-        complain(error, LAM_LIMIT, "%s: has %.1f MB, more than the %.1f MB that fit", path, (double)about.st_size / 1e6,
+    if (file < 0) {
+        complain(error, LAM_CANNOT_READ, "%s: cannot read: %s", path,
+                 errno ? strerror(errno) : "is not a regular file");
+    } else if (length > most) {
+        *size = (size_t)length;
+        complain(error, LAM_LIMIT, "%s: has %.1f MB, more than the %.1f MB that fit", path, (double)length / 1e6,
                  (double)most / 1e6);
-    } else if (!(bytes = malloc((size_t)about.st_size + 1))) {
+    } else if (!(bytes = malloc((size_t)length + 1))) {
         complain(error, LAM_LIMIT, "out of memory");
-    } else if (!read_all(file, bytes, (size_t)about.st_size)) {
+    } else if (!read_all(file, bytes, (size_t)length)) {
         complain(error, LAM_CANNOT_READ, "%s: cannot read: %s", path,
                  errno ? strerror(errno) : "the file has become shorter");
         free(bytes);
         bytes = NULL;
     } else {
-        *size = (size_t)about.st_size;
+        *size = (size_t)length;
         bytes[*size] = 0;
     }
     if (file >= 0)

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "html.h"
 #include "environment_option.h"
 #include "json.h"
@@ -54,8 +55,7 @@ static bool is_file(const char *path)
 static bool is_below(const char *folder, const char *path)
 {
     char *real = realpath(path, NULL);
-    size_t length = strlen(folder);
-    bool below = real && strncmp(real, folder, length) == 0 && (real[length] == '/' || folder[length - 1] == '/');
+    bool below = real && is_in_folder(real, folder);
     free(real);
     return below;
 }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "writer_files.h"
 
 #ifdef __linux__
@@ -38,21 +39,6 @@ struct request {
     uint32_t path_size; // including the terminating zero
     uint64_t size;      // the size of the contents; 0 unless it saves or stages
 };
-
-// Returns false if the other process has ended or on an error (errno).
-static bool receive(int from, void *bytes, size_t size)
-{
-    for (char *at = bytes; size;) {
-        ssize_t got = read(from, at, size);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            return false;
-        at += got;
-        size -= (size_t)got;
-    }
-    return true;
-}
 
 // Sends everything in one call if possible, so that the receiver wakes once.
 static bool send_all(int to, struct iovec *parts, int count)
@@ -159,7 +145,7 @@ static bool skip(int from, uint64_t size)
 {
     char part[16 << 10];
     for (; size; size -= size < sizeof part ? size : sizeof part)
-        if (!receive(from, part, size < sizeof part ? size : sizeof part))
+        if (!read_all(from, part, size < sizeof part ? size : sizeof part))
             return false;
     return true;
 }
@@ -189,7 +175,7 @@ static bool act(int connection, const struct request *request, const char *path,
     void *data = malloc(request->size ? request->size : 1);
     if (!data)
         complain(error, LAM_LIMIT, "%.400s: cannot write: out of memory", path);
-    bool ok = data ? receive(connection, data, request->size) : skip(connection, request->size);
+    bool ok = data ? read_all(connection, data, request->size) : skip(connection, request->size);
     if (ok && data)
         save((enum action)request->action, path, &(lam_bytes){data, request->size}, right, error);
     free(data);
@@ -202,8 +188,8 @@ static bool answer(int connection)
     struct request request;
     char path[PATH_MAX];
     lam_error error = {0};
-    if (!receive(connection, &request, sizeof request) || request.path_size > sizeof path || request.path_size < 2 ||
-        request.action > DROP || !receive(connection, path, request.path_size) || path[request.path_size - 1])
+    if (!read_all(connection, &request, sizeof request) || request.path_size > sizeof path || request.path_size < 2 ||
+        request.action > DROP || !read_all(connection, path, request.path_size) || path[request.path_size - 1])
         return false;
     return act(connection, &request, path, &error) && send_all(connection, &(struct iovec){&error, sizeof error}, 1);
 }
@@ -397,7 +383,7 @@ static bool ask(enum action action, const char *path, const lam_bytes *bytes, la
     bool sent = send_all(connection, parts, 3);
     if (!sent && errno == EPIPE)
         sigtimedwait(&pipe, NULL, &(struct timespec){0});
-    bool ok = sent && receive(connection, error, sizeof *error);
+    bool ok = sent && read_all(connection, error, sizeof *error);
     give(i);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return ok ? !error->code

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "output_folder.h"
 
 #ifdef __wasm__ // wasi-libc has no chmod, and the files of a page have no rights
@@ -82,19 +83,6 @@ static bool fail_writing(const char *path, lam_error *error)
     return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: %s", path, strerror(errno));
 }
 
-static bool write_all(int file, const lam_bytes *bytes)
-{
-    const char *at = bytes->data;
-    for (size_t left = bytes->size; left;) {
-        ssize_t wrote = write(file, at, left < 1 << 30 ? left : 1 << 30);
-        if (wrote < 0 && errno != EINTR)
-            return false;
-        at += wrote > 0 ? wrote : 0;
-        left -= wrote > 0 ? (size_t)wrote : 0;
-    }
-    return true;
-}
-
 // Creates a file beside the target, and keeps the rights of the target to read and write, as lam_bytes_save does.
 static bool fill_hidden(struct staged *staged, const lam_bytes *bytes)
 {
@@ -113,7 +101,7 @@ static bool fill_hidden(struct staged *staged, const lam_bytes *bytes)
         if (file < 0 && (!staged->hidden || errno != EEXIST))
             return false;
     }
-    bool ok = file >= 0 && write_all(file, bytes) &&
+    bool ok = file >= 0 && write_all(file, bytes->data, bytes->size) &&
               (!exists || chmod(staged->hidden, there.st_mode & 0666) == 0 || errno == EPERM);
     int reason = errno;
     if (file >= 0 && close(file) != 0 && ok) {

@@ -21,6 +21,7 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "interrupt.h"
 
 enum { MAX_BYTES = 1 << 30, WALL_TIMES = 20 };
@@ -37,7 +38,7 @@ enum { EXIT_MEMORY = 200, EXIT_DRIVER = 201 };
 
 // --- the drawing process
 
-static bool read_all(int from, lam_bytes *bytes)
+static bool read_to_end(int from, lam_bytes *bytes)
 {
     size_t capacity = 0;
     for (;;) {
@@ -55,19 +56,6 @@ static bool read_all(int from, lam_bytes *bytes)
             return n == 0;
         bytes->size += (size_t)n;
     }
-}
-
-static bool write_all(int to, const void *data, size_t size)
-{
-    for (size_t at = 0; at < size;) {
-        ssize_t n = write(to, (const char *)data + at, size - at);
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0)
-            return false;
-        at += (size_t)n;
-    }
-    return true;
 }
 
 // Returns whether the process has run out of memory: it cannot even allocate half of the limit. Called if the driver
@@ -145,7 +133,7 @@ void check_worker(const char *memory)
         _exit(LAM_LIMIT); // drivers print to both streams
     lam_bytes request = {0}, drawn = {0};
     lam_error error = {0};
-    bool ok = read_all(STDIN_FILENO, &request) || complain(&error, LAM_LIMIT, "out of memory");
+    bool ok = read_to_end(STDIN_FILENO, &request) || complain(&error, LAM_LIMIT, "out of memory");
     ok = ok && lam_check_draw(request.data, request.size, NULL, &drawn, &error);
     int code = ok ? 0 : (int)error.code;
     if (!write_all(answer, ok ? drawn.data : error.text, ok ? drawn.size : strlen(error.text)))

@@ -1,6 +1,8 @@
 // info_json.c: prints a model on one line in the format of docs/info.schema.json.
 #include "info.h"
 
+#include <stdlib.h>
+
 #include "json.h"
 #include "report.h"
 
@@ -8,13 +10,8 @@
 static void json_float(struct json *json, const char *key, float value)
 {
     char text[32];
-    double number = (double)value;
-    for (int digits = 6; digits <= 9; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        if (sscanf(text, "%lf", &number) == 1 && (float)number == value)
-            break;
-    }
-    json_number(json, key, number);
+    shortest_float(value, text);
+    json_number(json, key, strtod(text, NULL));
 }
 
 static void json_color(struct json *json, const char *key, lam_rgb c)

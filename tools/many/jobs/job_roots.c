@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "console.h"
+#include "file_io.h"
 
 bool job_roots_start(struct job_roots *roots, const struct options *options, lam_error *error)
 {
@@ -41,13 +42,10 @@ void job_roots_free(struct job_roots *roots)
 
 static bool is_below(const struct job_roots *roots, const char *real)
 {
-    for (int i = 0; i < roots->count; i++) {
-        size_t length = strlen(roots->paths[i]);
-        if (strncmp(real, roots->paths[i], length) == 0 &&
-            (real[length] == '/' || !real[length] || roots->paths[i][length - 1] == '/'))
-            return true;
-    }
-    return false;
+    bool below = false;
+    for (int i = 0; i < roots->count; i++)
+        below |= is_in_folder(real, roots->paths[i]);
+    return below;
 }
 
 // Returns the real path of a path, or of its nearest existing parent folder. Returns NULL if there is no such folder,

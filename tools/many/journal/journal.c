@@ -14,6 +14,7 @@
 
 #include "batch_key.h"
 #include "console.h"
+#include "file_io.h"
 #include "host_name.h"
 #include "interrupt.h"
 #include "output.h"
@@ -131,11 +132,8 @@ char *journal_read(const char *path, size_t *size)
     int file = open(path, O_RDONLY | O_CLOEXEC);
     char *text = file >= 0 && fstat(file, &about) == 0 ? malloc((size_t)about.st_size + 1) : NULL;
     size_t used = 0;
-    ssize_t got = 1;
-    while (text && used < (size_t)about.st_size && got > 0) {
-        got = read(file, text + used, (size_t)about.st_size - used);
-        used += got > 0 ? (size_t)got : 0;
-    }
+    if (text)
+        read_up_to(file, text, (size_t)about.st_size, &used);
     int reason = errno;
     if (file >= 0)
         close(file);
@@ -179,18 +177,6 @@ static bool read_lines(struct journal *j, size_t size, const char **options, jso
 }
 
 // --- opening
-
-static bool write_all(int file, const char *text, size_t size)
-{
-    while (size) {
-        ssize_t wrote = write(file, text, size);
-        if (wrote < 0 && errno != EINTR)
-            return false;
-        text += wrote > 0 ? wrote : 0;
-        size -= wrote > 0 ? (size_t)wrote : 0;
-    }
-    return true;
-}
 
 // Writes the line that begins a run.
 static bool begin_run(struct journal *j, const struct journal_run *about, lam_error *error)
@@ -358,6 +344,13 @@ const char *journal_value(const json_t *record, const char *key)
 {
     const char *text = json_string_value(json_object_get(record, key));
     return text ? text : "";
+}
+
+void journal_set_text(json_t *record, const char *key, const char *text)
+{
+    char *clean = text ? journal_text(text) : NULL;
+    json_object_set_new(record, key, clean ? json_string(clean) : json_null());
+    free(clean);
 }
 
 char *journal_line(const json_t *record)

@@ -39,6 +39,9 @@ bool journal_add(struct journal *journal, const json_t *record, lam_error *error
 // Returns the text of a record's key, or "" if there is none.
 const char *journal_value(const json_t *record, const char *key);
 
+// Sets a key of a record to a text (journal_text), or to null for NULL.
+void journal_set_text(json_t *record, const char *key, const char *text);
+
 // Returns a record as a line with its line end, from malloc, or NULL if memory runs out.
 char *journal_line(const json_t *record);
 

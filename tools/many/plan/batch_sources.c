@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "output.h"
 
 static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
@@ -19,8 +20,7 @@ static int is_visible(const struct dirent *entry) { return entry->d_name[0] != '
 static bool is_below(const char *real, const char *folder)
 {
     char *top = realpath(folder, NULL);
-    size_t length = top ? strlen(top) : 0;
-    bool below = length && strncmp(real, top, length) == 0 && (real[length] == '/' || top[length - 1] == '/');
+    bool below = top && is_in_folder(real, top);
     free(top);
     return below;
 }

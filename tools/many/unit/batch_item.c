@@ -118,32 +118,23 @@ static bool hash_files(const struct job *job, const struct timespec *start, stru
     return true;
 }
 
-static void set(json_t *record, const char *key, json_t *value) { json_object_set_new(record, key, value); }
-
-static void set_text(json_t *record, const char *key, const char *text)
-{
-    char *clean = text ? journal_text(text) : NULL;
-    set(record, key, clean ? json_string(clean) : json_null());
-    free(clean);
-}
-
 static void set_ms(json_t *record, const char *key, double ms)
 {
-    set(record, key, json_real((double)(int64_t)(ms * 1e3 + 0.5) / 1e3));
+    json_object_set_new(record, key, json_real((double)(int64_t)(ms * 1e3 + 0.5) / 1e3));
 }
 
 static json_t *start_record(const struct batch_item *item, int view, const char *class, int exit, const char *error)
 {
     const struct job_view *v = &item->views[view];
     json_t *record = json_object();
-    set_text(record, "model", item->model);
-    set_text(record, "output", item->contents ? NULL : item->outputs[view]);
-    set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : item->options->view.side)));
-    set_text(record, "class", class);
-    set(record, "exit", json_integer(exit));
+    journal_set_text(record, "model", item->model);
+    journal_set_text(record, "output", item->contents ? NULL : item->outputs[view]);
+    journal_set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : item->options->view.side)));
+    journal_set_text(record, "class", class);
+    json_object_set_new(record, "exit", json_integer(exit));
     char shown[MESSAGE_SIZE];
-    set_text(record, "error", error ? name_options(error, shown) : NULL);
-    set(record, "attempt", json_integer(item->attempts[view]));
+    journal_set_text(record, "error", error ? name_options(error, shown) : NULL);
+    json_object_set_new(record, "attempt", json_integer(item->attempts[view]));
     return record;
 }
 
@@ -187,7 +178,7 @@ static void add_hash(json_t *record, const struct batch_item *item, int view, co
     else if (!xxh64_file(job->output, &hash))
         return;
     xxh64_print(hash, text);
-    set_text(record, "hash", text);
+    journal_set_text(record, "hash", text);
 }
 
 // Adds the files that were read, and the key.
@@ -199,11 +190,11 @@ static void add_key(json_t *record, const struct batch_item *item, int view, con
     json_t *list = json_array();
     for (int i = 0; i < files->count; i++) {
         json_t *file = json_object();
-        set_text(file, "path", lam_scene_file(job->scene, i));
-        set_text(file, "hash", files->texts[i]);
+        journal_set_text(file, "path", lam_scene_file(job->scene, i));
+        journal_set_text(file, "hash", files->texts[i]);
         json_array_append_new(list, file);
     }
-    set(record, "files", list);
+    json_object_set_new(record, "files", list);
     if (files->changed || item->model_bytes || strcmp(item->model, "-") == 0)
         return; // without a key, the picture is never skipped as unchanged
     const struct job_view *v = &item->views[view];
@@ -218,7 +209,7 @@ static void add_key(json_t *record, const struct batch_item *item, int view, con
                                     .files = files->texts,
                                     .file_count = files->count};
     xxh64_print(batch_key(&parts), text);
-    set_text(record, "key", text);
+    journal_set_text(record, "key", text);
 }
 
 static json_t *record_of(const struct batch_item *item, int view, const struct job *job, const lam_error *error,
@@ -227,20 +218,20 @@ static json_t *record_of(const struct batch_item *item, int view, const struct j
     const struct exit_code *code = exit_code_of(error->code);
     json_t *record = start_record(item, view, code->name, code->code, error->code ? error->text : NULL);
     if (job->scene) {
-        set(record, "triangles", json_integer((json_int_t)job->model_counts.triangles));
-        set(record, "lines", json_integer((json_int_t)job->model_counts.lines));
-        set(record, "points", json_integer((json_int_t)job->model_counts.points));
+        json_object_set_new(record, "triangles", json_integer((json_int_t)job->model_counts.triangles));
+        json_object_set_new(record, "lines", json_integer((json_int_t)job->model_counts.lines));
+        json_object_set_new(record, "points", json_integer((json_int_t)job->model_counts.points));
     }
     char sandbox[SANDBOX_TEXT_SIZE];
-    set_text(record, "sandbox", sandbox_text(sandbox_active(), sandbox));
-    set(record, "warnings", warnings_of(job));
-    set(record, "times_ms", times_of(&job->times));
+    journal_set_text(record, "sandbox", sandbox_text(sandbox_active(), sandbox));
+    json_object_set_new(record, "warnings", warnings_of(job));
+    json_object_set_new(record, "times_ms", times_of(&job->times));
     if (job->written) {
-        set(record, "width", json_integer(job->image.width));
-        set(record, "height", json_integer(job->image.height));
-        set(record, "bytes", json_integer((json_int_t)job->bytes));
+        json_object_set_new(record, "width", json_integer(job->image.width));
+        json_object_set_new(record, "height", json_integer(job->image.height));
+        json_object_set_new(record, "bytes", json_integer((json_int_t)job->bytes));
         const char *format = lam_scene_format(job->scene);
-        set_text(record, "format", *format ? format : "shape");
+        journal_set_text(record, "format", *format ? format : "shape");
         add_hash(record, item, view, job);
         if (item->options_text)
             add_key(record, item, view, job, files);

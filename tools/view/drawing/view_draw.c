@@ -1,7 +1,6 @@
 // view_draw.c: the drawing process: draws pictures on request.
 #include "view_draw.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <signal.h>
 #include <stdio.h>
@@ -14,6 +13,7 @@
 #include "device_option.h"
 #include "environment_cache.h"
 #include "explain_json.h"
+#include "file_io.h"
 #include "job_check.h"
 #include "kept_model.h"
 #include "option_names.h"
@@ -45,12 +45,8 @@ struct drawer {
 
 static void send_all(int to, const void *bytes, size_t size)
 {
-    for (size_t at = 0; at < size;) {
-        ssize_t sent = write(to, (const char *)bytes + at, size - at);
-        if (sent < 0 && errno != EINTR)
-            _exit(1);
-        at += sent > 0 ? (size_t)sent : 0;
-    }
+    if (!write_all(to, bytes, size))
+        _exit(1);
 }
 
 static void answer(const struct drawer *d, int status, bool keeps, const char *notes, size_t size, const void *data,
@@ -309,20 +305,6 @@ static void work(struct drawer *d, const struct view_request *request, const cha
 }
 
 // --- requests
-
-// Returns false if the server has closed its end.
-static bool read_all(int from, void *bytes, size_t size)
-{
-    for (size_t at = 0; at < size;) {
-        ssize_t got = read(from, (char *)bytes + at, size - at);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            return false;
-        at += (size_t)got;
-    }
-    return true;
-}
 
 void view_draw_serve(const struct view_files *files, const struct options *options, int from, int to)
 {

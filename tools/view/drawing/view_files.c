@@ -15,6 +15,7 @@
 #include <lambent/lambent.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "output.h"
 
 enum { FLAGS = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK };
@@ -77,9 +78,7 @@ static bool is_served(const char *path)
 static bool is_below(const struct view_files *files, const char *path)
 {
     char *top = realpath(*files->prefix ? files->prefix : "/", NULL), *real = realpath(path, NULL);
-    size_t length = top ? strlen(top) : 0;
-    bool below = top && real && strncmp(top, real, length) == 0 &&
-                 (real[length] == '/' || !real[length] || top[length - 1] == '/');
+    bool below = top && real && is_in_folder(real, top);
     free(top);
     free(real);
     return below;

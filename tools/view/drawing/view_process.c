@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "sandbox_start.h"
@@ -71,19 +72,6 @@ bool view_process_start(struct view_process *process, const struct view_files *f
     return false;
 }
 
-// Sends the words without waiting: a request has at most 64 KiB (HEADERS_MAX in view_server.c), which fits into the
-// empty pipe.
-static bool send_all(int to, const void *bytes, size_t size)
-{
-    for (size_t at = 0; at < size;) {
-        ssize_t sent = write(to, (const char *)bytes + at, size - at);
-        if (sent < 0 && errno != EINTR)
-            return false;
-        at += sent > 0 ? (size_t)sent : 0;
-    }
-    return true;
-}
-
 bool view_process_ask(struct view_process *process, const struct view_request *request, const char *words, void *task)
 {
     char *model = strdup(words);
@@ -94,7 +82,7 @@ bool view_process_ask(struct view_process *process, const struct view_request *r
     process->task = task;
     process->cancelled = false;
     process->size = 0;
-    return send_all(process->to, request, sizeof *request) && send_all(process->to, words, (size_t)request->size);
+    return write_all(process->to, request, sizeof *request) && write_all(process->to, words, (size_t)request->size);
 }
 
 void view_process_cancel(struct view_process *process)

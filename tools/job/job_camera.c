@@ -61,6 +61,33 @@ lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct 
                                  turns ? &axis : NULL);
 }
 
+lam_scene *job_box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *error)
+{
+    static const uint32_t corners[36] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                                         2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+    float positions[24];
+    lam_vec3 middle = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
+    for (int i = 0; i < 8; i++) {
+        positions[3 * i] = (float)((i & 1 ? high.x : low.x) - middle.x);
+        positions[3 * i + 1] = (float)((i & 2 ? high.y : low.y) - middle.y);
+        positions[3 * i + 2] = (float)((i & 4 ? high.z : low.z) - middle.z);
+    }
+    lam_mesh mesh = {.positions = positions,
+                     .vertex_count = 8,
+                     .indices = corners,
+                     .triangle_count = 12,
+                     .origin = {middle.x, middle.y, middle.z}};
+    lam_scene *scene = lam_scene_make(error);
+    lam_object object = lam_object_default();
+    if (scene && (lam_scene_add_mesh(scene, &mesh, error) < 0 || lam_scene_add_object(scene, &object, error) < 0)) {
+        lam_scene_free(scene);
+        return NULL;
+    }
+    if (scene)
+        lam_scene_set_up(scene, up);
+    return scene;
+}
+
 // Copies the lights before the options add theirs, if they must be added again for each view's camera.
 static bool keep_lights(struct job *job, lam_error *error)
 {

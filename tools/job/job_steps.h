@@ -10,6 +10,9 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
 // Returns the camera that fits the scene, for all of its rotations about `centre`.
 lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig);
 
+// Makes a scene that consists of a box, to fit a camera to it.
+lam_scene *job_box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *error);
+
 // Sets the options for the picture of one of several views.
 void job_choose_view(struct job *job, const struct job_view *view);
 

@@ -35,36 +35,6 @@ static bool box_of(const lam_scene *a, const lam_scene *b, struct box *box)
     return true;
 }
 
-// Returns a scene with only a box, so that a camera can be fitted to it.
-static lam_scene *scene_of_box(const struct box *box, lam_up up, lam_error *error)
-{
-    float positions[24];
-    uint32_t indices[36];
-    static const uint8_t corners[36] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
-                                        2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
-    for (int i = 0; i < 8; i++) {
-        positions[3 * i] = (float)(i & 1 ? box->maximum.x - box->minimum.x : 0);
-        positions[3 * i + 1] = (float)(i & 2 ? box->maximum.y - box->minimum.y : 0);
-        positions[3 * i + 2] = (float)(i & 4 ? box->maximum.z - box->minimum.z : 0);
-    }
-    for (int i = 0; i < 36; i++)
-        indices[i] = corners[i];
-    lam_mesh mesh = {.origin = {box->minimum.x, box->minimum.y, box->minimum.z},
-                     .positions = positions,
-                     .vertex_count = 8,
-                     .indices = indices,
-                     .triangle_count = 12};
-    lam_scene *scene = lam_scene_make(error);
-    lam_object object = lam_object_default();
-    if (scene && (object.mesh = lam_scene_add_mesh(scene, &mesh, error)) >= 0 &&
-        lam_scene_add_object(scene, &object, error) >= 0) {
-        lam_scene_set_up(scene, up);
-        return scene;
-    }
-    lam_scene_free(scene);
-    return NULL;
-}
-
 // Computes the sphere around both models and a camera that shows both, unless the options or the new model's scene file
 // define a camera.
 static bool share(struct job *old, struct job *new, struct job_shared *shared, lam_error *error)
@@ -83,7 +53,7 @@ static bool share(struct job *old, struct job *new, struct job_shared *shared, l
     shared->sphere.radius = radius > 0 ? radius : 1;
     if (new->options->view.camera || scene_settings_has_camera(new))
         return true;
-    lam_scene *scene = scene_of_box(&box, lam_scene_up(new->scene), error);
+    lam_scene *scene = job_box_scene(box.minimum, box.maximum, lam_scene_up(new->scene), error);
     if (!scene)
         return false;
     shared->camera = job_fit_camera(scene, shared->sphere.centre, new->options, LAM_RIG_AUTO);

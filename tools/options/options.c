@@ -113,11 +113,11 @@ static const struct option *find_key(const struct option *option, const char *ke
     return NULL;
 }
 
-// Returns whether a text begins with a key of the option's value and an equals sign.
+// Returns whether a text begins with a key of the option's value and an equals sign, and is not a file's name.
 static bool begins_with_key(const struct option *option, const char *text)
 {
     size_t length = strcspn(text, "=,");
-    return text[length] == '=' && find_key(option, text, length);
+    return text[length] == '=' && find_key(option, text, length) && access(text, F_OK) != 0;
 }
 
 static bool unknown_key(const struct option *option, const char *text, lam_error *error)

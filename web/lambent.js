@@ -93,22 +93,27 @@ export class Lambent {
     return picture;
   }
 
+  // The file that `act` writes at a path. It is removed, and is not one of the files that a model misses.
+  #written(path, act) {
+    try {
+      act();
+      return this.files.get(path).slice();
+    } finally {
+      this.files.delete(path);
+      this.files.absent.delete(path);
+    }
+  }
+
   // The bytes of the picture's file, in the format of an ending: png, jpg, ppm, pfm.
   save(words, ending) {
     const path = `/picture-to-save.${ending}`;
-    this.#call('web_save', this.#words([...words, '-o', path]));
-    const bytes = this.files.get(path).slice();
-    this.files.delete(path);
-    return bytes;
+    return this.#written(path, () => this.#call('web_save', this.#words([...words, '-o', path])));
   }
 
   // The scene file that --save-scene writes, as bytes.
   scene(words) {
     const path = '/scene-to-save.json';
-    this.save([...words, '--save-scene', path], 'png');
-    const bytes = this.files.get(path).slice();
-    this.files.delete(path);
-    return bytes;
+    return this.#written(path, () => this.save([...words, '--save-scene', path], 'png'));
   }
 
   // One pixel, as `lambent explain --json` prints it.

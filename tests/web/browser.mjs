@@ -460,7 +460,7 @@ async function memory() {
   truncateSync(large, 200e6);
   await drop(page, large);
   await until(page, () => !document.getElementById('message').hidden);
-  ok((await sentence()) === 'large.stl: the files have 200 MB together, more than the 134 MB that this page takes on this machine; the program lambent draws them', 'memory: files', await sentence());
+  ok((await sentence()) === 'large.stl: the files have 200 MB together, but the limit of this page on this machine is 134 MB. The program lambent can draw them.', 'memory: files', await sentence());
   await page.evaluate((hash) => (location.hash = hash), fragment(['sphere', '--size=12000x12000']));
   await until(page, () => document.getElementById('message').textContent.includes('memory limit'));
   ok((await sentence()) === 'the picture of 12000x12000 pixels needs 576.0 MB, more than the memory limit of 268.4 MB (--memory-limit)', 'memory: a picture', await sentence());

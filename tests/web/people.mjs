@@ -67,7 +67,7 @@ async function interrupted(address, label) {
   await page.reload();
   await until(page, () => !document.getElementById('message').hidden);
   await pause(300);
-  ok(/not drawn by itself/.test(await messageOf(page)) && (await page.locator('#working').isHidden()), `${label}: a page that is loaded again does not repeat it`, await messageOf(page));
+  ok(/did not start it again/.test(await messageOf(page)) && (await page.locator('#working').isHidden()), `${label}: a page that is loaded again does not repeat it`, await messageOf(page));
   await page.locator('#message button').click();
   await until(page, () => !document.getElementById('working').hidden);
   const changed = Date.now();

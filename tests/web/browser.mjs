@@ -321,7 +321,7 @@ async function arrows() {
   ok((await commandOf(page)) === `${before},intensity=1.2`, 'gesture: the slider of a light', await commandOf(page));
   ok(/Pinned/.test(await page.locator('#pinned').textContent()) && !(await page.locator('#panel-lights').isHidden()), 'pinned: its numbers change with a slider');
   const marked = await page.locator('#panel-lights .curve').first().getAttribute('aria-label'), said = /attenuation = .*? = ([\d.]+)D/.exec(await explainedText(page));
-  ok(/: at [\d.]+ it is 1$/.test(marked) && said?.[1] === '1', 'curves: the pinned point is marked', `${marked}; ${said}`);
+  ok(/: 1 at [\d.]+$/.test(marked) && said?.[1] === '1', 'curves: the pinned point is marked', `${marked}; ${said}`);
   const pixel = /Pixel (\d+), (\d+)/.exec(await explainedText(page)).slice(1).map(Number);
   await page.locator('#canvas').press('ArrowRight');
   await settled(page, 'turned');

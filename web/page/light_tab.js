@@ -80,7 +80,7 @@ function showHighlight() {
   const light = lights.reduce((best, one) => (one.S > (best?.S ?? -1) ? one : best), null), [value] = state.values('shininess');
   const alpha = Number(value ?? triangle?.material.shininess ?? /shininess=([\d.]+)/.exec(state.values('material').at(-1))?.[1] ?? 32);
   if (!view.moving) exponent.querySelector('input').value = Math.log10(Math.max(1, alpha));
-  exponent.querySelector('output').textContent = String(alpha);
+  exponent.querySelector('output').textContent = String(Number(alpha.toPrecision(4)));
   if (light) curvesOf({ words: state.words, light: lights.indexOf(light), explained: light, triangle, onlyHighlight: true }).then((made) => plotted.replaceChildren(made), () => {});
   else plotted.replaceChildren(element('p', { className: 'hint', textContent: text('curveHint') }));
 }

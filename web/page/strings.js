@@ -51,7 +51,7 @@ const STRINGS = {
   missingSeen: 'Draw without them',
   linkWithout: 'This is a link to {file}. Links contain no files: open that file here to see the picture.',
   openNamed: 'Open it…',
-  linkCopied: 'The link contains no files: whoever opens it needs {file}.',
+  linkCopied: 'The link contains no files. Whoever opens it needs {file} and the files that belong to it. To send everything in one file, use Save and send.',
   workerEnded: 'the worker has ended',
   gallery: '← Gallery',
   drawnByProgram: 'drawn by lambent view, since {reason}',
@@ -182,7 +182,7 @@ const STRINGS = {
 
   mineLights: 'Write out the lights',
   mineDone: 'The command line now contains {count} lights. The picture is the same.',
-  mineDiffers: 'These lights cannot be written out: the picture would change.',
+  mineDiffers: 'These lights cannot be written out, because the picture would change. To move a light, use the section Light of the tab Picture.',
   sliderOf: '{name} of {light}',
   sliderShininess: 'Shininess of the highlights',
   curveAttenuation: 'Attenuation over distance',

@@ -146,6 +146,22 @@ def check_view(results, program, modules, browser, folder, long):
     results.ok(done.returncode == 0 and drawn == (6 if long else 3), "lambent view was tested", done.stderr)
 
 
+def check_barriers(results, program, modules, browser, folder):
+    """Runs axe-core on every tab of the page, and on the gallery of `lambent view` for the models of the folder."""
+    viewer, gallery = start_viewer(program, folder)
+    try:
+        done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "axe.mjs"), modules, browser, OUT, gallery or ""], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True)
+    finally:
+        if viewer:
+            viewer.kill()
+            viewer.communicate()
+    report(results, program, done.stdout, lambda said: folder)
+    galleries = 4 if gallery else 0
+    results.ok(done.returncode == 0 and done.stdout.count("ok axe: the tab") == 20 and done.stdout.count("ok axe: the gallery") == galleries,
+               "axe-core has looked at every tab, and at the gallery", done.stderr)
+
+
 def report(results, program, lines, folder_of):
     """Takes the lines of a script: results, and pictures that the program draws too. Returns the number of those that have a label."""
     drawn = 0
@@ -194,9 +210,7 @@ def main():
         done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "browser.mjs"), modules, browser, OUT, folder, str(sequences)],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         drawn = report(results, program, done.stdout, lambda said: folder)
-        axe = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "axe.mjs"), modules, browser, OUT], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        report(results, program, axe.stdout, lambda said: folder)
-        results.ok(axe.returncode == 0 and axe.stdout.count("ok axe: the tab") == 20, "axe-core has looked at every tab", axe.stderr)
+        check_barriers(results, program, modules, browser, folder)
         people = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "people.mjs"), modules, browser, OUT, folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 text=True)
         report(results, program, people.stdout, lambda said: folder)

@@ -27,7 +27,7 @@ NEEDS = {"clang-19": "clang-19", "wasm-ld-19": "lld-19", "/usr/lib/llvm-19/bin/l
 
 
 def missing():
-    """The packages of the group that are not installed."""
+    """Returns the packages of the group `web` that are not installed."""
     return [package for need, package in NEEDS.items() if not (os.path.exists(need) if "/" in need else shutil.which(need))]
 
 
@@ -36,15 +36,15 @@ def packed_text(content):
 
 
 def with_files(page, files):
-    """The one-file page with files in it, {path: bytes}, for links that draw them."""
+    """Adds files, {path: bytes}, to the one-file page, so that links can refer to them."""
     texts = "".join('<script type="text/plain" class="inside-file" data-path="%s" data-packed="gzip">%s</script>\n' % (html.escape(path), packed_text(content))
                     for path, content in sorted(files.items()))
     return page.replace('<script type="text/plain" id="worker">', texts + '<script type="text/plain" id="worker">', 1)
 
 
 def packages(folder, source=HERE):
-    """The folder of node's modules with what SOURCE/package-lock.json names, installed in FOLDER/npm where it is not yet; None: npm is missing or cannot
-    get it."""
+    """Installs the packages of SOURCE/package-lock.json in FOLDER/npm, unless they are installed. Returns the folder of the modules; None: npm is missing
+    or cannot fetch them."""
     place = os.path.join(folder, "npm")
     lock = open(os.path.join(source, "package-lock.json")).read()
     stamp = os.path.join(place, "installed")
@@ -74,7 +74,7 @@ SCRIPT = '<script type="module" src="page.js"></script>'
 
 
 def served_index(bundles):
-    """The page of a server, which asks for all that its start needs at once."""
+    """The page for a server. It requests all files of its start at once."""
     text = page_file("index.html")
     if SCRIPT not in text:
         sys.exit("web: index.html has no %s" % SCRIPT)
@@ -88,7 +88,7 @@ def integrity(path):
 
 
 def make_offline(served, bundles):
-    """The service worker of the served page, with a list of its files and their hashes. Those of the tab of shaders are stored when they are used."""
+    """The service worker of the served page, with a list of its files and their hashes. Files of the tab of shaders are stored on first use."""
     names = sorted(name for name in os.listdir(served) if name.endswith((".js", ".css", ".html", ".wasm")) and name != OFFLINE)
     files = {"./" if name == "index.html" else name: integrity(os.path.join(served, name)) for name in names}
     shaders = bundles.shaders + ["check.wasm", bundle.CODEMIRROR]
@@ -120,12 +120,12 @@ for (const path of process.argv.slice(1)) {
 
 
 def pack(served):
-    """Beside each file of the served page the same packed by gzip and by brotli, for servers that send such files."""
+    """Compresses each file of the served page by gzip and by brotli, for servers that send such files."""
     call("node", "-e", PACKER, *sorted(os.path.join(served, name) for name in os.listdir(served) if name.endswith(PACKED)))
 
 
 def make_page(folder):
-    """The page as files that a server serves, and as one file that works by itself, of the modules that make_modules has made."""
+    """Writes the page as files for a server, and as a single file, from the modules that make_modules has built."""
     modules, with_threads = (os.path.join(folder, name, "web") for name in MODULES)
     served = os.path.join(folder, "page")
     os.makedirs(served, exist_ok=True)
@@ -175,12 +175,12 @@ def make_one_file(folder, bundles, editor):
     bundle.write(os.path.join(folder, "lambent.html"), page)
 
 
-# The folders of modules, and what they are compiled with: for one thread, and for several with a memory that they share (web/libc/threads.c).
+# The folders of modules and their compiler options: one thread, and several threads with shared memory (web/libc/threads.c).
 MODULES = {"wasm": [], "threads": ["-matomics"]}
 
 
 def make_modules(folder, name, args):
-    """The modules of one row, by Meson."""
+    """Builds the modules of one row by Meson."""
     place = os.path.join(folder, name)
     places = os.path.join(folder, name + ".ini")
     text = ("[constants]\nweb_folder = '%s'\nweb_root = '%s'\nthread_args = %s\nweb_threads = %s\n"

@@ -1,5 +1,5 @@
-"""bundle.py: the page's scripts as bundles, made by esbuild (Debian's package). The served page has a script for its start and others that are fetched
-when they are used; the page in one file has all of them in one."""
+"""bundle.py: the page's scripts as bundles, made by esbuild (Debian's package). The served page has a script for its start, and
+others that it fetches on first use. The page in one file contains all of them."""
 import json
 import os
 import re
@@ -17,7 +17,7 @@ COMMON = ["--bundle", "--minify", "--charset=utf8", "--legal-comments=none", "--
 
 
 def write(path, content):
-    """Writes a file, unless it is as it should be: another test may read it."""
+    """Writes a file, unless it already has this content, because another test may be reading it."""
     content = content.encode() if isinstance(content, str) else content
     if not os.path.exists(path) or open(path, "rb").read() != content:
         with open(path + ".new", "wb") as out:
@@ -26,7 +26,7 @@ def write(path, content):
 
 
 def correct_programs():
-    """The correct programs of the contracts (tests/check) that WebGL 2 can draw: GLSL ES 3.00 has no blocks of varyings."""
+    """The correct programs of the contracts (tests/check) that WebGL 2 can draw. GLSL ES 3.00 has no blocks of varyings."""
     return sorted(name[:-5] for name in os.listdir(os.path.join(ROOT, "tests", "check")) if name.endswith(".vert") and name != "pittsburgh-blocks.vert")
 
 
@@ -49,8 +49,8 @@ def esbuild(*words, cwd=None, env=None):
 
 
 def codemirror(folder, modules):
-    """The text editor of shaders as one script with its licences, from the npm packages in MODULES; None: there are none, and the page has a plain
-    field in its place."""
+    """The text editor of shaders as one script with its licences, from the npm packages in MODULES. None: there are none, and the page uses a plain
+    text field."""
     if not modules:
         print("web: npm cannot install CodeMirror: shaders are edited in a plain field", flush=True)
         return None
@@ -66,7 +66,7 @@ def codemirror(folder, modules):
 
 
 def gather(folder):
-    """All scripts in one folder, as they import one another: FOLDER/scripts."""
+    """Copies all scripts to one folder, FOLDER/scripts, so that their imports work."""
     place = os.path.join(folder, "scripts")
     os.makedirs(place, exist_ok=True)
     texts = {"programs.js": programs()}
@@ -82,7 +82,7 @@ def gather(folder):
 
 
 class Bundles:
-    """`first`: the files of the served page that its start loads; `later`: those that are fetched when they are used; `shaders`: of these, those of
+    """`first`: the files that the start of the served page loads; `later`: the files that it fetches on first use; `shaders`: the files among `later` for
     the tab of shaders. `inside`: the scripts of the page in one file, by name."""
 
     def __init__(self, folder):
@@ -107,7 +107,7 @@ class Bundles:
 
     @staticmethod
     def _with_imports(outputs, names):
-        """The outputs with all that they import at their start."""
+        """The outputs, with everything that they import statically."""
         found = list(names)
         for name in found: # which grows
             for other in outputs[name]["imports"]:

@@ -1,4 +1,4 @@
-// decoders.js: the module that decodes Draco and meshoptimizer (web/decoders.py), for a Lambent whose file needs it. Each has a memory of its own.
+// decoders.js: the module that decodes Draco and meshoptimizer (web/decoders.py). A Lambent uses it if a file needs it. Each has its own memory.
 import { Files, system } from './wasi.js';
 
 const SIZES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 }; // bytes of glTF's component types
@@ -6,7 +6,7 @@ const REASON_BYTES = 160;
 
 export class Decoders {
   #exports;
-  #draco; // of draco_functions: decode, attribute, triangles, free
+  #draco; // exports of draco_functions: decode, attribute, triangles, free
   #meshes = new Map();
 
   constructor(module) {
@@ -20,7 +20,7 @@ export class Decoders {
 
   #bytes = (at, size) => new Uint8Array(this.#exports.memory.buffer, at, size);
 
-  // Calls `act` with memory of this module for each size; what it throws, a trap, is null.
+  // Calls `act` with memory of this module, one block for each size. Returns null if `act` traps.
   #within(sizes, act) {
     const { malloc, free } = this.#exports, places = sizes.map((size) => malloc(size));
     try {
@@ -41,7 +41,7 @@ export class Decoders {
         this.#within([size, 12, REASON_BYTES], (input, facts, why) => {
           this.#bytes(input, size).set(own(bytes, size));
           const result = decode(input, size, 0, facts, facts + 4, facts + 8, why);
-          const mesh = new Uint32Array(this.#exports.memory.buffer, facts, 3).slice(); // its address, vertices, triangles
+          const mesh = new Uint32Array(this.#exports.memory.buffer, facts, 3).slice(); // address, vertices and triangles of the mesh
           if (result > 0) this.#meshes.set(mesh[0], mesh);
           put(out, facts, 12);
           if (!result) put(reason, why, REASON_BYTES);

@@ -1,6 +1,5 @@
-// lambent.js: Lambent as a module: pictures of models by the words of a command line, from files in memory. No file of the
-// machine is read, nothing is sent anywhere. For node and for browsers. It draws while it is called, so a page calls it in a worker; with several
-// threads by threads.js.
+// lambent.js: Lambent as a module for node and browsers: draws pictures of models from command lines, with files in memory. It reads no files of the machine
+// and sends nothing. A call blocks until the picture is drawn, so a page calls it in a worker. threads.js adds threads.
 //
 //   const lambent = await open(bytesOfLambentWasm);
 //   lambent.files.set('/bunny.obj', bytes);
@@ -8,7 +7,7 @@
 //   const png = lambent.save(['/bunny.obj', '--size', '512'], 'png'); // the bytes that the command writes
 import { Files, system } from './wasi.js';
 
-// A command line that cannot be drawn: the program's own sentence, and a word for its exit code. `cancelled`: the call was asked to end.
+// Thrown if a command line cannot be drawn: the program's message, and a word for its exit code. `cancelled`: the caller asked the call to end.
 export class LambentError extends Error {
   cancelled = false;
 
@@ -20,15 +19,15 @@ export class LambentError extends Error {
 }
 const CODES = ['OK', 'BAD_ARGUMENT', 'CANNOT_READ', 'UNSUPPORTED', 'LIMIT', 'CANNOT_WRITE'];
 
-// A module that is in parts has been asked for what a part has that is not there: this Lambent is of no use any more.
+// Thrown if a divided module needs a part that is not loaded. This Lambent cannot be used afterwards.
 export class PartMissing extends Error {
   constructor(part) {
     super(`the part '${part}' of the module is missing`);
-    this.part = part; // 'rest' or 'more'; 'threads-more': of the module with threads
+    this.part = part; // 'rest' or 'more'; 'threads-more' for the module with threads
   }
 }
 
-// The placeholders of wasm-split: a divided module calls them instead of another part's functions.
+// wasm-split's placeholders: a divided module calls them instead of functions of a missing part.
 const placeholder = (part) => new Proxy({}, {
   get: () => () => {
     throw new PartMissing(part);
@@ -38,14 +37,14 @@ const placeholder = (part) => new Proxy({}, {
 const DECODING = ['web_draco_decode', 'web_draco_attribute', 'web_draco_triangles', 'web_draco_free', 'web_meshopt_decode', 'web_meshopt_filter'];
 
 export class Lambent {
-  instance; // the module's
-  decoders = null; // of files compressed by Draco or meshoptimizer (decoders.js); null: there are none
+  instance; // the module's instance
+  decoders = null; // decoders of Draco and meshoptimizer (decoders.js); null: not loaded
   wantsDecoders = false; // a file needed them
   #printed = '';
   #decoding = null;
 
-  // `parts`: of a module that is in parts, those that are there; calls that need another one throw PartMissing until complete() has it. `memory`: of a
-  // module with threads (threads.js). `progress`: called now and then while it draws, with the share that is done, 0 to 1.
+  // `parts`: the loaded parts of a divided module. Calls that need another part throw PartMissing until complete() adds it. `memory`: of a module with threads
+  // (threads.js). `progress`: called repeatedly while drawing, with the fraction that is done, 0 to 1.
   constructor(module, files = new Files(), { parts = [], memory = null, progress = null } = {}) {
     this.files = files;
     const host = system(files, [], (stream, text) => (this.#printed += text));
@@ -93,22 +92,27 @@ export class Lambent {
     return picture;
   }
 
+  // The file that `act` writes at a path. It is removed, and is not one of the files that a model misses.
+  #written(path, act) {
+    try {
+      act();
+      return this.files.get(path).slice();
+    } finally {
+      this.files.delete(path);
+      this.files.absent.delete(path);
+    }
+  }
+
   // The bytes of the picture's file, in the format of an ending: png, jpg, ppm, pfm.
   save(words, ending) {
     const path = `/picture-to-save.${ending}`;
-    this.#call('web_save', this.#words([...words, '-o', path]));
-    const bytes = this.files.get(path).slice();
-    this.files.delete(path);
-    return bytes;
+    return this.#written(path, () => this.#call('web_save', this.#words([...words, '-o', path])));
   }
 
   // The scene file that --save-scene writes, as bytes.
   scene(words) {
     const path = '/scene-to-save.json';
-    this.save([...words, '--save-scene', path], 'png');
-    const bytes = this.files.get(path).slice();
-    this.files.delete(path);
-    return bytes;
+    return this.#written(path, () => this.save([...words, '--save-scene', path], 'png'));
   }
 
   // One pixel, as `lambent explain --json` prints it.
@@ -116,8 +120,8 @@ export class Lambent {
     return this.#call('web_explain', this.#words(words), x, y);
   }
 
-  // The curves of a light of the picture: 101 values each of its attenuation up to a distance, its cone, and the highlight by degrees up to 90.
-  // `light`: its place in the explanation's list; `reflection`: the word of a model.
+  // The curves of a light of the picture, 101 values each: attenuation up to a distance, cone, and highlight, by degrees up to 90. `light`: its index in the
+  // explanation's list; `reflection`: the word of a reflection model.
   curves(words, { light, farthest, shininess, reflection }) {
     return this.#call('web_curves', this.#words([...words, reflection]), light, farthest, shininess);
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""sizes.py [FOLDER]: what a page loads first, part by part, as docs/web.md has it (tests/web.py compares). FOLDER: build-web, after make web.
+"""sizes.py [FOLDER]: the sizes of the files that a page loads, part by part, as in docs/web.md (tests/web.py compares). FOLDER: build-web, after make web.
 
 The linker's map says which object each byte of the module comes from. Files that a server sends packed have the sizes of that too."""
 import json

@@ -1,5 +1,5 @@
-// thread.js: a thread of a module (threads.js): a worker with an instance of its own in the memory of all. It has no files, and what the others import does nothing here.
-// Of a module in parts it has the first: what the others contain runs on the called thread alone.
+// thread.js: a worker that runs a thread of a module (threads.js), with its own instance in the shared memory. It has no files, and its other imports do
+// nothing. It loads only the first part of a divided module, since code of other parts runs only on the main thread.
 import { Files, system } from './wasi.js';
 
 const missing = new Proxy({}, {

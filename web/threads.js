@@ -1,16 +1,16 @@
-// threads.js: Lambent with several threads, from build-web/threads/web/lambent.wasm. Their memory is shared, so a page must be cross-origin isolated
-// (docs/web.md). Each is a worker that runs thread.js.
+// threads.js: Lambent with several threads, from build-web/threads/web/lambent.wasm. The memory is shared, so a page must be cross-origin isolated
+// (docs/web.md). Each thread is a worker that runs thread.js.
 //
 //   const lambent = await openThreads(bytesOfLambentWasm, 4, () => new Worker(new URL('thread.js', import.meta.url), { type: 'module' }));
-//   lambent.threads;                   // that draw, the caller's among them; fewer where workers could not be started
-//   const picture = lambent.draw(...); // waits for the others: the main thread of a page must not
+// number of drawing threads, including the caller; fewer if workers could not start
+// blocks until all threads are done, so a page's main thread must not call it
 //   lambent.end();
 import { Lambent } from './lambent.js';
 
-const INITIAL = 256, LARGEST = 65536, SMALLEST = 4096; // pages of 64 KiB; the first two are the linker's (web/meson.build)
+const INITIAL = 256, LARGEST = 65536, SMALLEST = 4096; // pages of 64 KiB; the first two values must match the linker's (web/meson.build)
 const ARRIVAL_MS = 10000;
 
-// Memory for an instance and its threads. Its address space is reserved: less of it where the system refuses more. Throws where it refuses all.
+// Memory for an instance and its threads. Address space is reserved, less if the system refuses more. Throws if it refuses the smallest amount.
 export function sharedMemory() {
   for (let maximum = LARGEST; ; maximum /= 2) {
     try {
@@ -21,7 +21,7 @@ export function sharedMemory() {
   }
 }
 
-// Starts workers for an instance of the module in that memory. Their list, of those that have arrived.
+// Starts workers for an instance of the module in that memory. Returns the workers that have started.
 export async function addThreads(instance, module, memory, count, startWorker) {
   const { web_thread_add, web_thread_ready } = instance.exports;
   const arrival = () =>
@@ -56,7 +56,7 @@ class Threads extends Lambent {
   }
 }
 
-// `count`: threads that are wanted, the caller's among them. `progress` and `parts`: as Lambent's.
+// `count`: wanted threads, including the caller. `progress` and `parts`: see Lambent.
 export async function openThreads(source, count, startWorker, files = undefined, progress = null, parts = []) {
   const module = source instanceof WebAssembly.Module ? source : await WebAssembly.compile(source), memory = sharedMemory();
   return new Threads(module, files, { memory, progress, parts }).start(module, memory, count - 1, startWorker);

@@ -1,12 +1,11 @@
-// wasi.js: the system that a module of Lambent sees: files in memory, a clock, what it prints. WASI preview 1
-// (https://github.com/WebAssembly/WASI/blob/main/legacy/preview1/docs.md), as far as Lambent calls it. Nothing is read from
-// or written to the machine.
+// wasi.js: the system interface for modules of Lambent: files in memory, a clock, printed text. It implements the functions of WASI preview 1
+// (https://github.com/WebAssembly/WASI/blob/main/legacy/preview1/docs.md) that Lambent calls. It does not access the machine's files.
 
 const OK = 0, BADF = 8, EXIST = 20, INVAL = 28, ISDIR = 31, NOENT = 44, NOSYS = 52, NOTDIR = 54, NOTEMPTY = 55;
 const FOLDER = 3, FILE = 4, CHARACTERS = 2; // kinds of files
 const ROOT = 3; // the number of the opened root, after the three streams
 
-// How a module ended: proc_exit.
+// Thrown when a module exits: proc_exit.
 export class Exit extends Error {
   constructor(code) {
     super(`ended with ${code}`);
@@ -14,12 +13,12 @@ export class Exit extends Error {
   }
 }
 
-// Files by their absolute path: "/model/bunny.obj" to bytes. Folders are there as long as something is in them, or by makeFolder.
+// Files by absolute path: "/model/bunny.obj" to bytes. A folder exists while it contains something, or after makeFolder.
 export class Files {
   constructor() {
     this.files = new Map();
     this.folders = new Set(['']);
-    this.absent = new Set(); // paths that were asked for, and are not there
+    this.absent = new Set(); // paths that were opened or looked up, but do not exist
     this.used = new Set(); // paths of files that were opened
   }
 
@@ -56,7 +55,7 @@ export class Files {
   }
 }
 
-// The imports of a module with these words as its command line. `print(stream, text)`: what it writes to stream 1 or 2.
+// The imports of a module with these words as its command line. `print(stream, text)`: called with text printed to stream 1 or 2.
 export function system(files, words, print) {
   const encoder = new TextEncoder(), decoders = [];
   const open = new Map([[ROOT, { path: '', folder: true }]]);
@@ -92,7 +91,7 @@ export function system(files, words, print) {
     if (size > file.size) file.size = size;
   }
 
-  // Calls `part(at, size)` for each piece of memory of a list until one is not filled; returns the sum.
+  // Calls `part(at, size)` for each block of a list until one is not filled. Returns the sum.
   function pieces(list, count, part) {
     let sum = 0;
     for (let i = 0; i < count; i++) {
@@ -153,12 +152,12 @@ export function system(files, words, print) {
       return OK;
     },
     clock_time_get(clock, precision, at) {
-      const ms = clock === 0 ? Date.now() : performance.timeOrigin + performance.now(); // the same in all threads
+      const ms = clock === 0 ? Date.now() : performance.timeOrigin + performance.now(); // the same clock in all threads
       view().setBigUint64(at, BigInt(Math.round(ms * 1e6)), true);
       return OK;
     },
     random_get(at, size) {
-      bytes(at, size).fill(7); // nothing that is drawn depends on chance
+      bytes(at, size).fill(7); // no picture depends on random numbers
       return OK;
     },
     proc_exit(code) {
@@ -181,7 +180,7 @@ export function system(files, words, print) {
       if (!one && fd > 2) return BADF;
       bytes(at, 24).fill(0);
       view().setUint8(at, fd <= 2 ? CHARACTERS : one.folder ? FOLDER : FILE);
-      view().setBigUint64(at + 8, 0x1fffffffn, true); // every right
+      view().setBigUint64(at + 8, 0x1fffffffn, true); // all rights
       view().setBigUint64(at + 16, 0x1fffffffn, true);
       return OK;
     },

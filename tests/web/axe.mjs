@@ -53,7 +53,7 @@ for (const dark of [false, true]) {
     await look(page, `a refused option, ${size}`);
     if (gallery) {
       await page.goto(gallery);
-      await until(page, () => document.querySelectorAll('li a').length > 2);
+      await until(page, () => document.querySelectorAll('li a').length > 2 && [...document.images].every((image) => image.complete && image.naturalWidth));
       await look(page, `the gallery, ${size}`);
     }
     await context.close();

@@ -321,7 +321,7 @@ async function arrows() {
   ok((await commandOf(page)) === `${before},intensity=1.2`, 'gesture: the slider of a light', await commandOf(page));
   ok(/Pinned/.test(await page.locator('#pinned').textContent()) && !(await page.locator('#panel-lights').isHidden()), 'pinned: its numbers change with a slider');
   const marked = await page.locator('#panel-lights .curve').first().getAttribute('aria-label'), said = /attenuation = .*? = ([\d.]+)D/.exec(await explainedText(page));
-  ok(/: at [\d.]+ it is 1$/.test(marked) && said?.[1] === '1', 'curves: the pinned point is marked', `${marked}; ${said}`);
+  ok(/: 1 at [\d.]+$/.test(marked) && said?.[1] === '1', 'curves: the pinned point is marked', `${marked}; ${said}`);
   const pixel = /Pixel (\d+), (\d+)/.exec(await explainedText(page)).slice(1).map(Number);
   await page.locator('#canvas').press('ArrowRight');
   await settled(page, 'turned');
@@ -460,7 +460,7 @@ async function memory() {
   truncateSync(large, 200e6);
   await drop(page, large);
   await until(page, () => !document.getElementById('message').hidden);
-  ok((await sentence()) === 'large.stl: the files have 200 MB together, more than the 134 MB that this page takes on this machine; the program lambent draws them', 'memory: files', await sentence());
+  ok((await sentence()) === 'large.stl: the files have 200 MB together, but the limit of this page on this machine is 134 MB. The program lambent can draw them.', 'memory: files', await sentence());
   await page.evaluate((hash) => (location.hash = hash), fragment(['sphere', '--size=12000x12000']));
   await until(page, () => document.getElementById('message').textContent.includes('memory limit'));
   ok((await sentence()) === 'the picture of 12000x12000 pixels needs 576.0 MB, more than the memory limit of 268.4 MB (--memory-limit)', 'memory: a picture', await sentence());

@@ -83,6 +83,11 @@ async function tasks({ open, models, said }, address, label) {
   const [hash] = /[0-9a-f]{64}/.exec(await page.locator('#status').textContent());
   console.log(`file ${JSON.stringify({ command: textured(command), hash })}`);
   hand.done(`${label}: save a 2000-pixel picture on white`);
+  await page.locator('#canvas').press('ArrowRight');
+  await settled(page, 'turned after it');
+  ok(await page.locator('#missing').isHidden(), `${label}: after saving, no file is missing`, await page.locator('#missing').textContent());
+  await page.locator('#undo').click();
+  await settled(page, 'turned back');
 
   const now = await pixels(page);
   await hand.click('button', 'Save and send…');
@@ -107,6 +112,25 @@ const CONTROLS = [
 ];
 const SMALL = ['sphere', '--size=96x96', BEHIND, '--light=point:position=1r/1r/2r'];
 
+// The slider that cuts the model: its planes stay while the model turns, and one step of undo takes them away.
+async function cutOpen(page) {
+  const slider = page.locator('#panel-quick').getByRole('slider', { name: 'Cut open' }), before = await commandOf(page), whole = await pixels(page);
+  await slider.focus();
+  await slider.fill('0.5');
+  await settled(page, 'cut');
+  const [, near] = /,near=([\d.]+),far=[\d.]+/.exec(await commandOf(page)) ?? [];
+  ok(near && / --cull=none$/.test(await commandOf(page)) && (await pixels(page)) !== whole, 'control: the model is cut open', await commandOf(page));
+  await page.locator('#canvas').press('ArrowRight');
+  await settled(page, 'cut and turned');
+  const turned = await commandOf(page);
+  await page.locator('#undo').click();
+  await page.locator('#undo').click();
+  await settled(page, 'whole again');
+  ok(turned.includes(`,near=${near},`) && (await commandOf(page)) === before, 'control: the cut stays while the model turns, and is one step of undo', `${turned}\n${await commandOf(page)}`);
+  await page.locator('#redo').click();
+  await settled(page, 'cut again');
+}
+
 async function controls({ open, origin, said }) {
   const page = await open(origin + fragment(SMALL));
   await drawn(page, 'controls');
@@ -122,6 +146,8 @@ async function controls({ open, origin, said }) {
   await page.locator('#panel-quick').getByLabel('Colour', { exact: true }).last().fill('#336699');
   await settled(page, 'a colour');
   ok(/--color=#336699$/.test((await commandOf(page)).replaceAll("'", '')), 'control: a colour by the picker', await commandOf(page));
+  await cutOpen(page);
+  await said(page);
   await page.locator('#option-names').check();
   ok(await page.locator('#panel-quick label code', { hasText: /^color$/ }).isVisible(), "the options' own names are shown to those who want them");
   await page.locator('#panel-quick').getByRole('button', { name: 'Whole model' }).click();

@@ -67,7 +67,7 @@ async function interrupted(address, label) {
   await page.reload();
   await until(page, () => !document.getElementById('message').hidden);
   await pause(300);
-  ok(/not drawn by itself/.test(await messageOf(page)) && (await page.locator('#working').isHidden()), `${label}: a page that is loaded again does not repeat it`, await messageOf(page));
+  ok(/did not start it again/.test(await messageOf(page)) && (await page.locator('#working').isHidden()), `${label}: a page that is loaded again does not repeat it`, await messageOf(page));
   await page.locator('#message button').click();
   await until(page, () => !document.getElementById('working').hidden);
   const changed = Date.now();
@@ -183,7 +183,7 @@ async function links() {
   ok((await commandOf(page)) === `lambent cube.ply --size=96x96 --background=white ${camera}`, 'and has its options once the file is opened', await commandOf(page));
   await said(page);
   await page.locator('#copy-link').click();
-  ok(/contains no files: whoever opens it needs cube\.ply/.test(await page.locator('#status').textContent()), 'a copied link says so too', await page.locator('#status').textContent());
+  ok(/contains no files\. Whoever opens it needs cube\.ply/.test(await page.locator('#status').textContent()), 'a copied link says so too', await page.locator('#status').textContent());
   await page.context().close();
 }
 

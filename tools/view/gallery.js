@@ -17,8 +17,9 @@ async function draw(item) {
   try {
     const answer = await fetch(image.dataset.thumb);
     item.failed = answer.status !== 200;
-    item.classList.toggle('failed', item.failed);
-    image.src = URL.createObjectURL(await answer.blob());
+    const picture = await answer.blob();
+    if (item.failed) image.alt = new DOMParser().parseFromString(await picture.text(), 'image/svg+xml').querySelector('title')?.textContent ?? '';
+    image.src = URL.createObjectURL(picture);
     image.onload = () => URL.revokeObjectURL(image.src);
     item.state = 'drawn';
   } catch {
@@ -64,7 +65,7 @@ function find() {
   const words = search.value.toLowerCase().split(/\s+/);
   for (const item of items) item.hidden = !words.every((word) => item.name.toLowerCase().includes(word));
   const shown = items.filter((item) => !item.hidden).length;
-  count.textContent = shown === items.length ? String(shown) : `${shown} / ${items.length}`;
+  count.textContent = `${shown === items.length ? '' : `${shown} of `}${items.length} ${items.length === 1 ? 'model' : 'models'}`;
   remember();
   drawMore();
 }

@@ -77,7 +77,7 @@ static void put_models(FILE *out, const struct view *view, const struct batch_pl
 // Splits a sentence into lines that fit the width of a thumbnail.
 static void put_lines(FILE *out, const char *sentence)
 {
-    enum { LETTERS = 34, LINES = 12, LINE_PX = 18 };
+    enum { LETTERS = 20, LINES = 9, LINE_PX = 26 };
     for (int line = 0; *sentence && line < LINES; line++) {
         size_t length = strlen(sentence), cut = length < LETTERS ? length : LETTERS;
         while (cut < length && cut > LETTERS / 2 && sentence[cut] != ' ')
@@ -105,9 +105,12 @@ char *view_gallery_failed(const struct view *view, const char *sentence, size_t 
     if (!out)
         return NULL;
     fputs("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 256 256\" width=\"256\" height=\"256\">"
-          "<rect x=\"4\" y=\"4\" width=\"248\" height=\"248\" rx=\"8\" fill=\"none\" stroke=\"#b3261e\" "
+          "<title>",
+          out);
+    html_text(out, sentence);
+    fputs("</title><rect x=\"4\" y=\"4\" width=\"248\" height=\"248\" rx=\"8\" fill=\"#fdecea\" stroke=\"#b3261e\" "
           "stroke-width=\"2\"/>"
-          "<text y=\"10\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#b3261e\">",
+          "<text y=\"8\" font-family=\"sans-serif\" font-size=\"19\" fill=\"#8c1d18\">",
           out);
     put_lines(out, sentence);
     fputs("</text></svg>\n", out);
@@ -118,7 +121,7 @@ char *view_gallery_failed(const struct view *view, const char *sentence, size_t 
 }
 
 static const char gallery_bar[] =
-    "</h1>\n<output id=\"count\" aria-label=\"Models\"></output>\n"
+    "</h1>\n<output id=\"count\"></output>\n"
     "<input id=\"search\" type=\"search\" placeholder=\"Search names (/)\" aria-label=\"Search names\">\n"
     "<label>Sort by <select id=\"order\"><option value=\"name\">name</option><option value=\"size\">size</option>"
     "<option value=\"date\">date, newest first</option><option value=\"failed\">errors "

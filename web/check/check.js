@@ -1,7 +1,7 @@
 // check.js: `lambent check` as a module: verdicts of shaders, drawn by a painter (painter.js).
 import { Files, system } from './wasi.js';
 
-// Reports shaders that cannot be checked, with the program's own sentence.
+// Thrown if shaders cannot be checked, with the program's message.
 export class CheckError extends Error {}
 
 export class Check {
@@ -32,8 +32,8 @@ export class Check {
     new Uint8Array(this.#instance.exports.memory.buffer, at, bytes.length).set(bytes);
   }
 
-  // The report of `lambent check --json`. Without a vertex shader one is generated, without a contract it is recognised. `pictures`: the search
-  // for mistakes ends after so many, 0: the default. `highlight`: 'phong', or '' for that of the contract.
+  // Returns the report of `lambent check --json`. Without a vertex shader, one is generated; without a contract, it is recognised. `pictures`: the limit of the
+  // search for mistakes, 0: the default. `highlight`: 'phong', or '' for the contract's highlight.
   check({ fragment, vertex = '', contract = '', highlight = '', size = 0, pictures = 0 }) {
     this.#texts([fragment, vertex, contract, highlight]);
     return this.#call('web_check', size, pictures);
@@ -51,7 +51,7 @@ export class Check {
     return this.#call('web_check_lists');
   }
 
-  // A program with a known mistake: {texts: {vertex, fragment}, correct, highlight}; the last is check()'s.
+  // A program with a known mistake: {texts: {vertex, fragment}, correct, highlight}. Pass `highlight` to check().
   exercise(mistake) {
     this.#texts([mistake]);
     return this.#call('web_exercise');

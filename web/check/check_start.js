@@ -1,9 +1,9 @@
-// check_start.js: the worker of checks and the text editor, fetched when the tab of shaders is opened.
+// check_start.js: starts the worker of checks and the text editor. Fetched when the tab of shaders is opened.
 import { caller } from './caller.js';
 import { insideScript, insideStream, insideText } from './inside.js';
 import { fetchModule } from './start.js';
 
-let wasm = null; // a promise, for all workers; an attempt that fails is forgotten
+let wasm = null; // a promise, shared by all workers; reset if loading fails
 
 export function openCheck() {
   wasm ??= (ONE_FILE ? insideStream('check-wasm').arrayBuffer() : fetchModule('check.wasm')).catch((error) => {

@@ -1,5 +1,4 @@
-// check_worker.js: checks shaders in a thread of its own, drawn on a canvas that nobody sees. Messages: {id, call, ...}; answers: {id, result} or
-// {id, error}.
+// check_worker.js: checks shaders in a separate thread, on an invisible canvas. Messages: {id, call, ...}. Answers: {id, result} or {id, error}.
 import { Check } from './check.js';
 import { Painter } from './painter.js';
 
@@ -11,7 +10,7 @@ const calls = {
     return check.lists();
   },
   exercise: ({ mistake }) => check.exercise(mistake),
-  // The report, and of each scene its pictures: RGBA of size² pixels.
+  // The report, with the pictures of each scene: RGBA of size² pixels.
   check({ size, ...asked }) {
     const report = check.check({ ...asked, size });
     for (const [i, scene] of (report.scenes ?? []).entries())

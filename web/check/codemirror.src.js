@@ -1,5 +1,5 @@
-// codemirror.src.js: what the page takes of CodeMirror 6 (npm, MIT), bundled by esbuild into codemirror.js (web/build.py). Its styles go to the shadow
-// root of the place, where the content-security policy of the page lets them be.
+// codemirror.src.js: the parts of CodeMirror 6 (npm, MIT) that the page uses. esbuild bundles them into codemirror.js (web/build.py). Styles go to the shadow
+// root of the editor's element, where the page's content security policy allows them.
 import { indentWithTab } from '@codemirror/commands';
 import { HighlightStyle, StreamLanguage, syntaxHighlighting } from '@codemirror/language';
 import { shader } from '@codemirror/legacy-modes/mode/clike';
@@ -26,7 +26,7 @@ const theme = EditorView.theme({
   '.cm-tooltip, .cm-panels': { color: 'var(--front)', backgroundColor: 'var(--back)' },
 });
 
-// An editor in `place`: its text, what it shows of a compiler's messages, [{line, text}], and a line to go to.
+// An editor in `place`: its text, the messages of a compiler, [{line, text}], and a line to scroll to.
 export function makeEditor(place, { label, onchange }) {
   const root = place.attachShadow({ mode: 'open' });
   let silent = false;

@@ -1,7 +1,7 @@
-// painter.js: draws for the module of checks with WebGL 2: what painter.c imports. Pictures are floats where the browser draws to
-// them (EXT_color_buffer_float), else bytes.
+// painter.js: draws with WebGL 2 for the module of checks, through the functions that painter.c imports. Pictures are floats if the browser can draw to them
+// (EXT_color_buffer_float), or else bytes.
 
-// lam_check_type of GLSL's types.
+// Maps GLSL types to lam_check_type.
 const TYPES = new Map([['FLOAT', 1], ['INT', 2], ['BOOL', 3], ['FLOAT_VEC2', 4], ['FLOAT_VEC3', 5], ['FLOAT_VEC4', 6], ['FLOAT_MAT3', 7], ['FLOAT_MAT4', 8],
   ['SAMPLER_2D', 9]]);
 // Columns and rows of a lam_check_type.
@@ -18,7 +18,7 @@ export class Painter {
   #memory = null;
   #canvas;
 
-  // `canvas()` makes a canvas, an OffscreenCanvas in a worker.
+  // `canvas()` creates a canvas; in a worker, an OffscreenCanvas.
   constructor(canvas) {
     this.#canvas = canvas;
   }
@@ -38,7 +38,7 @@ export class Painter {
     return new TextDecoder().decode(bytes.slice(0, end));
   }
 
-  // Writes a text that ends with a 0, cut off between two letters where it is too long.
+  // Writes a text with a terminating 0. If it is too long, it is cut off between two characters.
   #write(at, capacity, text) {
     const bytes = new Uint8Array(this.#memory.buffer, at, capacity);
     const { written } = new TextEncoder().encodeInto(text ?? '', bytes.subarray(0, capacity - 1));
@@ -49,7 +49,7 @@ export class Painter {
     return new Float32Array(this.#memory.buffer, at, count);
   }
 
-  // --- places
+  // --- render targets
 
   #start() {
     if (this.#gl && !this.#gl.isContextLost()) return '';
@@ -173,7 +173,7 @@ export class Painter {
 
   // --- values
 
-  // Where element `index` of a uniform is.
+  // The location of element `index` of a uniform.
   #location(own, input, index) {
     const name = input.size > 1 || input.name.endsWith('[0]') ? input.name.replace(/\[0\]$/, '') + `[${index}]` : input.name;
     return (input.places[index] ??= this.#gl.getUniformLocation(own.program, name));
@@ -194,7 +194,7 @@ export class Painter {
     }
   }
 
-  // Values of an attribute for the next picture of a program.
+  // Sets the values of an attribute for the next picture of a program.
   stream(number, index, components, vertices, at) {
     this.#programs.get(number).streams.push({ index, components, data: this.#floatsAt(at, vertices * components).slice() });
   }

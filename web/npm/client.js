@@ -1,4 +1,4 @@
-// client.js: a Lambent in a worker, one call after the other. A call that is aborted ends its worker; the next call starts another one.
+// client.js: a Lambent in a worker, one call at a time. Aborting a call ends its worker, and the next call starts a new one.
 import { Files, typeError } from './files.js';
 import { LambentError } from './lambent.js';
 import { checkCall, wordsOf } from './words.js';
@@ -6,11 +6,11 @@ import { checkCall, wordsOf } from './words.js';
 async function startWorker() {
   const url = new URL('./worker.js', import.meta.url);
   if (typeof Worker === 'function') return new Worker(url, { type: 'module' });
-  const name = 'node:worker_threads'; // not a literal: bundlers for browsers look for it otherwise
+  const name = 'node:worker_threads'; // not a literal, because bundlers for browsers would look for it
   return new (await import(/* @vite-ignore */ /* webpackIgnore: true */ name)).Worker(url);
 }
 
-// An error of the worker, made anew here.
+// Recreates an error of the worker.
 function errorOf({ kind, message, code }) {
   return kind === 'LambentError' ? new LambentError(message, code) : Object.assign(new (kind === 'TypeError' ? TypeError : Error)(message), { code });
 }
@@ -20,7 +20,7 @@ export class LambentWorker {
   #module;
   #make;
   #worker = null;
-  #changes = new Map(); // path → bytes, null: deleted; that the worker has not seen
+  #changes = new Map(); // path → bytes, null: deleted; changes that the worker has not received
   #last = Promise.resolve();
   #disposed = false;
   #stop = null; // ends the running call
@@ -78,11 +78,11 @@ export class LambentWorker {
     } finally {
       this.#stop = null;
       signal?.removeEventListener('abort', abort);
-      worker.unref?.(); // node ends although the worker waits
+      worker.unref?.(); // lets node exit although the worker waits
     }
   }
 
-  // One call after the other.
+  // Runs one call at a time.
   #queue(method, args, call = {}) {
     const answer = this.#last.then(() => this.#ask(method, args, call));
     this.#last = answer.catch(() => {});
@@ -107,7 +107,7 @@ export class LambentWorker {
     return this.#queue('describe', []);
   }
 
-  // Ends the worker, also while it draws. Calls that wait are rejected.
+  // Ends the worker, even while it draws. Waiting calls are rejected.
   dispose() {
     this.#disposed = true;
     this.#stop?.(new LambentError('this Lambent is disposed', 'DISPOSED'));

@@ -1,4 +1,4 @@
-// files.js: the files that a Lambent sees, in memory. Wrong types are refused where they are given, not where they are read.
+// files.js: the files of a Lambent, in memory. Wrong types are rejected when they are set, not when they are read.
 import { Files as Plain } from './wasi.js';
 
 export function typeError(where, name, found, expected) {
@@ -12,7 +12,7 @@ function checkPath(where, path) {
 
 export class Files extends Plain {
   changed = false; // since the last picture
-  // Notes what changes, for a worker; null: nobody asks.
+  // Called with each change, for a worker; null: not used.
   onChange = null;
 
   // The bytes are not copied. A text is stored as UTF-8.

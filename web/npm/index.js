@@ -1,10 +1,10 @@
-// index.js: Lambent as an npm package (docs/npm.md): pictures of 3D models, in node and in browsers, from files in memory.
+// index.js: Lambent as an npm package (docs/npm.md): pictures of 3D models in node and browsers, from files in memory.
 //
 //   const lambent = await open();
 //   lambent.files.set('/bunny.stl', bytes);
 //   const png = lambent.draw('/bunny.stl', { size: 512, view: 'front' }, { as: 'png' });
 //
-// A Lambent draws while it is called; openWorker() has the same calls as promises, in a worker.
+// A Lambent blocks while it draws. openWorker() offers the same calls as promises, in a worker.
 import { Files, typeError } from './files.js';
 import { Lambent as Module, LambentError } from './lambent.js';
 import { LambentWorker } from './client.js';
@@ -13,7 +13,7 @@ import { checkCall, plainSentence, wordsOf } from './words.js';
 const isBytes = (value) => value instanceof ArrayBuffer || ArrayBuffer.isView(value);
 
 async function readFile(url) {
-  const name = 'node:fs/promises'; // not a literal: bundlers for browsers look for it otherwise
+  const name = 'node:fs/promises'; // not a literal, because bundlers for browsers would look for it
   return (await import(/* @vite-ignore */ /* webpackIgnore: true */ name)).readFile(url);
 }
 
@@ -24,7 +24,7 @@ async function compileResponse(response) {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-// The module from a URL, a Response, bytes, a compiled module, or nothing: the package's own file.
+// The module from a URL, a Response, bytes or a compiled module; by default the package's own file.
 async function compile(source, signal) {
   source = await source;
   if (source === undefined) source = new URL('./lambent.wasm', import.meta.url);
@@ -38,7 +38,7 @@ async function compile(source, signal) {
 
 export class Lambent {
   #compiled;
-  #module = null; // made when it is used: an aborted drawing or a trap leaves it unusable
+  #module = null; // created on first use; an aborted drawing or a trap makes it unusable
   #disposed = false;
   #progress = null; // of the running call
 
@@ -71,7 +71,7 @@ export class Lambent {
     }
   }
 
-  // The picture: pixels, or with { as: 'png' } and the like the bytes of its file.
+  // The picture: pixels, or the bytes of a file with { as: 'png' } and similar.
   draw(model, options = undefined, call = undefined) {
     const words = wordsOf('draw', model, options);
     const about = checkCall('draw', Array.isArray(model) ? (call ?? options) : call);
@@ -96,7 +96,7 @@ export class Lambent {
     return this.#run({}, (module) => module.lights(words));
   }
 
-  // The options that `draw` takes, as the program's help describes them, the names of shapes and the version.
+  // The options of `draw`, as the program's help describes them, the names of shapes and the version.
   describe() {
     return this.#run({}, (module) => module.options());
   }
@@ -114,7 +114,7 @@ export async function open(source = undefined, { signal } = {}) {
   return new Lambent(await compile(source, signal));
 }
 
-// `worker`: makes the worker, for bundlers that do not find worker.js by its URL.
+// `worker`: creates the worker, for bundlers that do not find worker.js by its URL.
 export async function openWorker(source = undefined, { signal, worker } = {}) {
   signal?.throwIfAborted();
   if (worker !== undefined && typeof worker !== 'function') throw typeError('openWorker', 'worker', worker, 'a function');

@@ -1,4 +1,4 @@
-// words.js: typed options as the words of a command line, and sentences without the names of Debian's packages.
+// words.js: converts typed options to the words of a command line, and removes names of Debian packages from messages.
 import { typeError } from './files.js';
 
 const FORMATS = ['pixels', 'png', 'jpg', 'ppm', 'pfm'];
@@ -20,7 +20,7 @@ function wordsOfOption(where, key, value) {
   return [`${nameOf(key)}=${value}`];
 }
 
-// The words of a model with options by name, or those that are given as an array.
+// The words of a model with options by name, or with an array of words.
 export function wordsOf(where, model, options = {}) {
   if (Array.isArray(model)) return checkWords(where, model);
   if (typeof model !== 'string' || model === '' || model.startsWith('-'))
@@ -39,7 +39,7 @@ export function checkCall(where, call = {}) {
   return { signal, onProgress, as };
 }
 
-// The program's sentences name the Debian packages that would help where the program is installed.
+// The program's messages name Debian packages, which help only if the program is installed.
 export function plainSentence(text) {
   return text.replace(/ \([^()]*\b(?:Debian|lib[\w+-]+-dev)\b[^()]*\)/g, '').replace(/;[^;]*\bDebian packages?\b[^;]*$/, '').replace(/\bis not installed\b/g, 'is not in this module');
 }

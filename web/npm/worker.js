@@ -1,4 +1,4 @@
-// worker.js: what runs in the worker of a LambentWorker (client.js), in browsers and in node.
+// worker.js: the worker of a LambentWorker (client.js), in browsers and in node.
 import { Lambent } from './index.js';
 
 let lambent = null;

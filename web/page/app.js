@@ -1,13 +1,13 @@
-// app.js: what the parts of the page share: the state, the calls of the worker, the last picture, events and messages.
+// app.js: shared by all modules of the page: the state, calls of the worker, the last picture, events and messages.
 //
-// A part of the page is a module that takes what it needs from here and adds its listeners when it is imported; page.js imports them all.
-//   on('words', f)    the command line has changed, or a gesture has come to an end
-//   on('picture', f)  a picture is shown (view.picture); quick ones while something moves too
+// Each module of the page imports what it needs from here and registers its listeners when it is imported. page.js imports all of them.
+//   on('words', f)    the command line has changed, or a gesture has ended
+//   on('picture', f)  a picture is shown (view.picture), including quick pictures during a gesture
 //   on('still', f)    the picture of the command line is shown, with all of its samples
 //   on('ready', f)    the module has started: view.options, view.shapes
-//   on('missing', f)  files of the model are missing, or are not any more: view.missing
-//   on('fit', f)      the picture stands elsewhere in the page, or has another size there
-//   on('explained', f)  another point is explained, or the same one with other numbers: view.explained
+//   on('missing', f)  the list of missing files of the model has changed: view.missing
+//   on('fit', f)      the picture has another position or size in the page
+//   on('explained', f)  view.explained has changed: another point, or other numbers of the same point
 import { $ } from './dom.js';
 import { insideWords } from './inside.js';
 import { giveFilesOf, openedPaths } from './opened.js';
@@ -15,7 +15,7 @@ import { openWorker } from './start.js';
 import { START, State, fromFragment } from './state.js';
 import { localize } from './strings.js';
 
-localize(document); // the stage has its size once the page has its texts
+localize(document); // the stage has its final size only after the page has its texts
 
 // The size that fills the stage, at most 1.6 million pixels.
 export function stageSize() {
@@ -27,11 +27,11 @@ export function stageSize() {
 export const state = new State(fromFragment(location.hash) ?? insideWords() ?? [START[0], `--size=${stageSize()}`, ...START.slice(1)]);
 export const worker = openWorker();
 export const { fetchRest } = worker;
-// The viewer's page (served.js) gets the files of its models first.
+// In the page of `lambent view`, served.js first fetches the files of the model.
 const viewer = $('served') && import('./served.js').then(({ servedCall }) => servedCall(worker.call));
 const ask = viewer ? async (name, message) => (await viewer)(name, message) : worker.call;
 
-// A call of the worker, which has the opened files of the command line's model before it.
+// Calls the worker, after giving it the opened files of the command line's model.
 export function call(name, message) {
   if (message.words) giveFilesOf(message.words[0], (files) => ask('files', { files }).catch(() => {}));
   return ask(name, message);
@@ -39,18 +39,18 @@ export function call(name, message) {
 
 export const view = {
   picture: null, // of the last drawing, without its pixels
-  size: null, // width and height of the command line's picture, which a quick one is smaller than
-  explained: null, // the pixel that is explained, as the program answers
-  camera: null, // the one in use, ahead of the picture while something moves
+  size: null, // width and height of the command line's picture; quick pictures are smaller
+  explained: null, // the program's explanation of a pixel
+  camera: null, // the current camera, newer than the picture during a gesture
   sphere: null,
-  moving: false, // a gesture goes on
+  moving: false, // a gesture is in progress
   shapes: [],
   options: [],
-  endings: [], // of models
+  endings: [], // file name endings of models
   materials: [], // their names
   environments: [],
-  missing: [], // paths of the model's files that are not there
-  refusal: null, // why there is no picture, if files are missing; null: there is one
+  missing: [], // paths of the model's missing files
+  refusal: null, // the reason why nothing can be drawn if files are missing; null: there is a picture
 };
 
 const listeners = new Map();
@@ -63,25 +63,25 @@ export function emit(name) {
   for (const listener of listeners.get(name) ?? []) listener();
 }
 
-// The page's files lie in the root of a tree; a person knows them by names without its '/', as the command line below the picture has them.
+// The page keeps files in the root of a tree. Messages show their names without the leading '/', as the command line does.
 export function plainNames(sentence) {
   const paths = [state.model, ...openedPaths(), ...view.missing].filter((path) => path.startsWith('/'));
   return sentence.replace(/(^|[\s'"(])\//g, (found, before, at) => (paths.some((path) => sentence.startsWith(path, at + before.length)) ? before : found));
 }
 
-// A sentence of the program, or of the page, that stays until the next picture, with buttons for what can be done.
+// Shows a message of the program or of the page, with buttons for possible actions, until the next picture.
 export function refuse(sentence, ...buttons) {
   $('message-text').textContent = plainNames(sentence);
   $('message-buttons').replaceChildren(...buttons);
   $('message').hidden = false;
 }
 
-// For those who hear the page: said once, shown nowhere.
+// Announces a sentence to screen readers. Nothing is visible.
 export function say(sentence) {
   $('spoken').textContent = sentence;
 }
 
-// --- a gesture: one step of undo, quick pictures while it lasts
+// --- a gesture: one step of undo, with quick pictures until it ends
 
 let gesture = 0, still = 0;
 

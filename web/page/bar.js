@@ -1,4 +1,4 @@
-// bar.js: undo and redo, the command line with its copies, saving, and the address.
+// bar.js: undo and redo, the command line and its copy buttons, saving, and the address.
 import { call, on, refuse, state, view } from './app.js';
 import { $, ours } from './dom.js';
 import { setOf } from './opened.js';
@@ -6,15 +6,15 @@ import { command, commandWords, fromFragment, toFragment } from './state.js';
 import { text } from './strings.js';
 
 on('words', () => {
-  // A line ends between words where it can: each is an element.
+  // Each word is an element, so that lines break between words if possible.
   $('command').replaceChildren(...commandWords(state.words).flatMap((word) => [ours('span', word), ' ']).slice(0, -1));
   $('undo').disabled = !state.canUndo;
   $('redo').disabled = !state.canRedo;
   if (!view.moving) remember(toFragment(state.words));
 });
 
-// The address is the picture's. The browser's Back leads to the picture as it was opened, and Forward to what has been done with it: the first change, and each
-// other model, is an entry of the history.
+// The address contains the picture's command line. The browser's Back returns to the picture as it was opened, and Forward to the changed picture: the first
+// change, and each other model, adds an entry to the history.
 let isFirst = true;
 function remember(hash) {
   const before = fromFragment(location.hash), isSame = before?.join('\n') === state.words.join('\n');
@@ -49,7 +49,7 @@ $('copy-link').onclick = (event) => {
   if (setOf(state.model)) $('status').textContent = text('linkCopied', { file: state.model.slice(1) });
 };
 
-// Offers bytes as a file of the model's name.
+// Offers bytes as a file named after the model.
 export function download(bytes, ending, type) {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob([bytes], { type }));
@@ -59,7 +59,7 @@ export function download(bytes, ending, type) {
   return link.download;
 }
 
-// Saves the picture of the given words, which need not be the page's.
+// Saves the picture of the given words, which may differ from those of the page.
 export async function saveNamed(words) {
   try {
     const bytes = await call('save', { words, ending: 'png' });

@@ -1,11 +1,11 @@
-// caller.js: calls of a worker, which can be ended and started anew: what made it what it was is said to it again.
+// caller.js: calls of a worker that can be ended and restarted. A new worker receives the state of the old one again.
 import { text } from './strings.js';
 
-// A call was ended since nobody wants its answer any more.
+// Thrown if a call was ended because its answer is no longer needed.
 export class Ended extends Error {}
 
-// `open`: starts the worker. `wasm`: its module. `ways`: by the name of a part of the module, ways to it, of which the first that succeeds is taken: the part's
-// bytes, or the module with threads. Empty if the module is whole. `helps`: it is not the worker that draws the picture.
+// `open`: starts the worker. `wasm`: its module. `ways`: for each part of the module, by name, a list of functions that fetch it: the part's bytes, or the
+// module with threads. The first that succeeds is used. Empty if the module is whole. `helps`: this worker does not draw the main picture.
 export function caller(open, wasm, ways = {}) {
   const waiting = new Map(), fetched = new Map(), parted = Boolean(ways.more);
   let next = 0, worker = null, setup = [], ready = Promise.resolve(), cancel = null, onprogress = () => {};
@@ -27,7 +27,7 @@ export function caller(open, wasm, ways = {}) {
       worker.postMessage(message);
     });
 
-  // Keeps the last message of each kind for a worker that is started again.
+  // Keeps the last message of each kind, for a restarted worker.
   function remember(message) {
     const key = message.call + (message.part ?? '');
     setup = [...setup.filter((one) => one.key !== key), { key, message }];
@@ -54,7 +54,7 @@ export function caller(open, wasm, ways = {}) {
     cancel = shared ? new Int32Array(shared, flag, 1) : cancel;
   }
 
-  // Once; and again after an attempt that has failed.
+  // Runs once, and again after a failed attempt.
   function fetchPart(part) {
     if (!fetched.has(part)) {
       fetched.set(part, complete(part).catch((error) => {
@@ -71,11 +71,11 @@ export function caller(open, wasm, ways = {}) {
     if (data.missing) fetchPart(data.missing).then(() => send(message)).then(resolve, reject);
     else if (data.error === undefined) resolve(data.result);
     else if (data.cancelled && message.endable) reject(new Ended());
-    else if (data.cancelled) send(message).then(resolve, reject); // the flag was meant for another call
+    else if (data.cancelled) send(message).then(resolve, reject); // the flag was set for another call
     else reject(Object.assign(new Error(data.error), { missing: data.missing_files ?? [] }));
   }
 
-  // Ends what the worker does and starts another one; calls that wait behind it are asked again.
+  // Ends the worker's current call by starting a new worker. Waiting calls are sent again.
   function restart() {
     const calls = [...waiting.values()], running = calls.find(({ message }) => message.endable);
     const others = calls.filter((one) => one !== running);
@@ -95,19 +95,19 @@ export function caller(open, wasm, ways = {}) {
     async call(name, message) {
       const whole = { ...message, call: name, parted };
       if (name === 'start') whole.wasm = await wasm;
-      await ready; // of a worker that was started anew
+      await ready; // of a restarted worker
       if (name === 'start' || name === 'files') remember(whole);
       return send(whole);
     },
-    // Fetches the second part before it is needed.
+    // Fetches the second part of the module before it is needed.
     fetchRest: () => (ways.rest?.length ? fetchPart('rest') : Promise.resolve()),
-    // Asks the running call to end, if the worker shares its memory; false: only restart() ends it. A call that is `endable` is then rejected (Ended), and
-    // any other is asked again.
+    // Asks the running call to end, if the worker shares its memory; false: only restart() ends it. A call that is `endable` is then rejected (Ended).
+    // Any other call is sent again.
     cancel() {
       if (cancel) Atomics.store(cancel, 0, 1);
       return Boolean(cancel);
     },
-    // Whether cancel() ends the running call.
+    // Whether cancel() can end the running call.
     endsByFlag: () => Boolean(cancel),
     restart,
     end: () => worker.terminate(),

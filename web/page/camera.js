@@ -1,5 +1,5 @@
-// camera.js: orbit, pan and zoom of a camera that is held as the text of --camera. Every step starts from the numbers that the text
-// says, and ends with a text: what is drawn, copied and linked is the same decimal numbers.
+// camera.js: orbit, pan and zoom of a camera in the form of the text of --camera. Every step reads the numbers of the text and writes a new text, so the
+// picture, the copied command and the link contain the same decimal numbers.
 
 export const sub = (a, b) => a.map((x, i) => x - b[i]);
 export const add = (a, b, k = 1) => a.map((x, i) => x + k * b[i]);
@@ -9,7 +9,10 @@ export const scale = (a, k) => a.map((x) => x * k);
 export const length = (a) => Math.sqrt(dot(a, a));
 export const unit = (a) => scale(a, 1 / (length(a) || 1));
 
-// Five digits below the size of the view, without zeros at the end.
+// Whether the camera sets its near and far planes. If not, the program fits them.
+const isCut = ({ near }) => typeof near === 'number';
+
+// Decimal text without trailing zeros.
 export function decimal(x, digits) {
   const text = x.toFixed(digits);
   return text.includes('.') ? text.replace(/\.?0+$/, '').replace(/^-0$/, '0') : text;
@@ -20,28 +23,29 @@ export function cameraText(camera) {
   const digits = Math.min(12, Math.max(0, 5 - Math.floor(Math.log10(distance))));
   const triple = (v, d = digits) => v.map((x) => decimal(x, d)).join('/');
   return `eye=${triple(camera.eye)},target=${triple(camera.target)},up=${triple(camera.up, 5)},` +
-    (camera.ortho > 0 ? `ortho=${decimal(camera.ortho, digits)}` : `fovy=${decimal(camera.fovy_deg, 4)}`);
+    (camera.ortho > 0 ? `ortho=${decimal(camera.ortho, digits)}` : `fovy=${decimal(camera.fovy_deg, 4)}`) +
+    (isCut(camera) ? `,near=${decimal(camera.near, digits)},far=${decimal(camera.far, digits)}` : '');
 }
 
-// A vector turned about a unit axis (Rodrigues' formula).
+// Rotates a vector about a unit axis (Rodrigues' formula).
 function turned(v, axis, angle) {
   const c = Math.cos(angle), s = Math.sin(angle);
   return add(add(scale(v, c), cross(axis, v), s), axis, dot(axis, v) * (1 - c));
 }
 
-// The whole camera around a point: radians to the right, and up to a little below the pole, the axis that stays upright.
+// Rotates the camera around a point: radians to the right, and upwards to just below the pole of the upright axis.
 export function orbit(camera, right, up, pole, centre) {
   const axis = unit(pole), out = unit(sub(camera.eye, camera.target));
   const elevation = Math.asin(Math.max(-1, Math.min(1, dot(out, axis))));
   const level = sub(out, scale(axis, dot(out, axis)));
-  // Straight above or below, what is up in the picture says where the side is.
+  // From straight above or below, the picture's up vector determines the side.
   const forward = length(level) > 1e-6 ? unit(level) : unit(scale(camera.up, elevation > 0 ? -1 : 1));
   const side = unit(cross(axis, forward)), climb = Math.max(-1.55, Math.min(1.55, elevation + up)) - elevation;
   const around = (point) => add(centre, turned(turned(sub(point, centre), side, -climb), axis, right));
   return { ...camera, eye: around(camera.eye), target: around(camera.target), up: axis };
 }
 
-// The same direction, from so far that a ball is in the picture however the camera turns around it: one fit for all angles.
+// Moves the eye back in the same direction until a ball fits the picture from all angles.
 export function around(camera, sphere, aspect) {
   const out = unit(sub(camera.eye, camera.target)), half = (camera.fovy_deg * Math.PI) / 360;
   const tight = Math.min(half, Math.atan(Math.tan(half) * aspect));
@@ -50,7 +54,7 @@ export function around(camera, sphere, aspect) {
   return { ...camera, eye: add(sphere.centre, out, distance), target: sphere.centre, ortho };
 }
 
-// Moves the view to the right and up, by parts of the picture's height.
+// Moves the view to the right and up, in fractions of the picture's height.
 export function pan(camera, right, up) {
   const out = sub(camera.eye, camera.target), back = unit(out);
   const side = unit(cross(camera.up, back)), above = cross(back, side);
@@ -61,34 +65,55 @@ export function pan(camera, right, up) {
 
 export function zoom(camera, factor) {
   if (camera.ortho > 0) return { ...camera, ortho: camera.ortho / factor };
-  return { ...camera, eye: add(camera.target, sub(camera.eye, camera.target), 1 / factor) };
+  const out = sub(camera.eye, camera.target), nearer = length(out) * (1 - 1 / factor);
+  const planes = isCut(camera) ? { near: Math.max(camera.near - nearer, 1e-3 * length(out)), far: camera.far - nearer } : {};
+  return { ...camera, ...planes, eye: add(camera.target, out, 1 / factor) };
 }
 
-// The numbers that a text of cameraText says.
+// Makes the near plane cut the model: 0 is in front of the model's sphere, and 1 behind it. At 0 the program fits both planes.
+export function cut(camera, sphere, share) {
+  if (!(share > 0)) return { ...camera, near: null, far: null };
+  const middle = dot(sub(camera.eye, sphere.centre), unit(sub(camera.eye, camera.target))), near = middle + (2 * share - 1) * sphere.radius;
+  return { ...camera, near: camera.ortho > 0 ? near : Math.max(near, 1e-3 * sphere.radius), far: middle + 20 * sphere.radius };
+}
+
+export function cutShare(camera, sphere) {
+  if (!isCut(camera)) return 0;
+  const middle = dot(sub(camera.eye, sphere.centre), unit(sub(camera.eye, camera.target)));
+  return Math.max(0, Math.min(1, ((camera.near - middle) / sphere.radius + 1) / 2));
+}
+
+// The planes that a value of --camera sets. Null: the program fits them.
+export function planesOf(text) {
+  const [near, far] = [/,near=([^,]+)/, /,far=([^,]+)/].map((pattern) => pattern.exec(text)?.[1]);
+  return near && far ? { near: Number(near), far: Number(far) } : { near: null, far: null };
+}
+
+// Reads a text of cameraText.
 export function readCamera(text) {
   const parts = Object.fromEntries(text.split(',').map((part) => part.split('=')));
   const triple = (v) => v.split('/').map(Number);
   return { eye: triple(parts.eye), target: triple(parts.target), up: triple(parts.up),
-    ortho: parts.ortho ? Number(parts.ortho) : 0, fovy_deg: parts.fovy ? Number(parts.fovy) : 30 };
+    ortho: parts.ortho ? Number(parts.ortho) : 0, fovy_deg: parts.fovy ? Number(parts.fovy) : 30, ...planesOf(text) };
 }
 
-// The eye's axes in the world: to the right, up, and back towards the eye.
+// The eye's axes in world space: right, up, and back towards the eye.
 export function cameraAxes(camera) {
   const back = unit(sub(camera.eye, camera.target)), side = unit(cross(camera.up, back));
   return { side, above: cross(back, side), back };
 }
 
-// Half the height of the picture at a depth before the eye, in model units.
+// Half the picture's height at a depth in front of the eye, in model units.
 const halfHeight = (camera, depth) => (camera.ortho > 0 ? camera.ortho : depth * Math.tan((camera.fovy_deg * Math.PI) / 360));
 
-// Where the picture shows a point: parts of its width and height from the upper left corner. `behind`: the eye looks away from it.
+// Projects a point to fractions of the picture's width and height, from the upper left corner. `behind`: the point is behind the eye.
 export function project(camera, point, aspect) {
   const { side, above, back } = cameraAxes(camera), way = sub(point, camera.eye), depth = -dot(way, back);
   const behind = camera.ortho <= 0 && depth < 1e-3 * length(way), half = halfHeight(camera, behind ? 0.02 * length(way) || 1 : depth);
   return { x: 0.5 + dot(way, side) / (2 * half * aspect), y: 0.5 - dot(way, above) / (2 * half), depth, behind };
 }
 
-// The point moved in the plane of the picture, by parts of the picture's height, and away from the eye by a factor of its distance.
+// Moves a point in the picture plane, in fractions of the picture's height, and away from the eye by a fraction of its distance.
 export function shifted(camera, point, right, up, away = 0) {
   const { side, above, back } = cameraAxes(camera), depth = Math.max(-dot(sub(point, camera.eye), back), 0.02 * length(sub(camera.eye, camera.target)));
   const height = 2 * halfHeight(camera, depth);

@@ -1,4 +1,4 @@
-// contents_tab.js: the tab of the model: its measures; its objects and materials, to look at, to hide and to colour; its animations and variants.
+// contents_tab.js: the tab of the model: measures, objects and materials to inspect, hide and colour, animations and variants.
 import { call, on, state, view } from './app.js';
 import { $, element, ours } from './dom.js';
 import { Picker, hexOf } from './picker.js';
@@ -12,7 +12,7 @@ const UNITS = [[1, 'm'], [0.01, 'cm'], [0.001, 'mm'], [1e-6, 'µm'], [0.0254, 'i
 const place = $('panel-contents');
 let read = null, isReading = false;
 
-// The words by which the model is read, which its contents depend on.
+// The words that determine how the model is read.
 const readWords = () => [state.model, ...state.words.slice(1).filter((word) => READS.includes(word.slice(2).split('=')[0]))].join('\n');
 
 const digits = (x) => Number(x.toPrecision(4)).toLocaleString('en');
@@ -29,7 +29,7 @@ function measures({ size, unit_m, triangles, vertices, object_count, material_co
 
 const hidden = (name) => state.values('hide').includes(name);
 
-// A row with a box that shows or hides what has the name.
+// A row with a box that shows or hides all objects, parts or materials with this name.
 function row(name, shown, about, ...more) {
   const box = element('input', { type: 'checkbox', checked: !name || !hidden(name), disabled: !name, attributes: { 'aria-label': text('contentsShown', { name: shown }) } });
   box.onchange = () => setOption('hide', box.checked ? state.values('hide').filter((one) => one !== name) : [...state.values('hide'), name]);
@@ -39,7 +39,7 @@ function row(name, shown, about, ...more) {
 
 function objects({ objects, object_count, materials }) {
   const nameOf = (index) => materials[index]?.name ?? '';
-  // Objects of one name are hidden together.
+  // Objects with the same name are hidden together.
   const groups = objects.reduce((map, one) => map.set(one.name, [...(map.get(one.name) ?? []), one]), new Map());
   const rows = [...groups].map(([name, list]) => {
     const parts = list.length === 1 && list[0].parts.filter((part) => part.name && part.name !== name).length > 1 ? list[0].parts : [], triangles = list.reduce((sum, one) => sum + one.triangles, 0);
@@ -51,7 +51,7 @@ function objects({ objects, object_count, materials }) {
   return element('ul', { className: 'contents' }, ...rows);
 }
 
-// The colour that the person has given a material; else the model's.
+// The colour that the user has given a material, or else the model's colour.
 function colorOf(material) {
   const own = state.values('material').findLast((one) => one.startsWith('color=') && one.endsWith(`@${material.name}`));
   return own ? own.slice('color='.length, -material.name.length - 1) : hexOf(material.color);
@@ -99,7 +99,7 @@ async function refresh() {
   if (read === key) return showBoxes();
   isReading = true;
   try {
-    show(await call('contents', { words: state.words })); // the words by which the model is loaded already
+    show(await call('contents', { words: state.words })); // the model of these words is already loaded
   } catch (error) {
     place.replaceChildren(ours('p', error.message));
   }
@@ -114,4 +114,4 @@ function showBoxes() {
 place.append(element('p', { className: 'hint', textContent: text('contentsWait') }));
 on('still', refresh);
 on('words', showBoxes);
-new ResizeObserver(refresh).observe(place); // the tab is seen again
+new ResizeObserver(refresh).observe(place); // runs when the tab becomes visible again

@@ -1,5 +1,5 @@
-// curves.js: a light's attenuation, cone and highlight as small plots, with the explained point marked. The values are the program's own
-// (web_curves): nothing is computed here but where they stand.
+// curves.js: plots a light's attenuation, cone and highlight, and marks the explained point. The values come from the program (web_curves). This file computes
+// only their positions.
 import { call } from './app.js';
 import { element, svg } from './dom.js';
 import { number } from './equations.js';
@@ -28,7 +28,7 @@ export function plot(title, values, farthest, unit, at) {
   return element('figure', {}, element('figcaption', { textContent: title }), drawing);
 }
 
-// The plots of a light. `light`: its place among the lights of the words' picture; `explained`: it in an explanation, or null.
+// The plots of a light. `light`: its index among the lights of the picture; `explained`: the same light in an explanation, or null.
 export async function curvesOf({ words, light, explained, triangle, type = explained?.type, onlyHighlight = false }) {
   const place = element('div', { className: 'curves' });
   const farthest = Number((2 * (explained?.distance ?? 5)).toPrecision(1)) || 1, reflection = triangle?.model ?? 'blinn-phong';
@@ -38,7 +38,7 @@ export async function curvesOf({ words, light, explained, triangle, type = expla
     const angle = explained && (Math.acos(Math.max(-1, Math.min(1, explained.cos_axis))) * 180) / Math.PI;
     place.append(plot(text('curveSpot'), curves.spot, 90, '°', explained && [angle, explained.spot]));
   }
-  // The plot has the light straight above the surface, where φ is twice ψ.
+  // In this plot the light is directly above the surface, so φ is twice ψ.
   if (explained && triangle?.formulas.base && !triangle.formulas.microfacet && curves.highlight.some((value) => value > 0)) {
     const angle = reflection === 'phong' ? explained.phi_deg : 2 * explained.psi_deg;
     place.append(plot(text('curveHighlight'), curves.highlight, 90, '°', [Math.min(90, angle), explained.S]));

@@ -1,9 +1,9 @@
-// dom.js: elements of the page.
+// dom.js: creates elements of the page.
 import { text } from './strings.js';
 
 export const $ = (id) => document.getElementById(id);
 
-// An element with properties; `attributes` has what is none (aria-…, translate).
+// An element with properties. `attributes` are HTML attributes that are not properties (aria-…, translate).
 export function element(name, { attributes = {}, ...properties } = {}, ...children) {
   const made = Object.assign(document.createElement(name), properties);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -11,7 +11,7 @@ export function element(name, { attributes = {}, ...properties } = {}, ...childr
   return made;
 }
 
-// Words of the program: the page's language has none of its own for them.
+// An element with words of the program, which the page does not translate.
 export const ours = (name, content, properties = {}) => element(name, { textContent: content, translate: false, ...properties });
 
 const SVG = 'http://www.w3.org/2000/svg';

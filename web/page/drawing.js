@@ -1,8 +1,9 @@
-// drawing.js: draws the command line in the worker: of waiting drawings the newest alone, with one sample and fewer pixels while something moves (pace.js); and
-// places the picture in the page, as large as there is room. When the hand rests, the whole picture is drawn. A drawing that is out of date is ended, and Stop
-// ends any.
+// drawing.js: draws the command line in the worker and fits the picture to the stage. During a gesture, pictures have one sample and fewer pixels (pace.js).
+// When the pointer rests, the full picture is drawn. Only the newest of the waiting drawings is drawn. Outdated drawings are ended, and the Stop button ends
+// any drawing.
 import { call, emit, on, plainNames, refuse, say, state, view, worker } from './app.js';
 import { Ended } from './caller.js';
+import { planesOf } from './camera.js';
 import { $, button } from './dom.js';
 import { Pace } from './pace.js';
 import { text } from './strings.js';
@@ -10,12 +11,12 @@ import { finished, isTooLong, started, stopped } from './unfinished.js';
 
 const canvas = $('canvas'), context = canvas.getContext('2d'), pace = new Pace();
 const PATIENCE_MS = 1000, SHOWN_MS = 400, FLAG_MS = 50;
-const REST_MS = 50; // without a step of a gesture: the hand rests
-const SHORT_MS = 200; // a whole picture that takes no longer is drawn when the hand rests, even if no flag could end it
-let running = null, wanted = null, model = null, whole_ms = 0; // of the last whole picture, without reading the model
-let resting = 0, sharp = null; // the task of a whole picture that was wanted since the hand rests
+const REST_MS = 50; // without a step of a gesture, until the full picture is drawn
+const SHORT_MS = 200; // a full picture that takes less is drawn when the pointer rests, even if no flag can end it
+let running = null, wanted = null, model = null, whole_ms = 0; // of the last full picture, without reading the model
+let resting = 0, sharp = null; // the task of the full picture that was started when the pointer rested
 
-// A quick picture's words: one sample, and fewer pixels.
+// The words of a quick picture: one sample and fewer pixels.
 export function quickWords(words) {
   const [, width, height = width] = /^(\d+)(?:x(\d+))?$/.exec(state.values('size').at(-1) ?? '1024') ?? [], few = words.filter((word) => !word.startsWith('--samples'));
   const scale = pace.scale(width * height);
@@ -23,7 +24,7 @@ export function quickWords(words) {
   return [...sized, '--samples=1'];
 }
 
-// A drawing that the worker has. `done`: the share of it; the first half of it reads the model.
+// A drawing in progress in the worker. `done`: the fraction that is done. The first half of it is reading the model.
 class Running {
   constructor(task) {
     Object.assign(this, { task, done: 0, isEnding: false, isStopped: false, timers: [] });
@@ -34,8 +35,8 @@ class Running {
     this.timers.push(setTimeout(act, ms));
   }
 
-  // Ends it, since nobody waits for it: by the flag, else with its worker, after a second in which it may come to its end, or as long as it takes to read the
-  // model, which the next worker has to do. `now`: a person has pressed Stop.
+  // Ends an outdated drawing: by the flag, or else by restarting the worker. The worker gets a second to finish, or twice the time for reading the model, which
+  // the next worker must repeat. `now`: the user has pressed Stop.
   end({ now = false } = {}) {
     if (view.giveUpPicture?.() || (this.isEnding && !now)) return;
     this.isEnding = true;
@@ -46,11 +47,11 @@ class Running {
 
   #raise() {
     const flagged = worker.cancel();
-    if (flagged) this.#after(FLAG_MS, () => this.#raise()); // a call that had not begun has cleared the flag
+    if (flagged) this.#after(FLAG_MS, () => this.#raise()); // a call that had not started yet has cleared the flag
     return flagged;
   }
 
-  // A model that is wanted still, and is being read, is read to its end, unless a person has pressed Stop.
+  // Lets the worker finish reading a model that is still wanted, unless the user has pressed Stop.
   #endWorker(ms) {
     this.#after(ms, () => {
       const [name] = this.task.words;
@@ -79,13 +80,13 @@ function draw(quick = false) {
   else if (!running.task.quick || running.task.words[0] !== state.model) running.end();
 }
 
-// Draws whole what has been drawn quickly: the gesture rests, and may go on.
+// Draws the full picture while the gesture rests. The gesture may continue.
 function sharpen() {
   draw();
   sharp = wanted ?? running.task;
 }
 
-// The picture of the command line: a quick one while something moves, and a whole one when it rests, unless that is there by now or being drawn.
+// Draws a quick picture during a gesture. Otherwise draws the full picture, unless it is already shown or in progress.
 function drawNow() {
   clearTimeout(resting);
   const isSharp = !view.moving && sharp?.words === state.words, { picture } = sharp ?? {};
@@ -95,9 +96,9 @@ function drawNow() {
   if (view.moving && (worker.endsByFlag() || whole_ms < SHORT_MS)) resting = setTimeout(sharpen, REST_MS);
 }
 
-// Nothing moves any more, and this picture is shown. `events`: what the page's parts have not heard of it.
+// Called when nothing moves any more and this picture is shown. `events`: the events that listeners have not received yet.
 function rest({ camera, sphere }, ...events) {
-  Object.assign(view, { camera, sphere });
+  Object.assign(view, { camera: { ...camera, ...planesOf(state.values('camera').at(-1)) }, sphere });
   events.forEach(emit);
 }
 
@@ -135,7 +136,7 @@ function measure(task, ms) {
   else whole_ms = ms;
 }
 
-// Another model is read: what was said of the one before it is stale.
+// Before another model is read, removes what refers to the previous model.
 function forgetModel(name) {
   $('status').textContent = text('loadingModel', { name: name.replace(/^\//, '') });
   $('warnings').textContent = '';
@@ -145,7 +146,7 @@ function forgetModel(name) {
   emit('missing');
 }
 
-// If files are missing, the sentence is said with what to do about them (files.js).
+// If files are missing, files.js shows the message together with possible actions.
 function refused(error) {
   view.missing = error.missing ?? [];
   if (!view.missing.length) return refuse(error.message);
@@ -153,7 +154,7 @@ function refused(error) {
   emit('missing');
 }
 
-// Stop, and Escape while something is drawn that takes long.
+// The Stop button, and Escape during a long drawing.
 function stop() {
   if (!running) return;
   wanted = null;
@@ -172,7 +173,7 @@ function show({ pixels, ...picture }, task) {
   view.refusal = null;
   if (!task.quick || !view.size) view.size = { width: picture.width, height: picture.height };
   if (task === sharp) task.picture = picture;
-  if (!view.moving) ({ camera: view.camera, sphere: view.sphere } = picture);
+  if (!view.moving) rest(picture);
   document.body.dataset.drawn = task.quick ? '' : JSON.stringify(task.words);
   $('message').hidden = true;
   showStatus(picture);
@@ -188,7 +189,7 @@ function showStatus({ width, height, triangles, frame_ms, warnings }) {
   $('warnings').textContent = warnings.map(plainNames).join(' · ');
 }
 
-// As large as there is room for, in the middle; its pixels are seen as squares from three times their size.
+// Makes the picture as large as possible, centred. Pixels appear as squares at three times their size and more.
 export function fit() {
   const { width, height } = view.size ?? canvas, room = $('view'), k = Math.min(room.clientWidth / width, room.clientHeight / height);
   const box = { left: (room.clientWidth - k * width) / 2, top: (room.clientHeight - k * height) / 2, width: k * width, height: k * height };
@@ -198,7 +199,7 @@ export function fit() {
 }
 new ResizeObserver(fit).observe($('view'));
 
-// The first picture is not drawn if it was too long before the page was loaded again.
+// The first picture is not drawn if the same picture took too long before the page was reloaded.
 let isFirst = true;
 on('words', () => {
   if (isFirst && isTooLong(state.words)) refuse(text('tooLong'), button('drawAgain', () => draw()));
@@ -206,7 +207,7 @@ on('words', () => {
   isFirst = false;
 });
 
-// For those who hear the page: from where the model is seen, once a turn has come to an end.
+// For screen readers: announces the direction of the view after a gesture.
 let heard = null, last = '';
 on('still', () => {
   clearTimeout(heard);

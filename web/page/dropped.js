@@ -1,5 +1,5 @@
-// dropped.js: the files of what is dropped, with those in all folders below it. Chromium gives the page from a disk no file of an entry
-// (webkitGetAsEntry), so the item's own file and the handle of a folder come first; other browsers have entries alone.
+// dropped.js: reads dropped files, including those in dropped folders. If the page was opened from a disk, Chromium cannot read the file of an entry
+// (webkitGetAsEntry), so the item's own file and the folder's handle are tried first. Other browsers have entries only.
 
 async function ofHandle(handle, prefix) {
   if (handle.kind === 'file') return [[prefix + handle.name, await handle.getFile()]];
@@ -24,7 +24,7 @@ async function ofItem(file, entry, handle) {
   return folder ? ofHandle(folder, '') : ofEntry(entry, '');
 }
 
-// [path, File], of a drop's DataTransfer; it must be called in the event itself.
+// Returns [path, File] pairs of a DataTransfer. Call it within the drop event.
 export async function droppedFiles(transfer) {
   const items = [...transfer.items].filter((item) => item.kind === 'file');
   return (await Promise.all(items.map((item) => ofItem(item.getAsFile(), item.webkitGetAsEntry(), item.getAsFileSystemHandle?.())))).flat();

@@ -1,7 +1,7 @@
-// equations.js: the equations of an explained point, with its values filled in. The formulas of D and of the highlight's base are the program's own
-// words; tests/web/page.mjs computes each right side and compares it with the program's number.
+// equations.js: the equations of an explained point with their values. The formulas of D and of the highlight's base come from the program;
+// tests/web/page.mjs computes each right-hand side and compares it with the program's number.
 
-// Four digits, no power of ten where it can be read without.
+// Four digits, with an exponent only for very large or small numbers.
 export function number(x) {
   if (x === null || x === undefined) return '';
   const rounded = Number(x.toPrecision(4)), size = Math.abs(rounded);
@@ -12,14 +12,14 @@ export const triple = (v) => (v[0] === v[1] && v[1] === v[2] ? number(v[0]) : `(
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-// A formula of the table with numbers in place of its dot products; null: it has others in it.
+// Replaces the dot products of a formula by numbers. Null: the formula contains other names.
 function filled(formula, point, light) {
   const values = { 'n·l': light.n_dot_l, 'n·h': dot(point.n, light.h), 'r·v': dot(light.r, point.v) };
   const text = formula.replace(/[nr]·[lhv]/g, (name) => number(values[name]));
   return /^max\([-\d.e+]+, 0\)$/.test(text) ? text : null;
 }
 
-// The cone of a spot light: its formula, and the numbers in it.
+// The cone of a spot light: its formula, and the same with numbers.
 function coneEquation({ cone, cos_axis: c, spot }) {
   const cosine = (degrees) => Math.cos((degrees * Math.PI) / 180);
   if (cone.outer_deg) {
@@ -30,7 +30,7 @@ function coneEquation({ cone, cos_axis: c, spot }) {
   return ['max(c, 0)^ε', `max(${number(c)}, 0)^${number(cone.exponent)}`];
 }
 
-// A light's rows: { name, formula, values, result }. `values` is null where the program gives the number alone.
+// A light's rows: { name, formula, values, result }. `values` is null if the program reports only the result.
 export function lightEquations(triangle, point, light) {
   const { formulas } = triangle, rows = [];
   const add = (name, formula, values, result) => rows.push({ name, formula, values, result });
@@ -45,7 +45,7 @@ export function lightEquations(triangle, point, light) {
   add('D', formulas.D, filled(formulas.D, point, light), light.D);
   const gate = formulas.gated ? '[n·l > 0] ' : '', open = !formulas.gated || light.n_dot_l > 0;
   const { layers } = light, all = point.layers;
-  if (layers) { // what each layer of the surface returns of light 1
+  if (layers) { // the fraction of light that each layer of the surface reflects
     add('S', 'of the base', null, layers.S);
     add('base', 'F S', null, layers.base);
     if (all.sheen_left < 1) add('left', '1 − max(sheen_color) E', null, layers.sheen_left), add('sheen', '', null, layers.sheen);
@@ -103,5 +103,5 @@ export function sumEquation(point) {
   return { name: 'sum', formula: names.join(' + ') || '0', values: names.map((name) => triple(point.terms[name])).join(' + ') || '0', result: point.sum };
 }
 
-// Where the eye's space stands in the world: what an explanation has in eye space, as a point of the model's world.
+// Converts a point of an explanation from eye space to world space.
 export const worldOf = ({ side, above, back }, eye, v) => eye.map((x, i) => x + side[i] * v[0] + above[i] * v[1] + back[i] * v[2]);

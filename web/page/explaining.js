@@ -1,5 +1,5 @@
-// explaining.js: which point is explained: the one under the pointer while this tab is open, or one that a click has pinned. A pinned point stays on
-// the surface: when the camera moves, it is looked for where the picture shows it now.
+// explaining.js: selects the explained point: the point under the pointer while this tab is open, or a point pinned by a click. A pinned point stays on the
+// surface when the camera moves.
 import { call, emit, on, refuse, say, state, view } from './app.js';
 import { clearArrows, showArrows } from './arrows.js';
 import { cameraAxes, length, project, sub } from './camera.js';
@@ -19,12 +19,12 @@ place.append(hint, pinned, $('explain'));
 pinned.append(pinnedText, ' ', unpinButton, ' ', speakButton);
 speakButton.hidden = !('speechSynthesis' in globalThis);
 
-let pin = null; // { across, down, world }: parts of the picture, and the point of the surface; null: the pointer says
+let pin = null; // { across, down, world }: fractions of the picture, and the point on the surface; null: the point under the pointer
 let shown = null, busy = false, wanted = null;
 
 const explanation = new Explanation($('explain'), (chosen) => showArrows(shown, chosen));
 
-// Of requests that wait, the newest alone.
+// Only the newest of the waiting requests is sent.
 async function ask(at) {
   wanted = at;
   if (busy) return;
@@ -58,7 +58,7 @@ function show(pixel, aloud) {
   if (aloud) say(sentenceOf(pixel));
 }
 
-// The explained point in the world; null: the background.
+// The explained point in world space; null: the background.
 function worldIn(pixel) {
   const place = pixel.triangles[0]?.places?.[3];
   if (!place || !view.picture) return null;
@@ -68,7 +68,7 @@ function worldIn(pixel) {
 
 export function pinAt(across, down) {
   pin = { across, down, world: null };
-  if ($('panel-lights').hidden) selectTab('explain'); // its sliders move the numbers of a pinned point
+  if ($('panel-lights').hidden) selectTab('explain'); // the sliders of the lights tab change the numbers of a pinned point
   ask({ across, down, aloud: true });
 }
 
@@ -86,7 +86,7 @@ function speak() {
   if (shown) speechSynthesis.speak(Object.assign(new SpeechSynthesisUtterance(sentenceOf(shown)), { lang: document.documentElement.lang }));
 }
 
-// A new picture: the pinned point is where the camera shows it now.
+// After a new picture, the pinned point is explained at its new position.
 on('picture', () => {
   if (!pin) return clearArrows();
   if (pin.world) {
@@ -114,7 +114,7 @@ canvas.addEventListener('pointerleave', () => {
 addEventListener('keydown', (event) => {
   if (event.key === 'Escape' && pin) unpin();
 });
-// Alt and arrows move the pinned point; with Shift by one pixel.
+// Alt and arrow keys move the pinned point; with Shift, by one pixel.
 canvas.addEventListener('keydown', (event) => {
   const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
   if (!arrow || !event.altKey) return;

@@ -1,4 +1,4 @@
-// explanation.js: one pixel's calculation: the sum, then each light with its equations and their values. Of lights one is open: its arrows are shown.
+// explanation.js: shows one pixel's calculation: the sum, then the equations of each light. One light is open, and its arrows are shown.
 import { state } from './app.js';
 import { curvesOf } from './curves.js';
 import { element, ours } from './dom.js';
@@ -10,7 +10,7 @@ const greatest = (values) => values.reduce((best, value, i) => (value > values[b
 const degrees = (x) => `${number(x)}°`;
 const sentence = (content) => element('p', { textContent: content });
 
-// name = formula = values = result, on as many lines as it needs.
+// name = formula = values = result, wrapped to as many lines as necessary.
 function equation({ name, formula, values, result }) {
   const parts = [formula, values].filter(Boolean).map((part) => element('span', { textContent: ` = ${part}` }));
   return element('p', { className: 'equation', translate: false }, element('b', { textContent: name }), ...parts,
@@ -28,7 +28,7 @@ export class Explanation {
     this.place = place;
     this.choose = choose;
     this.chosen = { point: 0, light: 0 };
-    this.picked = { point: null, light: null }; // by a person; null: the program picks what counts most
+    this.picked = { point: null, light: null }; // chosen by the user; null: the program chooses the largest contribution
   }
 
   show(pixel) {
@@ -85,7 +85,7 @@ export class Explanation {
     const added = light.diffuse_term.map((x, k) => x + light.specular_term[k]);
     const title = element('summary', {}, ours('span', `${light.name ?? light.type}`), ours('small', ` +${triple(added)}`));
     details.append(title);
-    // Filled when it is open, and chosen by opening it: the arrows are of one light.
+    // The details are filled when they are opened. Opening selects the light for the arrows.
     if (open) details.append(...this.#inside(triangle, point, light, i));
     title.onclick = (event) => {
       event.preventDefault();
@@ -103,7 +103,7 @@ export class Explanation {
     parts.push(element('p', { className: 'equation', translate: false, textContent: `θ(n,l) ${degrees(light.theta_deg)} · φ(r,v) ${degrees(light.phi_deg)} · ψ(n,h) ${degrees(light.psi_deg)}` }));
     if (light.left_out) parts.push(sentence(text('leftOut')));
     parts.push(...lightEquations(triangle, point, light).map(equation));
-    // The last curves stand there until the new ones have come.
+    // The previous curves stay visible until the new ones arrive.
     const holder = element('div', {}, ...(this.curves ? [this.curves] : []));
     curvesOf({ words: state.words, light: i, explained: light, triangle }).then((curves) => {
       this.curves = curves;

@@ -1,5 +1,5 @@
-// files.js: models come in by the menu, as files, as a folder, or dropped; nothing leaves the machine. Files that a model names and that are not there
-// are asked for.
+// files.js: opens models from the menu, from files, from a folder, or by drag and drop. Files never leave the machine. If files that a model names are
+// missing, the page asks for them.
 import { emit, on, refuse, state, view } from './app.js';
 import { $, button, element } from './dom.js';
 import { droppedFiles } from './dropped.js';
@@ -26,10 +26,10 @@ function showModels() {
 on('words', showModels);
 on('ready', showModels);
 
-// Options that name what is in a model.
+// Options that refer to contents of a model.
 const OF_MODEL = /^--(camera|hide|animation|time|variant|scene)=|^--(back-)?material=.*@/;
 
-// Another model gets its own view and its own materials, not the first picture's.
+// Another model starts with its own view and materials, not with those of the first picture.
 function takeModel(name) {
   const own = setOf(name) ? START : [];
   state.set(withModel(state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word))), name));
@@ -53,7 +53,7 @@ async function read(list) {
   return taken;
 }
 
-// Files that the model has missed, put where it looks for them.
+// Missing files of the model among the given files, stored under the paths where the model expects them.
 function companions(taken) {
   const found = new Map();
   for (const path of view.missing) {
@@ -70,19 +70,19 @@ async function takeFiles(list) {
   const models = names.filter(isModel).sort((a, b) => a.split('/').length - b.split('/').length || (a < b ? -1 : 1));
   const found = setOf(state.model) ? companions(taken) : new Map();
   if (!models.length && !found.size) return refuse(text('noModel', { files: names.map(plain).join(', '), endings: view.endings.map((ending) => '.' + ending).join(', ') }));
-  // A folder that has the model itself is opened as a whole.
+  // A folder that contains the model itself is opened as a whole.
   const again = models.find((path) => baseOf(path) === baseOf(state.model));
   if (found.size && !(again && models.length)) addCompanions(state.model, found);
   else addFiles(taken, state.model);
   const [first] = models, wanted = again && (awaited || view.missing.length) ? again : first;
-  if (!wanted || wanted === state.model) emit('words'); // new contents under an old name
-  else if (awaited || wanted === again) state.set([wanted, ...state.words.slice(1)]); // the options of a link, or of the same model
+  if (!wanted || wanted === state.model) emit('words'); // new contents under the same name
+  else if (awaited || wanted === again) state.set([wanted, ...state.words.slice(1)]); // keeps the options of a link, or of the same model
   else takeModel(wanted);
 }
 
 const openFiles = () => $('files').click(), openFolder = () => $('folder').click();
 
-// Explains how to add missing files; after a link to one's own model, the model itself.
+// Explains how to add missing files. After opening a link to a local model, explains how to open the model itself.
 on('missing', () => {
   const buttons = [button('chooseFiles', openFiles), button('openFolder', openFolder)], [model] = state.words;
   const isGone = view.missing.includes(model), sentence = isGone ? text('linkWithout', { file: plain(model) })

@@ -1,24 +1,14 @@
-// gestures.js: orbit, pan and zoom by mouse, touch and keys: each writes the words of --camera.
-import { beginGesture, endGesture, gestureKey, state, view } from './app.js';
-import { around, cameraText, orbit, pan, readCamera, zoom } from './camera.js';
+// gestures.js: orbit, pan and zoom by mouse, touch and keyboard. Each writes the option --camera.
+import { endGesture, state, view } from './app.js';
+import { around, orbit, pan, zoom } from './camera.js';
 import { $ } from './dom.js';
 import { explainAt } from './later.js';
-import { State, VIEW } from './state.js';
+import { move } from './move.js';
 
 const canvas = $('canvas');
 const pointers = new Map();
 
-// Every step starts from the numbers that the text says.
-function move(next) {
-  beginGesture();
-  const text = cameraText(next);
-  let words = state.words;
-  for (const name of VIEW) words = new State(words).withValues(name, []);
-  view.camera = { ...next, ...readCamera(text) };
-  state.set(new State(words).withValues('camera', [text]), gestureKey());
-}
-
-// The first turn of a view that the program has fitted begins with a fit for all angles.
+// The first turn of a fitted view first moves the camera back until the model fits at all angles.
 function turn(right, up) {
   if (!state.values('camera').length) view.camera = around(view.camera, view.sphere, canvas.width / canvas.height);
   move(orbit(view.camera, right, up, view.camera.pole, view.sphere.centre));

@@ -1,5 +1,5 @@
-// handles.js: lights in the picture: a handle for the place of each light of --light, one for where a spot aims, one for its cone. A handle is a
-// button: dragged, or moved by keys.
+// handles.js: handles for the lights in the picture: one for the position of each light of --light, one for the aim of a spot, one for its cone. A handle
+// is a button that can be dragged or moved by keys.
 import { beginGesture, endGesture, gestureKey, on, say, state, view } from './app.js';
 import { add, project, scale, shifted, sub, unit } from './camera.js';
 import { $, element, svg } from './dom.js';
@@ -18,7 +18,7 @@ function rewrite(i, light) {
   say(texts[i]);
 }
 
-// By parts of the picture's height. A directional light stays on its ball, on the side of it that faces the eye or turns away.
+// In fractions of the picture's height. A directional light's handle stays on its sphere, on the side towards the eye or away from it.
 function moveHandle(i, part, right, up, away = 0) {
   const light = parseLight(texts[i]), place = placeOf(light, view.camera, view.sphere);
   if (!place) return;
@@ -72,7 +72,7 @@ function remove(i) {
 
 // --- in the picture
 
-// Inside of the stage: a light that stands beside the picture is shown at the rim, on the way to it from the middle; `turn` is the way's angle.
+// Limits a handle to the stage: a light outside the picture is shown at the border, in the direction from the middle. `turn` is the angle of that direction.
 function inside(point, width, height) {
   const at = project(view.camera, point, canvas.width / canvas.height), edge = 24;
   const x = (at.x - 0.5) * width, y = (at.y - 0.5) * height, right = width / 2 - edge, below = height / 2 - edge;
@@ -119,7 +119,7 @@ function show() {
     handle.style.left = `${at.x}px`;
     handle.style.top = `${at.y}px`;
   }
-  // A line goes to where its end is, past the rim; the overlay cuts it off there.
+  // A line continues to its end beyond the border, and the overlay clips it.
   const ends = ({ out, end, ...at }) => (end && Math.hypot(end.x, end.y) < 1e5 ? end : at);
   lines.replaceChildren(...drawn.map(([a, b]) => svg('line', { x1: ends(a).x, y1: ends(a).y, x2: ends(b).x, y2: ends(b).y })),
     ...[...wanted.values()].filter(({ out }) => out).map(({ x, y, turn }) =>

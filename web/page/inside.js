@@ -1,7 +1,7 @@
-// inside.js: what stands in the page itself: the scripts and modules of the page in one file, packed by gzip; files, and the command line that
-// `lambent MODEL -o page.html` puts there (tools/page/page_write.c). They are texts that no browser runs, in base64.
+// inside.js: data inside the page itself: scripts and modules of the one-file page, compressed by gzip; files and the command line that
+// `lambent MODEL -o page.html` writes (tools/page/page_write.c). They are base64 texts in script elements that browsers do not run.
 
-// The page in one file as it was before any script ran.
+// The text of the one-file page before any script has run.
 export const pristine = ONE_FILE ? document.documentElement.cloneNode(true) : null;
 
 export const insideText = (id) => document.getElementById(id).textContent;
@@ -17,13 +17,13 @@ async function bytesOf(place) {
   return place.dataset.packed === 'gzip' ? new Uint8Array(await unpacked(bytes).arrayBuffer()) : bytes;
 }
 
-// The words of the command line; null: the page has none of its own.
+// The words of the command line; null: the page contains none.
 export function insideWords() {
   const place = document.getElementById('inside-words');
   return place && JSON.parse(place.textContent);
 }
 
-// The files by their paths. Their texts leave the page, since the bytes take their place.
+// The files by path. Their texts are removed from the page to save memory.
 export async function takeInsideFiles() {
   const files = new Map();
   for (const place of document.querySelectorAll('script.inside-file')) {

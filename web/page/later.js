@@ -1,4 +1,4 @@
-// later.js: the parts of the page that are fetched when they are used, and the tabs of those that have one.
+// later.js: the modules of the page that are fetched on first use, and their tabs.
 import { fetchRest, on, refuse, state } from './app.js';
 import { $ } from './dom.js';
 import { keepOffline } from './offline.js';
@@ -13,7 +13,7 @@ addTab('lights', text('tabLights'), () => used(import('./light_tab.js')));
 addTab('explain', text('tabExplain'), () => used(import('./explaining.js')));
 addTab('shaders', text('tabShaders'), () => used(import('./shaders.js')));
 
-// The calculation at a part of the picture's width and height.
+// Explains the point at a fraction of the picture's width and height.
 export async function explainAt(across, down) {
   const explaining = await used(import('./explaining.js'));
   explaining?.pinAt(across, down);
@@ -21,7 +21,7 @@ export async function explainAt(across, down) {
 
 let isFirst = true;
 on('still', () => {
-  const rest = fetchRest().catch(() => {}); // what needs it asks again, and says why it cannot be loaded
+  const rest = fetchRest().catch(() => {}); // a later call asks again and reports the error
   if (isFirst) rest.then(keepOffline);
   isFirst = false;
   if (state.values('light').length) used(import('./handles.js'));

@@ -1,4 +1,4 @@
-// light_controls.js: one light of the picture, moved by buttons and sliders: around the model as it is seen, and above it.
+// light_controls.js: buttons and sliders that move one light around the model and above it, relative to the view.
 import { gestureKey, on, refuse, state, view } from './app.js';
 import { add, cameraAxes, cross, dot, length, scale, sub, unit } from './camera.js';
 import { button, element } from './dom.js';
@@ -9,14 +9,14 @@ import { State, isMetal } from './state.js';
 import { text } from './strings.js';
 import { writtenLights } from './written_lights.js';
 
-// Degrees around the model, from where it is seen, to the right; and above the horizon.
+// Degrees around the model, from the viewer to the right, and degrees above the horizon.
 const PLACES = [['lightFront', 0, 25], ['lightLeft', -75, 25], ['lightRight', 75, 25], ['lightAbove', 0, 85], ['lightBehind', 180, 35]];
 const DEGREES = 180 / Math.PI, MOVABLE = ['point', 'spot', 'directional'];
-let chosen = 0; // its number among the lights of --light
+let chosen = 0; // its index among the lights of --light
 
 const isMovable = (one) => MOVABLE.includes(parseLight(one).type) && Boolean(placeOf(parseLight(one), view.camera, view.sphere));
 
-// The level axes of the view: to the eye, and to the right; and the model's upright one.
+// The horizontal axes of the view, towards the eye and to the right, and the model's up axis.
 function axes() {
   const { side, above, back } = cameraAxes(view.camera), pole = unit(view.picture.camera.pole);
   let front = sub(back, scale(pole, dot(back, pole)));
@@ -42,8 +42,8 @@ function chosenIn(texts) {
   return texts.findIndex(isMovable);
 }
 
-// The words with lights that can be moved: the program's own, written out; else a new one. Of a model that only its surroundings lit, a metal
-// mirrors them still, and other materials get some light from everywhere, since its other side would be black.
+// Returns words with a movable light: the program's own lights, written out, or else a new light. If only an environment lit the model, metals keep
+// reflecting it. Other materials get some ambient light, because their unlit side would be black.
 async function words() {
   const written = await writtenLights(), made = new State(written?.words ?? state.words), texts = made.values('light');
   if (texts.some(isMovable)) return made.words;
@@ -57,7 +57,7 @@ function changed(from, change, key) {
   state.set(made.withValues('light', texts), key);
 }
 
-// Of several changes that wait for the lights to be written out, the newest alone.
+// While the lights are being written out, only the newest of several changes is kept.
 let waiting = null, isBusy = false;
 async function change(how, key = null) {
   if (!view.camera) return;

@@ -1,5 +1,5 @@
-// light_tab.js: the tab of the lights of --light: what they say, as words and as sliders, with their curves; it adds and removes them, and writes down
-// those that the program has chosen.
+// light_tab.js: the tab of the lights of --light: their words, sliders and curves. It adds and removes lights, and writes out the lights that the program
+// has chosen.
 import { gestureKey, on, refuse, say, state, view } from './app.js';
 import { curvesOf } from './curves.js';
 import './explaining.js';
@@ -18,7 +18,7 @@ const adders = ['point', 'spot', 'directional'].map((type) =>
 const mine = button('mineLights', makeMine), highlight = element('div');
 place.append(element('p', { className: 'hint', textContent: text('lightsHint') }), element('div', { className: 'buttons' }, ...adders, mine), list, highlight);
 
-// The sliders of a light: key, index within its value, least, most, step, standard.
+// The sliders of a light: key, index within its value, minimum, maximum, step, default.
 const SLIDERS = {
   color: [],
   point: [['intensity', 0, 0, 4, 0.05, 1], ['attenuation', 0, 0, 2, 0.05, 1], ['attenuation', 1, 0, 1, 0.01, 0], ['attenuation', 2, 0, 1, 0.01, 0]],
@@ -45,14 +45,14 @@ function slidersOf(i, light) {
   });
 }
 
-// The explained light of a command line's light. The command line's lights are the last ones of the scene.
+// The explanation of a light of the command line. These lights are the last ones of the scene.
 function explainedLight(pixel, i, texts) {
   const reaching = texts.map(parseLight).map(({ type }, at) => ({ type, at })).filter(({ type }) => ['point', 'spot', 'directional'].includes(type));
   const own = pixel?.triangles[0]?.points[0].lights.filter((light) => light.light !== null).slice(-reaching.length);
   return own?.[reaching.findIndex(({ at }) => at === i)] ?? null;
 }
 
-// The words of a light alone: the first of its picture.
+// The words with one light only, which is then the first of its picture.
 const wordsOf = (one) => state.withValues('light', [one.replace(/^\+/, '')]);
 
 function showLight(one, i) {
@@ -80,7 +80,7 @@ function showHighlight() {
   const light = lights.reduce((best, one) => (one.S > (best?.S ?? -1) ? one : best), null), [value] = state.values('shininess');
   const alpha = Number(value ?? triangle?.material.shininess ?? /shininess=([\d.]+)/.exec(state.values('material').at(-1))?.[1] ?? 32);
   if (!view.moving) exponent.querySelector('input').value = Math.log10(Math.max(1, alpha));
-  exponent.querySelector('output').textContent = String(alpha);
+  exponent.querySelector('output').textContent = String(Number(alpha.toPrecision(4)));
   if (light) curvesOf({ words: state.words, light: lights.indexOf(light), explained: light, triangle, onlyHighlight: true }).then((made) => plotted.replaceChildren(made), () => {});
   else plotted.replaceChildren(element('p', { className: 'hint', textContent: text('curveHint') }));
 }
@@ -91,7 +91,7 @@ function show() {
   showHighlight();
   if (view.moving || listed === texts.join('\n')) return;
   listed = texts.join('\n');
-  // A slider that has the focus keeps it.
+  // A slider keeps the focus.
   const inputs = [...list.querySelectorAll('input')], at = inputs.indexOf(document.activeElement);
   list.replaceChildren(...texts.map(showLight));
   if (at >= 0) [...list.querySelectorAll('input')][at]?.focus();

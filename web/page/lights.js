@@ -1,8 +1,8 @@
-// lights.js: the lights of --light as text, and what a handle in the picture writes there. Positions go through the frame of the light and its
-// unit (model units, or radii from the middle), and become decimal text, which is what draws.
+// lights.js: the lights of --light as text, and the changes that a handle makes there. Positions are converted to the light's frame and unit (model units,
+// or radii from the middle) and written as decimal text, which determines the picture.
 import { add, cameraAxes, cross, decimal, dot, length, scale, sub, unit } from './camera.js';
 
-// "+spot:position=1/2/3,cutoff=20": its type, whether it stands beside others, and its keys in their order.
+// Parses "+spot:position=1/2/3,cutoff=20": the type, whether it adds to the other lights, and its keys in order.
 export function parseLight(text) {
   const [, plus, type, rest] = /^(\+?)([^:]*):?([^]*)$/.exec(text);
   const keys = new Map(rest.split(',').filter(Boolean).map((pair) => [pair.split('=')[0], pair.slice(pair.indexOf('=') + 1)]));
@@ -14,7 +14,7 @@ export function lightText({ plus, type, keys }) {
   return plus + type + (pairs && `:${pairs}`);
 }
 
-// The axes and origin of a light's frame in the world. Null: an object's, which the page does not know.
+// The axes and origin of a light's frame in world space. Null: the frame of an object, which the page does not know.
 function frameOf(light, camera, sphere) {
   const frame = light.keys.get('frame') ?? 'world';
   const { side, above, back } = cameraAxes(camera);
@@ -27,7 +27,7 @@ function frameOf(light, camera, sphere) {
 const turnedBy = (axes, v) => add(add(scale(axes[0], v[0]), axes[1], v[1]), axes[2], v[2]);
 const intoAxes = (axes, v) => axes.map((axis) => dot(axis, v));
 
-// Three numbers of a key, and whether they count radii.
+// The three numbers of a key, and whether their unit is radii.
 function triple(value) {
   const parts = value.split('/'), w = parts.length === 4 ? Number(parts[3]) : 1;
   return { v: parts.slice(0, 3).map((part) => Number(part.replace(/r$/, '')) / (w || 1)), radii: /\dr/.test(value), w };
@@ -46,8 +46,8 @@ function pointText(point, frame, sphere, radii) {
 
 const directionText = (v, frame) => intoAxes(frame.axes, unit(v)).map((x) => decimal(x, 4)).join('/');
 
-// Where a light is in the world: `position` (of a directional light, a place on a ball around the model), `direction` of its light, and of a spot
-// `aim` and `cone`, half an angle in degrees (null: it has no edge). Null: it has no place, or one that the page does not know.
+// The light in world space: `position` (for a directional light, a point on a sphere around the model), `direction` of its light, and for a spot `aim` and
+// `cone`, half an angle in degrees (null: it has no edge). Null: the light has no position, or the page does not know it.
 export function placeOf(light, camera, sphere) {
   const frame = frameOf(light, camera, sphere), { type, keys } = light;
   if (!frame || !['point', 'spot', 'directional'].includes(type)) return null;
@@ -80,7 +80,7 @@ function withKeys(light, changes) {
   return { ...light, keys };
 }
 
-// The light with its handle at another point of the world. `part`: position, aim or cone.
+// Moves a handle of the light to another point in world space. `part`: position, aim or cone.
 export function movedTo(light, part, point, camera, sphere) {
   const frame = frameOf(light, camera, sphere), place = placeOf(light, camera, sphere), { keys } = light;
   if (part === 'position' && place.directional)
@@ -93,7 +93,7 @@ export function movedTo(light, part, point, camera, sphere) {
   return withCone(light, (Math.atan2(across, along) * 180) / Math.PI);
 }
 
-// The cone's half angle in degrees; of a soft cone the inner angle keeps its share.
+// Sets the cone's half angle in degrees. The inner angle of a soft cone is scaled with it.
 export function withCone(light, degrees) {
   const angle = Math.max(1, Math.min(90, degrees)), outer = light.keys.get('outer');
   if (!outer) return withKeys(light, { cutoff: decimal(angle, 2) });
@@ -101,7 +101,7 @@ export function withCone(light, degrees) {
   return withKeys(light, { inner: decimal(inner, 2), outer: decimal(angle, 2) });
 }
 
-// A point of the cone's edge, beside the aim.
+// A point on the cone's edge, beside the aim.
 export function coneEdge(place, camera) {
   const far = length(sub(place.aim, place.position)), { above, side } = cameraAxes(camera);
   let across = cross(place.direction, cross(side, place.direction));
@@ -110,7 +110,7 @@ export function coneEdge(place, camera) {
   return add(place.position, add(scale(place.direction, Math.cos(angle)), unit(across), Math.sin(angle)), far);
 }
 
-// A new light, beside the others that are there.
+// A new light in addition to the existing ones.
 export function newLight(type, texts, number) {
   const others = texts.every((text) => text.startsWith('+')) ? '+' : '';
   const sign = number % 2 ? 1 : -1;
@@ -120,7 +120,7 @@ export function newLight(type, texts, number) {
 
 export const nameOf = (light, i) => light.keys.get('name') ?? `${light.type} ${i + 1}`;
 
-// A light of a scene file in the words of --light.
+// Converts a light of a scene file to a value of --light.
 export function lightWords({ type, name, ...fields }) {
   const keys = new Map(Object.entries(fields).map(([key, value]) => [key, Array.isArray(value) ? value.join('/') : value === true ? 'yes' : value === false ? 'no' : String(value)]));
   // A name on the command line cannot contain these characters.

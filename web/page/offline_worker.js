@@ -1,14 +1,14 @@
-// offline_worker.js: the service worker of the served page, started after the first picture (offline.js). It keeps the page's own files in a cache named by
-// the hash of their contents: when one of them changes, this script does too, and the new files replace the old ones together, once no page uses
-// those. Each file is one that web/build.py has listed with its hash: what the browser has loaded by now is not sent again.
+// offline_worker.js: the service worker of the served page, started after the first picture (offline.js). It stores the page's files in a cache named by the
+// hash of their contents. When a file changes, this script changes too, and the new files replace the old ones together, after all pages with the old files
+// are closed. web/build.py lists the files with their hashes. Files in the browser's own cache are not downloaded again.
 const CACHE = 'lambent-HASH';
 const FILES = {};
-// Files that are stored when they are used; PLAIN and THREADS are for drawing with one thread or with several.
+// Files that are stored on first use. PLAIN and THREADS are alternatives: drawing with one thread or with several.
 const LATER = [];
 const PLAIN = [];
 const THREADS = [];
 
-// The answer for a file, of what the browser has, else of the server. `known`: its name in FILES.
+// Takes a file from the browser's cache if possible, or else from the server. `known`: its name in FILES.
 const answer = (request, known) => fetch(request, { cache: 'force-cache', integrity: FILES[known] }).catch(() => fetch(request, { cache: 'reload', integrity: FILES[known] }));
 
 const nameOf = (address) => {

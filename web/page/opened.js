@@ -1,18 +1,18 @@
-// opened.js: the files that were opened: a set for each time, so that a model keeps its own companions when others of the same names are opened.
-// The worker has the files of one set at a time.
+// opened.js: the opened files. Each opening is a set of its own, so that a model keeps its companions if other files with the same names are opened. The
+// worker has the files of one set at a time.
 import { FILES_BYTES } from './memory.js';
 
-const sets = []; // { files: Map of bytes by path }; the newest last
+const sets = []; // { files: Map of bytes by path }, the newest last
 let given = null; // the set that the worker has
 
 const sizeOf = (set) => [...set.files.values()].reduce((sum, bytes) => sum + bytes.length, 0);
 
-// The set of a model; null: its file was not opened.
+// The set of a model; null: its file was not opened by the user.
 export const setOf = (model) => sets.findLast((set) => set.files.has(model)) ?? null;
 
 export const openedPaths = () => [...new Set(sets.toReversed().flatMap((set) => [...set.files.keys()]))];
 
-// Adds files; the oldest ones leave if all together are too many, except the files of `model`.
+// Adds files. If the total size is above the limit, the oldest sets are removed, except the set of `model`.
 export function addFiles(files, model) {
   sets.push({ files });
   for (let i = 0; i < sets.length - 1 && sets.reduce((sum, set) => sum + sizeOf(set), 0) > FILES_BYTES; ) {
@@ -28,7 +28,7 @@ export function addCompanions(model, files) {
   given = null;
 }
 
-// Has `send` give the worker the files of a model, if it has others.
+// Gives the worker the files of a model by `send`, unless it already has them.
 export function giveFilesOf(model, send) {
   const set = setOf(model);
   if (!set || set === given) return;

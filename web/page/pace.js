@@ -1,17 +1,17 @@
-// pace.js: how large quick pictures are. While something moves, each has as many pixels as are drawn 30 times a second, by what the last ones have taken, and
-// at least half of the width and height of the picture.
-const FRAME_MS = 28; // with what the browser needs to show it, a thirtieth of a second
-const SCALES = [1, 0.84, 0.71, 0.6, 0.5]; // of width and height: few, so that the size does not change all the time
-const SMALL = 5e5; // pixels of a picture that begins with all of them
-const FRAMES_MIN = 3; // that are measured before the size changes
-const KEPT = 0.5; // of the mean, for each frame
+// pace.js: chooses the size of quick pictures: as many pixels as can be drawn 30 times a second, measured on the last pictures, and at least half of the
+// picture's width and height.
+const FRAME_MS = 28; // a thirtieth of a second, less the time that the browser needs to show the picture
+const SCALES = [1, 0.84, 0.71, 0.6, 0.5]; // of width and height; few, so that the size changes rarely
+const SMALL = 5e5; // pixels; smaller pictures start at full size
+const FRAMES_MIN = 3; // number of measured pictures before the size changes
+const KEPT = 0.5; // fraction of the mean that remains after each picture
 
 export class Pace {
   #step = null;
   #mean = 0;
   #count = 0;
 
-  // Another picture: what was measured says nothing of it.
+  // For another picture, the measurements start again.
   reset() {
     this.#step = null;
   }
@@ -21,7 +21,7 @@ export class Pace {
     return SCALES[this.#step];
   }
 
-  // A picture of this scale has taken `ms`.
+  // Adds a measurement: a picture of this scale took `ms`.
   measured(ms) {
     this.#mean = this.#count++ ? KEPT * this.#mean + (1 - KEPT) * ms : ms;
     if (this.#step === null || this.#count < FRAMES_MIN) return;

@@ -1,4 +1,4 @@
-// packed_page.js: a page in one file with a model in it, as `lambent MODEL -o page.html` writes it: it opens from a disk, without a network.
+// packed_page.js: writes the page in one file with a model in it, as `lambent MODEL -o page.html` does. It opens from a disk, without a network.
 import { fetchModule } from './start.js';
 import { pristine } from './inside.js';
 import { text } from './strings.js';
@@ -16,7 +16,7 @@ async function packed(bytes) {
   return url.slice(url.indexOf(',') + 1);
 }
 
-// The text of the page in one file: this one, as it was, or the one beside the served page.
+// The text of the one-file page: this page, or the file beside the served page.
 async function emptyPage() {
   if (!pristine) return new TextDecoder().decode(await fetchModule('alone.html'));
   const page = pristine.cloneNode(true);

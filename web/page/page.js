@@ -1,5 +1,4 @@
-// page.js: the page's parts and its start. Each part is a module (app.js says what they share); a new one is imported here, and its tab
-// stands where its import stands.
+// page.js: starts the page and imports its modules (app.js describes them). Tabs appear in the order of these imports.
 import { call, emit, refuse, state, view } from './app.js';
 import { takeInsideFiles } from './inside.js';
 import { MODULE_BYTES } from './memory.js';

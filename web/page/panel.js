@@ -1,10 +1,10 @@
-// panel.js: the tab of all options: a control for each one of the program's table, in the groups of its help, found by name, by other names that
-// people try, and by what it says of itself.
+// panel.js: the tab of all options: a control for each option of the program, in the groups of its help. The search finds options by name, by synonyms and
+// by description.
 import { on, state, view } from './app.js';
 import { $, element, ours } from './dom.js';
 import { Row } from './row.js';
 
-// They name files to write, which the page does by buttons, or a terminal.
+// These options name output files, which the page saves by buttons, or concern a terminal.
 const LEFT_OUT = ['output', 'save-scene', 'durable', 'compress', 'quality', 'term'];
 
 class Panel {
@@ -27,7 +27,7 @@ class Panel {
     search.oninput = () => (none.hidden = this.#find(search.value.trim().toLowerCase(), groups));
   }
 
-  // Whether any option has the words.
+  // Returns whether any option matches.
   #find(words, groups) {
     for (const row of this.#rows) row.place.hidden = !row.matches(words);
     for (const details of groups.values()) {
@@ -46,7 +46,7 @@ class Panel {
 
 $('panel-options').append($('search'), $('options'), $('no-option'));
 
-// The table comes with the module, which may still start.
+// The option table is part of the module, which may still be loading.
 let panel = null;
 function fill() {
   panel = new Panel($('options'), $('search'), $('no-option'), view.options);

@@ -1,5 +1,5 @@
-// picture_tab.js: the tab of the picture: views, materials, lights, surroundings and style, by plain names. A row of the table below is an option of the
-// program's table with its plain name; the option's own name is shown beside it, if the person wants to see it.
+// picture_tab.js: the tab of the picture: views, materials, lights, surroundings and style, with plain names. Each row of the table below is an option of the
+// program and its plain name. The option's own name is shown beside it if the user wants it.
 import { on, state, view } from './app.js';
 import { $, element } from './dom.js';
 import { lightControls } from './light_controls.js';
@@ -9,7 +9,8 @@ import { text } from './strings.js';
 import { swatches } from './swatches.js';
 import { viewControls } from './view_controls.js';
 
-// [title of the section, what stands before its rows, rows: [option, plain name, a slider's least, most, step and, unless the option's default is a number, start]].
+// [title of the section, function that makes the content above the rows, rows: [option, plain name, slider]]. A slider is minimum, maximum, step and start
+// (default: the option's default).
 const SECTIONS = [
   ['sectionView', viewControls, [['projection', 'plainProjection']]],
   ['sectionMaterial', materials, [['color', 'plainColor'], ['opacity', 'plainOpacity', [0, 1, 0.01, 1]]]],
@@ -23,7 +24,7 @@ const SECTIONS = [
 const without = (words, ...names) => names.reduce((rest, name) => new State(rest).withValues(name, []), words);
 const SPHERE = ['sphere', '--size=88x88', '--samples=8'];
 
-// The material of the whole model; materials of its objects (@NAME) stay. A metal is physical, replaces the model's textures, and mirrors the studio.
+// The material of the whole model. Materials of single objects (@NAME) are kept. A metal replaces the model's textures and reflects the studio.
 function materials() {
   const whole = () => state.values('material').filter((value) => !value.includes('@'));
   const own = START.find((word) => word.startsWith('--material=')).slice('--material='.length);
@@ -62,14 +63,14 @@ function optionNames() {
   try {
     box.checked = localStorage.getItem(KEY) === '1';
   } catch {
-    // a page may have no storage
+    // the page may be denied storage
   }
   box.onchange = () => {
     show();
     try {
       localStorage.setItem(KEY, box.checked ? '1' : '0');
     } catch {
-      // the choice lasts as long as the page
+      // the choice lasts until the page is closed
     }
   };
   show();

@@ -1,4 +1,4 @@
-// row.js: a control for an option of the program's table: its name, its value, what it is for.
+// row.js: a control for an option of the program's table: its name, value and description.
 import { gestureKey, state } from './app.js';
 import { element, ours } from './dom.js';
 import { Picker } from './picker.js';
@@ -6,7 +6,7 @@ import { showNumber, slider } from './slider.js';
 import { FORMULAS, State, VIEW, withModel } from './state.js';
 import { text } from './strings.js';
 
-// An angle takes the place of a camera, and a camera that of every angle. A formula is a model.
+// Angles and --camera replace each other. A formula is a model.
 export function setOption(name, values, key = null) {
   if (name in FORMULAS && state.model !== name) return values.length ? state.set(withModel(state.words, name, values[0])) : undefined;
   if (name in FORMULAS && !values.length) values = [FORMULAS[name]];
@@ -17,8 +17,8 @@ export function setOption(name, values, key = null) {
 }
 
 export class Row {
-  // `prefix`: of the identifiers of its elements, since an option can have controls in two places. `plain`: its name in the page's language, which the
-  // option's own follows; `range`: least, most, step and start of a slider.
+  // `prefix`: of the ids of its elements, since an option can have two controls in the page. `plain`: its name in the page's language, followed by the option's
+  // own name; `range`: minimum, maximum, step and start of a slider.
   constructor(option, prefix, { plain = null, range = null } = {}) {
     this.option = option;
     this.prefix = prefix;
@@ -39,7 +39,7 @@ export class Row {
     this.show([]);
   }
 
-  // The slider's number at the start is the option's default, if that is a number.
+  // A slider starts at the option's default, if that is a number.
   #addSlider(label) {
     const [least, , , start] = this.range;
     this.standard = start ?? (parseFloat(this.option.default ?? '') || Math.max(0, least));
@@ -66,7 +66,7 @@ export class Row {
     if (focused) this.inputs.firstChild.focus();
   }
 
-  // The words that a choice is made of; null: others can be written. Among the few options these words are what is chosen most.
+  // The words for a select element; null: other values are possible. In the first tab, the words are sufficient.
   #words() {
     const { words, repeats, kind } = this.option, plain = (words ?? []).filter((word) => !/[A-Z]/.test(word.name));
     if (!plain.length || repeats) return null;

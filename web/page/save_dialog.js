@@ -1,4 +1,4 @@
-// save_dialog.js: saves the picture in another size and on another background, and what a colleague gets: a page with the model, a link, a scene file.
+// save_dialog.js: saves the picture with another size and background, and sends the model to others: a page with the model, a link, a scene file.
 import { call, refuse, state, view } from './app.js';
 import { copy, download, linkOf, saveNamed } from './bar.js';
 import { $, button, element, ours } from './dom.js';
@@ -11,7 +11,7 @@ import { text } from './strings.js';
 const WIDTHS = [1000, 2000, 4000], BACKGROUNDS = { white: 'backgroundWhite', transparent: 'backgroundNone' };
 let dialog = null, chosen = { width: null, background: null };
 
-// The words of the picture that is saved: of now, unless something else is chosen. The longer side has the chosen pixels.
+// The words of the saved picture: the current ones, with the chosen size and background. The longer side has the chosen number of pixels.
 function savedWords() {
   let words = state.words;
   if (chosen.width) {
@@ -21,7 +21,7 @@ function savedWords() {
   return chosen.background ? new State(words).withValues('background', [chosen.background]) : words;
 }
 
-// A group of buttons of which one is chosen.
+// A group of radio buttons.
 function choice(title, name, rows, show) {
   const inputs = rows.map(([value, label], i) => {
     const input = element('input', { type: 'radio', name: `save-${name}`, checked: chosen[name] === value });
@@ -61,7 +61,8 @@ export function openSaveDialog() {
   const close = button('closeDialog', () => dialog.close());
   dialog = element('dialog', { id: 'save-dialog', attributes: { 'aria-labelledby': 'save-title' } },
     element('h2', { id: 'save-title', textContent: text('saveTitle') }),
-    choice(text('saveSize'), 'width', sizes, show), choice(text('sectionBackground'), 'background', backgrounds, show), line,
+    choice(text('saveSize'), 'width', sizes, show), choice(text('sectionBackground'), 'background', backgrounds, show),
+    element('details', {}, element('summary', { textContent: text('command') }), line),
     element('div', { className: 'buttons' }, button('savePng', closing(() => saveNamed(savedWords())), { id: 'save-png' })),
     element('h2', { textContent: text('sendTitle') }), element('p', { className: 'hint', textContent: text(setOf(state.model) ? 'sendHintFiles' : 'sendHint') }),
     element('div', { className: 'buttons' }, button('savePage', closing(savePage), { id: 'save-page' }), button('copyLink', (event) => copy(linkOf(), event.target), { id: 'save-link' }),

@@ -1,17 +1,17 @@
-// served.js: the page as `lambent view` serves it (tools/view): models come from its folder, and what is too large for the page is drawn by
-// the program itself. Addresses are relative to the page's own, which has the token.
+// served.js: the page of `lambent view` (tools/view). Models come from its folder. The program itself draws models that are too large for the page.
+// Addresses are relative to the page's own address, which contains the token.
 import { Ended } from './caller.js';
 import { text } from './strings.js';
 
 // { gallery }: whether the viewer shows a folder.
 export const served = JSON.parse(document.getElementById('served').textContent);
 
-const client = crypto.randomUUID(); // a newer picture of this page ends the older one
-// The module with threads (start.js), which lies beside the page that the viewer serves.
+const client = crypto.randomUUID(); // a newer picture of this page cancels the older one
+// The module with threads (start.js), which the viewer serves beside the page.
 export const fetchThreads = async () => bytesOf(await ask('threads.wasm', []));
 
-let known = null; // the model as it was last asked for: its files in the module, or why the program draws it
-let drawing = null; // stops the request of a picture
+let known = null; // the last requested model: its files in the module, or the reason why the program draws it
+let drawing = null; // aborts the request of a picture
 
 async function ask(address, words, { signal, ...more } = {}) {
   const query = new URLSearchParams([...words.map((word) => ['w', word]), ['c', client], ...Object.entries(more)]);
@@ -28,7 +28,7 @@ async function fileOf(path) {
   return [path, await bytesOf(answer)];
 }
 
-// Returns the facts about the words' model. The module then has its files, unless the program draws it.
+// Returns the facts about the model. The module then has its files, unless the program draws it.
 async function take(call, words) {
   const key = [words[0], ...words.filter((word) => word.startsWith('--environment='))].join('\n');
   if (known?.key === key && !known.stale) return known;
@@ -49,7 +49,7 @@ async function take(call, words) {
 let last = Promise.resolve();
 
 const natively = {
-  // One after the other: the picture and what it is compared with are wanted at the same time.
+  // One after the other, since the picture and the picture that it is compared with are requested at the same time.
   draw({ words }) {
     const next = last.then(() => drawNow(words));
     last = next.catch(() => {});
@@ -68,16 +68,16 @@ async function drawNow(words) {
   return { ...JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))), pixels: new Uint8ClampedArray(bytes.buffer, end + 1) };
 }
 
-// Gives up the picture that the program draws, since a newer one is wanted; false: it draws none.
+// Cancels the picture that the program draws because a newer one is wanted; false: it draws none.
 export function giveUpPicture() {
   drawing?.abort();
   return Boolean(drawing);
 }
 
-// Why the program draws the model; null: the page does.
+// The reason why the program draws the model; null: the page draws it.
 export const nativeReason = (model) => (known?.key.split('\n')[0] === model ? known.native : null);
 
-// The calls of the worker, which has the files of served models before it draws them. Models that were opened in the page stay its own.
+// Calls of the worker, which first receives the files of served models. Models opened in the page are not affected.
 export function servedCall(call) {
   let own = [], holdsOwn = false;
   return async (name, message) => {
@@ -102,7 +102,7 @@ export function servedCall(call) {
   };
 }
 
-// Calls `changed` when a file of the model is another one, and `lost` with whether the viewer has ended or is there again.
+// Calls `changed` if a file of the model has changed, and `lost` with whether the viewer has ended or is back.
 export function watchServed(changed, lost) {
   const events = new EventSource('events');
   let timer = 0, isLost = false;
@@ -114,7 +114,7 @@ export function watchServed(changed, lost) {
     }, 100); // several files are often written together
   };
   events.onmessage = ({ data }) => {
-    const path = JSON.parse(data); // of a file, or with "/" at its end of a folder in which any file may have changed
+    const path = JSON.parse(data); // of a file, or with a trailing "/" of a folder in which any file may have changed
     if (known?.paths.has(path) || (path.endsWith('/') && [...(known?.paths ?? [])].some((one) => one.startsWith(path)))) later();
   };
   events.onerror = () => lost((isLost = true));

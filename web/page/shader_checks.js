@@ -1,5 +1,5 @@
-// shader_checks.js: checks of the newest texts by a worker, which has one request at a time. Newer texts end a search for mistakes; a check without
-// one is short, and they wait for it for a while.
+// shader_checks.js: checks the newest shader texts in a worker, one request at a time. Newer texts end a search for mistakes. A check without a search is
+// short, so newer texts wait for it.
 import { openCheck } from './check_start.js';
 
 export const ENDLESS_MS = 30000, PATIENCE_MS = 1500;
@@ -8,9 +8,9 @@ const LATE = 'late';
 
 export class Checks {
   #worker = null;
-  #lists = null; // a promise: contracts, scenes, mistakes, exercises; the worker can be asked when it is there
-  #round = 0; // of the newest texts
-  #busy = null; // the request that the worker has: {searching, done: a promise, end(answer)}
+  #lists = null; // a promise: contracts, scenes, mistakes, exercises; afterwards the worker accepts requests
+  #round = 0; // number of the newest texts
+  #busy = null; // the worker's current request: {searching, done: a promise, end(answer)}
 
   #restart() {
     this.#worker?.end();
@@ -22,7 +22,7 @@ export class Checks {
     });
   }
 
-  // Ends the worker; the next call starts another one.
+  // Ends the worker. The next call starts a new one.
   close() {
     this.#worker?.end();
     this.#busy?.end(null);
@@ -38,7 +38,7 @@ export class Checks {
     return this.#started();
   }
 
-  // The texts of an exercise; reports of older texts are shown no more. Null: another text has come in between.
+  // The texts of an exercise. Reports about older texts are no longer shown. Null: other texts were chosen in the meantime.
   async exercise(mistake) {
     const mine = ++this.#round;
     await this.#free();
@@ -46,7 +46,7 @@ export class Checks {
     return mine === this.#round ? this.#worker.call('exercise', { mistake }) : null;
   }
 
-  // The worker's answer; LATE where there is none in time, and another worker then stands ready; null where newer texts have ended it.
+  // The worker's answer; LATE if it did not come in time, and a new worker is ready; null if newer texts have ended it.
   async #request(asked, searching) {
     const worker = this.#worker, request = { searching };
     const answer = new Promise((resolve, reject) => {
@@ -66,7 +66,7 @@ export class Checks {
     }
   }
 
-  // Ends what the worker does for older texts, or waits for its end where that is near.
+  // Ends a request about older texts, or waits for it if it is almost finished.
   async #free() {
     const request = this.#busy;
     if (!request) return;
@@ -77,8 +77,8 @@ export class Checks {
     if (this.#busy === request) this.#restart();
   }
 
-  // Calls `show` with the report of the texts: at once with pictures and verdict, and where they differ again with the mistakes. `searched`: there is
-  // nothing to come; `cut`: the search did not end in time, and the report is that without it. Older texts are shown no more, nor are their errors.
+  // Calls `show` with the report: first pictures and verdict, and if they differ, a second time with the mistakes. `searched`: the report is final; `cut`: the
+  // search did not end in time, so the report is without mistakes. Reports and errors about older texts are not shown.
   async run(asked, show) {
     const mine = ++this.#round, newest = () => mine === this.#round;
     try {

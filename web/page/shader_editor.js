@@ -1,4 +1,4 @@
-// shader_editor.js: an editor of a shader: CodeMirror, or a plain field where the page was built without it.
+// shader_editor.js: an editor for a shader: CodeMirror, or a plain text field if the page was built without it.
 import { openCodeMirror } from './check_start.js';
 import { element } from './dom.js';
 
@@ -23,7 +23,7 @@ function plainEditor(place, { label, onchange }) {
   };
 }
 
-// `text`, showErrors([{line, text}]), goTo(line). onchange: a person has changed the text.
+// `text`, showErrors([{line, text}]), goTo(line). onchange: the user has changed the text.
 export async function makeEditor(place, options) {
   const codeMirror = await openCodeMirror().catch(() => null);
   return codeMirror ? codeMirror.makeEditor(place, options) : plainEditor(place, options);

@@ -1,4 +1,4 @@
-// shader_report.js: a report of a check as a page shows it.
+// shader_report.js: shows the report of a check.
 import { button, element, ours } from './dom.js';
 import { text } from './strings.js';
 
@@ -44,7 +44,7 @@ function mistakesList(report, withCode) {
   return [element('p', { textContent: title }), element('ul', { className: 'shader-mistakes' }, ...items)];
 }
 
-// How many hints an exercise has: the pictures to look at; the mistake; what to write. What else is wrong by now comes with the second.
+// The number of hints of an exercise: the pictures to look at, the mistake, and the correct lines. Other mistakes are shown with the second hint.
 export const HINTS = 3;
 
 function hintsOf(report, { hints, exercise }, goTo) {
@@ -60,7 +60,7 @@ function hintsOf(report, { hints, exercise }, goTo) {
   return out;
 }
 
-// The verdict as a sentence, and what stands below it. `asked`: of an exercise, and how many hints were asked for.
+// The verdict as a sentence, and the details below it. `asked`: the exercise, and the number of hints asked for.
 export function report(report, asked, size, goTo) {
   const solved = asked.exercise && report.verdict === 'passes';
   const verdict = text(solved ? 'shaderSolved' : (VERDICTS[report.verdict] ?? 'shaderFails'));

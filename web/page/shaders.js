@@ -1,5 +1,5 @@
-// shaders.js: the tab of shaders: texts, what they draw beside the reference, the verdict of `lambent check` and the mistakes that it names;
-// exercises are programs with a known mistake, made by the module.
+// shaders.js: the tab of shaders: the texts, their pictures beside the reference, and the verdict of `lambent check` with the mistakes it found. Exercises are
+// programs with a known mistake, made by the module.
 import './shader_strings.js';
 import { $, button, element, ours } from './dom.js';
 import { PROGRAMS } from './programs.js';
@@ -32,10 +32,10 @@ place.append(
     element('section', {}, element('h2', { textContent: text('shaderVertexMade') }), places.vertex)),
   found, names);
 
-// --- checking: the newest texts alone
+// --- checks of the newest texts
 
 const checks = new Checks();
-let asked = { hints: 0, exercise: null }; // what the report is about
+let asked = { hints: 0, exercise: null }; // the subject of the report
 let shown = null; // the last report
 let timer = 0;
 
@@ -50,7 +50,7 @@ async function run() {
   }).catch(refused);
 }
 
-// Shows an error that keeps the worker from an answer.
+// Shows an error that prevents an answer of the worker.
 function refused({ message }) {
   shown = { verdict: 'fails', mistakes: [], notes: [{ kind: 'hint', file: null, line: 0, text: message }], scenes: [], searched: true };
   show();
@@ -82,7 +82,7 @@ const editorOf = (file) => (file.endsWith('.vert') ? editors.vertex : editors.fr
 const FILES = { fragment: 'shader.frag', vertex: 'shader.vert' };
 const EXERCISE = 'exercise:'; // before the mistake's id
 
-// The lines of the correct texts that an exercise has not.
+// The lines of the correct program that the exercise lacks.
 function missingLines({ texts, correct }) {
   return Object.entries(FILES).flatMap(([part, file]) => {
     const there = new Set(texts[part].split('\n'));
@@ -100,7 +100,7 @@ function begin(texts, exercise = null) {
   return run();
 }
 
-// Exercises are in the names of `lambent shader`.
+// Exercises use the names of `lambent shader`.
 async function beginTask() {
   const task = tasks.value;
   clearTimeout(timer);
@@ -115,7 +115,7 @@ const start = () => beginTask().catch(refused);
 
 let lists = null;
 
-// The names of a contract, its correct programs, and the exercises, of which `task` is chosen; null: the first program.
+// Lists the contract's names, its correct programs and the exercises, and selects `task`; null: the first program.
 function showContract(name, task = null) {
   const group = (key, options) => element('optgroup', { label: text(key) }, ...options);
   const mine = PROGRAMS.filter(({ contract }) => contract === name);
@@ -127,7 +127,7 @@ function showContract(name, task = null) {
   names.lastChild.replaceChildren(...contract.names.map((row) => element('tr', {}, ours('td', row.name), ours('td', row.type), ours('td', row.meaning))));
 }
 
-// The lists come with the module of checks; where that cannot be loaded, a button tries it again.
+// The lists come with the module of checks. If it cannot be loaded, a button tries again.
 async function connect() {
   again.hidden = true;
   verdict.textContent = text('shaderWaits');

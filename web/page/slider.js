@@ -1,4 +1,4 @@
-// slider.js: a slider with its number. `title`: what stands before it; `take` gets the number as text while it moves. One gesture is one step of undo.
+// slider.js: a slider with its number. `title`: the element before it. `take` receives the number as text during the gesture, which is one step of undo.
 import { beginGesture, endGesture } from './app.js';
 import { element } from './dom.js';
 
@@ -15,7 +15,7 @@ export function slider(title, label, [least, most, step], value, take) {
   return element('label', { className: 'slider' }, title, input, output);
 }
 
-// Shows another number, unless a hand is on the slider.
+// Shows another number, except while the user moves the slider.
 export function showNumber(made, value) {
   const input = made.querySelector('input');
   if (Number(input.value) !== Number(value)) input.value = value;

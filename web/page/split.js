@@ -1,5 +1,5 @@
-// split.js: before and now: the left part of the picture is drawn from a command line that was kept, seen by the camera of now, in its size. The line
-// between them is dragged, or moved by keys.
+// split.js: compares before and now: the left side of the picture shows a kept command line with the current camera and size. The dividing line can be
+// dragged or moved by keys.
 import { call, on, refuse, state, view } from './app.js';
 import { $, button, element, ours } from './dom.js';
 import { fit, quickWords } from './drawing.js';
@@ -13,7 +13,7 @@ const bar = element('div', { id: 'split-bar' }, element('span', { textContent: t
   button('keepNow', () => keep()), button('swap', () => swap()), button('endSplit', () => toggle()));
 let before = null, share = 50, busy = false, again = false;
 
-// The kept words with the view and the size of now.
+// The kept words with the current view and size.
 function beforeWords() {
   let made = before;
   for (const name of [...VIEW, 'camera', 'size']) made = new State(made).withValues(name, state.values(name));

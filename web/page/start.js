@@ -1,9 +1,9 @@
-// start.js: the worker, and calls to it. ONE_FILE (web/bundle.py): the page in one file, which has in it what the served one fetches.
+// start.js: starts the worker and calls it. ONE_FILE (web/bundle.py): this is the page in one file, which contains what the served page fetches.
 import { caller } from './caller.js';
 import { insideScript, insideStream, insideText } from './inside.js';
 import { text } from './strings.js';
 
-// The bytes of a module beside the page. `progress`: called with the bytes that are there, and how many there will be (0: unknown).
+// Fetches a module beside the page. `progress`: called with the number of bytes received and the total (0: unknown).
 export async function fetchModule(name, progress = () => {}) {
   const answer = await fetch(new URL(name, import.meta.url)).catch(() => {
     throw new Error(text('notReached', { name }));
@@ -21,14 +21,14 @@ export async function fetchModule(name, progress = () => {}) {
   return new Blob(parts).arrayBuffer();
 }
 
-// The same, asked for once in a page.
+// The same, but each module is fetched once.
 const modules = new Map();
 function moduleOnce(name, progress) {
   if (!modules.has(name)) modules.set(name, fetchModule(name, progress).catch((error) => (modules.delete(name), Promise.reject(error))));
   return modules.get(name);
 }
 
-// `helps`: a second worker, for small pictures, which has one thread.
+// `helps`: a second worker with one thread, for small pictures.
 export function openWorker({ helps = false } = {}) {
   if (ONE_FILE) {
     const served = document.getElementById('served'), threads = served && JSON.parse(served.textContent).threads; // by lambent view
@@ -53,8 +53,8 @@ export function openWorker({ helps = false } = {}) {
 
 const THREADS_MAX = 16;
 
-// If the page may share memory with its workers, a way to the module with threads (web/threads.js), which takes the place of the one that has drawn
-// the first picture.
+// If the page may share memory with its workers, a way to fetch the module with threads (web/threads.js). It replaces the module that has drawn the first
+// picture.
 function withThreads(load, script) {
   const count = Math.min(navigator.hardwareConcurrency, THREADS_MAX);
   return crossOriginIsolated && count > 1 ? [async () => ({ wasm: await load(), threads: { count, script: String(script) } })] : [];

@@ -1,23 +1,23 @@
-// state.js: the state of the page: the words of a command line. Options stand in the order in which they were given; undo and redo
-// are lists of such states, a link is one in the address, and what is drawn, shown and copied is the same list.
+// state.js: the state of the page: the words of a command line, with options in the order in which they were given. Undo and redo are lists of such states.
+// The picture, the link, and the shown and copied command are made from the same words.
 
-// The first picture: one light, and a material with a highlight, so that each term of the sum is seen.
+// The first picture: one light, and a material with a highlight, so that each term of the sum is visible.
 export const START = ['teapot', '--material=ambient=#12657a,diffuse=#1688a5,specular=0.7,shininess=80', '--light=point:position=0.3r/0.5r/1r', '--ambient=0.3'];
 
-// Models that are formulas: the name of the model and of its option, and the formula that it begins with.
+// Models that are formulas: the name of the model and of its option, and the initial formula.
 export const FORMULAS = { parametric: 'a=2; x=(a+cos(v))*cos(u); y=(a+cos(v))*sin(u); z=sin(v)', implicit: 'x^2+y^2+z^2-1' };
 const OF_FORMULAS = [...Object.keys(FORMULAS), 'u', 'v', 'x', 'y', 'z', 'flip'];
 
-// The words with another model, whose formula may be given. Options of formulas belong to the one they were written for.
+// Returns the words with another model, optionally with its formula. Options of the old formula are removed.
 export function withModel(words, name, formula = FORMULAS[name]) {
   const rest = words.slice(1).filter((word) => !OF_FORMULAS.includes(word.slice(2).split('=')[0]));
   return formula ? [name, `--${name}=${formula}`, ...rest] : [name, ...rest];
 }
 
-// The options that make the view; a camera takes the place of all of them.
+// Options that determine the view. --camera replaces all of them.
 export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'fov', 'projection'];
 
-// Whether a value of --material is a metal that mirrors its surroundings.
+// Whether a value of --material is a metal, which reflects its surroundings.
 export const isMetal = (material) => /\bmetallic=1\b/.test(material ?? '');
 
 export class State {
@@ -30,7 +30,7 @@ export class State {
     this.onchange = () => {};
   }
 
-  // Sets the words. Changes in one gesture (the same key) are one step of undo.
+  // Sets the words. Changes with the same key (one gesture) are one step of undo.
   set(words, mergeKey = null) {
     if (words.length === this.words.length && words.every((word, i) => word === this.words[i])) return;
     if (!mergeKey || mergeKey !== this.#mergeKey) this.#past.push(this.words);
@@ -40,7 +40,7 @@ export class State {
     this.onchange();
   }
 
-  // Writes another word in place of one, in the steps of undo and redo too: no step of its own.
+  // Replaces a word everywhere, also in the steps of undo and redo. This is not a step of its own.
   replace(old, word) {
     const change = (words) => words.map((one) => (one === old ? word : one));
     this.#past = this.#past.map(change);
@@ -81,7 +81,7 @@ export class State {
     return this.words[0];
   }
 
-  // The values of an option, in order; a switch has ''. Words are "--name=value" or "--name".
+  // The values of an option, in order. A switch has the value ''. Words are "--name=value" or "--name".
   values(name) {
     return this.words
       .slice(1)
@@ -89,7 +89,7 @@ export class State {
       .map((word) => word.slice(name.length + 3));
   }
 
-  // The words with other values of an option; none: without it. It stays in its place.
+  // Returns the words with other values of an option, at the same position. An empty list removes the option.
   withValues(name, values) {
     const is = (word) => word === `--${name}` || word.startsWith(`--${name}=`);
     const at = this.words.findIndex((word, i) => i > 0 && is(word));
@@ -100,22 +100,22 @@ export class State {
   }
 }
 
-// A word as a POSIX shell reads it.
+// Quotes a word for a POSIX shell.
 export function quoted(word) {
   return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
 
-// The words of the command that draws the same picture, each as a shell reads it; files are named as they lie in the folder that was opened.
+// The words of the command that draws the same picture, quoted for a shell. File names are relative to the opened folder.
 export function commandWords(words) {
   const model = words[0].replace(/^\//, '');
-  // A file that has the name of a shape or a command, or begins as an option does, is named by its folder.
+  // If a file name equals a shape or command, or begins like an option, it gets the prefix './'.
   const named = model !== words[0] && (!/[./]/.test(model) || model.startsWith('-')) ? './' + model : model;
   return ['lambent', words[0] in FORMULAS ? 'shape' : named, ...words.slice(1)].map(quoted);
 }
 
 export const command = (words) => commandWords(words).join(' ');
 
-// The state in the fragment of an address, and back. Null: there is none.
+// Converts the state to the fragment of an address, and back. Null: there is no state.
 export function toFragment(words) {
   return '#' + words.map(encodeURIComponent).join('&');
 }

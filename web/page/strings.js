@@ -1,7 +1,6 @@
-// strings.js: every text of the page, in one table; a part of the page that is fetched later adds its own texts to it (shader_strings.js). What the
-// program says (names and summaries of options, sentences of errors, words of command lines) comes from the module and stands in elements with
-// translate="no". ?locale=pseudo writes the table with accents between ⟦ and ⟧: a text without them has escaped the table, and one that is cut
-// off would be cut off in a longer language.
+// strings.js: every text of the page, in one table. Modules that are fetched later add their own texts (shader_strings.js). Texts of the program (names and
+// summaries of options, error messages, command lines) come from the module and are shown in elements with translate="no". With ?locale=pseudo, all texts of
+// the table have accents between ⟦ and ⟧. This shows texts that are missing from the table, and texts that would be cut off in a longer language.
 const STRINGS = {
   picture: 'Picture',
   model: 'Model',
@@ -26,21 +25,21 @@ const STRINGS = {
   addDirectional: 'Add a directional light',
   removeLight: 'Remove',
   removeNamed: 'Remove {light}',
-  lightsHint: 'Each light of the command line has handles in the picture. Drag them, or move them by the arrow keys; with Shift and drag, or Page Up and Page Down, away from the eye and back. Delete removes a light.',
-  handlePosition: '{light}: place',
-  handleAim: '{light}: where it aims',
+  lightsHint: 'Each light of the command line has handles in the picture. Drag a handle, or move it with the arrow keys. Shift-drag, or Page Up and Page Down, moves it away from you or closer. Delete removes the light.',
+  handlePosition: '{light}: position',
+  handleAim: '{light}: aim',
   handleCone: '{light}: edge of its cone',
   searchOptions: 'Search the options',
-  noOption: 'No option has these words.',
+  noOption: 'No option matches.',
   without: 'Without {option}',
   standard: 'Default: {value}.',
-  explainHint: 'Point at the picture: the calculation stands here, and its vectors stand on the surface. A click, or Enter for the middle, pins the point; Alt and arrow keys move it; Escape lets it go.',
+  explainHint: 'Point at the picture to see the calculation here and its vectors on the surface. Click to pin the point, or press Enter to pin the middle. Alt and arrow keys move the pin; Escape removes it.',
   command: 'The command line of this picture',
   copyCommand: 'Copy command',
   copyLink: 'Copy link',
   copied: 'Copied',
   selected: 'Selected: press Ctrl-C',
-  note: 'The picture is the state of this command line. Files stay on this machine; a link does not contain them.',
+  note: 'This command line draws the same picture. Files stay on this machine; links do not contain them.',
   status: '{width}×{height}, {triangles} triangles, {ms} ms',
   saved: 'saved {file}',
   savedHash: 'saved {file}, SHA-256 {hash}',
@@ -52,26 +51,26 @@ const STRINGS = {
   missingSeen: 'Draw without them',
   linkWithout: 'This is a link to {file}. Links contain no files: open that file here to see the picture.',
   openNamed: 'Open it…',
-  linkCopied: 'The link contains no files: whoever opens it needs {file}.',
-  workerEnded: 'the worker ended',
+  linkCopied: 'The link contains no files. Whoever opens it needs {file} and the files that belong to it. To send everything in one file, use Save and send.',
+  workerEnded: 'the worker has ended',
   gallery: '← Gallery',
   drawnByProgram: 'drawn by lambent view, since {reason}',
   notByProgram: 'The page cannot do this with a model that lambent view draws.',
-  fileChanged: 'The file has changed: the picture is new.',
-  viewerEnded: 'lambent view has ended. What it has sent can still be turned.',
+  fileChanged: 'The file has changed. The picture is drawn again.',
+  viewerEnded: 'lambent view has ended. You can still turn the model.',
 
   stop: 'Stop',
   stopping: 'Stopping…',
-  stopped: 'The drawing was stopped. The picture before it stays.',
-  tooLong: 'This picture took long, and was not finished when the page was closed. It is not drawn by itself.',
+  stopped: 'Drawing stopped. This is the previous picture.',
+  tooLong: 'This picture took long and was not finished when the page was closed. The page did not start it again.',
   drawAgain: 'Draw it',
-  progress: 'Share of the picture that is drawn',
+  progress: 'Progress of the drawing',
   loading: 'Loading {name}: {amount}',
   loadingModel: 'Loading {name}…',
   notLoaded: '{name} could not be loaded: the server answers {code}',
   notReached: '{name} could not be loaded: the server cannot be reached',
-  tooLarge: '{file}: the files have {size} MB together, more than the {most} MB that this page takes on this machine; the program lambent draws them',
-  viewChanged: 'Seen from {around} degrees around and {above} degrees above, {far} radii away.',
+  tooLarge: '{file}: the files have {size} MB together, but the limit of this page on this machine is {most} MB. The program lambent can draw them.',
+  viewChanged: 'View from {around} degrees around and {above} degrees above, {far} radii away.',
   saveScene: 'Save scene file',
   savedScene: 'saved {file}; it names the files of the model, and does not contain them',
 
@@ -90,6 +89,7 @@ const STRINGS = {
   viewBottom: 'Bottom',
   viewIso: 'Isometric',
   viewAll: 'Whole model',
+  viewCut: 'Cut open',
   fullScreen: 'Full screen',
   fullScreenEnd: 'Leave full screen',
   sizeWindow: 'Fit to the window',
@@ -116,8 +116,8 @@ const STRINGS = {
   plainOpacity: 'Opacity',
   plainLightScale: 'All lights',
   plainShadows: 'Shadows',
-  plainAo: 'Shade in corners',
-  plainRotation: 'Turn them',
+  plainAo: 'Darker corners',
+  plainRotation: 'Turn',
   plainBackground: 'Another colour',
   plainGround: 'Ground',
   plainLook: 'Style',
@@ -146,10 +146,10 @@ const STRINGS = {
   savePage: 'Save a page with the model',
   pageMaking: 'Packing the page…',
   pageSaved: 'saved {file}, {size} MB: send it as an attachment; a browser opens it without a network',
-  pageTooLarge: 'The files of the model have {size} MB, more than the {most} MB that a page may contain.',
+  pageTooLarge: 'The files of the model have {size} MB; a page can contain {most} MB.',
   closeDialog: 'Close',
 
-  contentsWait: 'The model is not read yet.',
+  contentsWait: 'The model is still loading.',
   contentsMeasures: 'Measures',
   contentsSize: 'Size (x × y × z)',
   contentsNoUnit: '{size} (the file names no unit)',
@@ -181,58 +181,58 @@ const STRINGS = {
   endSplit: 'End',
 
   mineLights: 'Write out the lights',
-  mineDone: '{count} lights stand in the command line now. The picture is the same.',
-  mineDiffers: 'These lights cannot be written out: the picture would change.',
+  mineDone: 'The command line now contains {count} lights. The picture is the same.',
+  mineDiffers: 'These lights cannot be written out, because the picture would change. To move a light, use the section Light of the tab Picture.',
   sliderOf: '{name} of {light}',
   sliderShininess: 'Shininess of the highlights',
   curveAttenuation: 'Attenuation over distance',
   curveSpot: 'Cone over the angle from its axis',
   curveHighlight: 'Highlight over the angle φ',
-  curveAt: '{title}: at {x} it is {y}',
-  curveHint: 'Point at the picture, or click: the highlight of that point stands here as a curve.',
+  curveAt: '{title}: {y} at {x}',
+  curveHint: 'Point at the picture or click it to see the highlight of that point as a curve.',
 
   pixel: 'Pixel {x}, {y} · {shading} shading, {reflection} · bytes {bytes}',
-  background: 'No surface is here: the background.',
+  background: 'No surface here, only the background.',
   surface: '{object}, triangle {triangle}, {side}',
   unnamedObject: 'object {number}',
   pinned: 'Pinned to the surface.',
-  pinHidden: 'The pinned point is hidden: this is what stands before it.',
-  pinOutside: 'The pinned point is outside of the picture.',
+  pinHidden: 'The pinned point is hidden. This is the surface in front of it.',
+  pinOutside: 'The pinned point is outside the picture.',
   unpin: 'Unpin',
   unpinned: 'Unpinned.',
   speak: 'Speak',
   aboutNormal: 'normal',
-  aboutNormalBack: 'normal, reversed: the back is seen',
+  aboutNormalBack: 'normal, reversed: you see the back',
   aboutView: 'to the eye',
   aboutLight: 'to the light',
-  aboutMirrored: 'the light mirrored: 2 (n·l) n − l',
+  aboutMirrored: 'mirrored light: 2 (n·l) n − l',
   aboutHalf: 'halfway: (l + v) / |l + v|',
-  corners: 'Corners of the triangle, where the light is computed',
+  corners: 'Corners of the triangle, at which lighting is computed',
   corner: 'Corner {number}, weight {weight}',
   sumTitle: 'Sum',
-  aroundTitle: 'From all around',
-  aboutReflected: 'the eye mirrored: 2 (n·v) n − v',
+  aroundTitle: 'Light from all directions',
+  aboutReflected: 'mirrored view: 2 (n·v) n − v',
   lightsTitle: 'Lights',
-  interpolated: 'The sums of the three corners, by their weights: {color}.',
+  interpolated: 'Weighted mean of the three corners: {color}.',
   bytes: 'Encoded for the screen: bytes {bytes}.',
-  moreTriangles: 'The pixel shows {count} more triangles in part.',
-  leftOut: 'Left out: too weak here (--light-cutoff).',
+  moreTriangles: 'The pixel also shows parts of {count} more triangles.',
+  leftOut: 'Omitted: too weak here (--light-cutoff).',
 
   spokenBackground: 'Pixel {x}, {y} shows the background.',
   spokenPixel: 'Pixel {x}, {y} shows {object}: red {red}, green {green}, blue {blue}, of 255.',
   spokenTerm: '{percent} percent of its light is {term}.',
-  spokenLight: 'The light {light} arrives at {angle} degrees from the normal: diffuse {diffuse}, highlight {specular}.',
+  spokenLight: 'The light {light} arrives {angle} degrees from the normal: diffuse {diffuse}, highlight {specular}.',
   spokenBehind: 'The light {light} is behind the surface.',
   termAmbient: 'ambient',
   termDiffuse: 'diffuse',
   termSpecular: 'specular',
-  termReflection: 'reflection of the surroundings',
-  termEmission: 'its own',
+  termReflection: 'reflected surroundings',
+  termEmission: 'emission',
 };
 
 const ACCENTS = { a: 'á', c: 'ç', e: 'é', i: 'î', n: 'ñ', o: 'ö', s: 'š', u: 'ü', A: 'Å', C: 'Ç', D: 'Ð', E: 'É', I: 'Î', N: 'Ñ', O: 'Ö', S: 'Š', U: 'Û' };
 
-// A third longer, as German is.
+// Accented, and a third longer, as German is.
 export function pseudo(template) {
   const parts = template.split(/(\{\w+\})/);
   const accented = parts.map((part, i) => (i % 2 ? part : part.replace(/[A-Za-z]/g, (letter) => ACCENTS[letter] ?? letter))).join('');
@@ -241,19 +241,19 @@ export function pseudo(template) {
 
 const isPseudo = typeof location === 'object' && new URLSearchParams(location.search).get('locale') === 'pseudo';
 
-// The text of a key, with {names} replaced by values.
+// The text of a key, with its {names} replaced by values.
 export function text(key, values = {}) {
   const template = STRINGS[key];
   if (template === undefined) throw new Error(`strings.js has no '${key}'`);
   return (isPseudo ? pseudo(template) : template).replace(/\{(\w+)\}/g, (_, name) => values[name]);
 }
 
-// Texts of a part of the page that is fetched later, with their table.
+// Adds the texts of a module that is fetched later.
 export const addStrings = (more) => Object.assign(STRINGS, more);
 
 export const stringKeys = () => Object.keys(STRINGS);
 
-// Fills what the page's HTML names: data-text, data-label (aria-label), data-title, data-placeholder.
+// Fills the HTML attributes data-text, data-label (aria-label), data-title and data-placeholder.
 export function localize(root) {
   for (const [attribute, set] of [
     ['text', (node, value) => (node.textContent = value)],

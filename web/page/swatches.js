@@ -1,10 +1,10 @@
-// swatches.js: choices with small pictures, of which one may be chosen.
+// swatches.js: choices with small pictures, at most one of which is selected.
 import { on, state } from './app.js';
 import { element, ours } from './dom.js';
 import { thumbnail } from './thumbnails.js';
 
-// `choices`: { value, name, words (of the picture), label (a text of the page; else the program's name is shown), color (in place of a picture) }.
-// `chosen`: returns the value of the state; `take`: sets it. `named`: the names stand below the pictures.
+// `choices`: { value, name, words (of the picture), label (a text of the page; default: the program's name), color (instead of a picture) }.
+// `chosen`: returns the value of the state; `take`: sets it. `named`: show the names below the pictures.
 export function swatches({ title, choices, chosen, take, named = false }) {
   const current = ours('span', '', { className: 'chosen' });
   const buttons = choices.map((choice) => {
@@ -14,14 +14,19 @@ export function swatches({ title, choices, chosen, take, named = false }) {
     const name = choice.label ?? choice.name, made = element('button', { type: 'button', className: 'swatch', title: name, translate: Boolean(choice.label), attributes: { 'aria-label': name, 'aria-pressed': 'false' } }, shown);
     if (named) made.append(element('span', { textContent: name, attributes: { 'aria-hidden': 'true' } }));
     made.onclick = () => take(choice.value);
+    if (!named) Object.assign(made, { onpointerenter: () => showName(choice), onfocus: () => showName(choice), onpointerleave: show, onblur: show });
     return made;
   });
+  // The name above the pictures: of the chosen one, or of the one under the pointer.
+  function showName(choice) {
+    current.textContent = choice.label ?? choice.name;
+    current.translate = Boolean(choice.label);
+  }
   function show() {
     const value = chosen();
     choices.forEach((choice, i) => buttons[i].setAttribute('aria-pressed', String(choice.value === value)));
     const one = choices.find((choice) => choice.value === value);
-    current.textContent = one ? (one.label ?? one.name) : (value ?? '');
-    current.translate = Boolean(one?.label);
+    showName(one ?? { name: value ?? '' });
   }
   on('words', show);
   show();

@@ -1,5 +1,5 @@
-// tabs.js: the panels beside the picture. addTab(id, label) gives the place that a module fills: #panel-ID, with the tab #tab-ID. What fills it
-// when it is first seen is `opened`, which gets the place.
+// tabs.js: the panels beside the picture. addTab(id, label) returns the element that a module fills: #panel-ID, with the tab #tab-ID. `opened` is called with
+// this element when the tab is shown for the first time.
 import { $, element } from './dom.js';
 
 const tabs = [];
@@ -19,13 +19,13 @@ export function addTab(id, label, opened = null) {
   return panel;
 }
 
-// In a narrow window the tabs lie below the picture, which stays: they come up to it.
+// In a narrow window the tabs are below the picture, which stays visible. Scrolls so that the tabs are next to the picture.
 function bringUp() {
   const below = $('stage').getBoundingClientRect().bottom, { top } = $('tabs').getBoundingClientRect();
   if (getComputedStyle($('stage')).position === 'sticky' && top > below) scrollBy(0, top - below);
 }
 
-// `focus`: of keys; a tab that opens by itself leaves the focus where it is.
+// `focus`: moves the focus, for keys. A tab that the page opens leaves the focus unchanged.
 export function selectTab(id, focus = false) {
   for (const one of tabs) {
     const chosen = one.id === id;

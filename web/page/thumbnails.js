@@ -1,5 +1,5 @@
-// thumbnails.js: small pictures of choices, drawn by Lambent in a worker of their own, so that the page's model stays loaded in the other one. It starts
-// when the first picture is there, and ends when no small picture is wanted.
+// thumbnails.js: small pictures of choices. A second worker draws them, so that the first keeps the page's model loaded. It starts after the first picture,
+// and ends when all small pictures are drawn.
 import { on, view } from './app.js';
 import { MODULE_BYTES } from './memory.js';
 import { openWorker } from './start.js';
@@ -7,7 +7,7 @@ import { openWorker } from './start.js';
 const made = new Map(); // by words: ImageData
 let waiting = [], isRunning = false;
 
-// Draws the picture of words on a canvas, now or later.
+// Draws the picture of the words on a canvas, immediately or later.
 export function thumbnail(canvas, words) {
   waiting.push({ canvas, words });
   if (view.picture) work();
@@ -34,7 +34,7 @@ async function work() {
       show(canvas, made.get(key));
     }
   } catch {
-    waiting = []; // a choice without its picture still has its name
+    waiting = []; // a choice without a picture still has its name
   }
   worker?.end();
   isRunning = false;

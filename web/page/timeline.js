@@ -1,4 +1,4 @@
-// timeline.js: animations of the model with a time line: it plays, stops, and stands at the time of the slider.
+// timeline.js: animations of the model with a time line: play, pause, and a slider for the time.
 import { beginGesture, endGesture, gestureKey, on, state, view } from './app.js';
 import { button, element } from './dom.js';
 import { setOption } from './row.js';
@@ -14,7 +14,7 @@ export function timeline(animations) {
     began = null;
     setOption('time', [value], gestureKey());
   });
-  let began = null; // when, by the clock, the animation was at 0; null: it stands
+  let began = null; // the clock time at which the animation was at 0; null: paused
 
   function step() {
     if (began === null || !time.isConnected) return stop();
@@ -39,7 +39,7 @@ export function timeline(animations) {
     showNumber(time, state.values('time').at(-1) ?? 0);
   }
   on('words', () => time.isConnected && show());
-  on('picture', () => began !== null && requestAnimationFrame(step)); // the next time once the picture of the last one is there
+  on('picture', () => began !== null && requestAnimationFrame(step)); // requests the next picture after the previous one is shown
   show();
   choice.hidden = animations.length < 2;
   return element('div', {}, choice, element('div', { className: 'buttons' }, play), time);

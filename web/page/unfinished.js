@@ -1,5 +1,5 @@
-// unfinished.js: whether a picture that takes long was still being drawn, or had been stopped, when this page was last open in its tab: then it is not begun
-// again by itself. The browser keeps the words for the tab alone.
+// unfinished.js: remembers for this browser tab whether a long drawing was unfinished or stopped when the page was closed. In this case, the page does not
+// start the same drawing by itself.
 const KEY = 'lambent-unfinished', LONG_MS = 3000;
 let timer = 0;
 
@@ -8,17 +8,17 @@ function remember(words) {
     if (words) sessionStorage.setItem(KEY, JSON.stringify(words));
     else sessionStorage.removeItem(KEY);
   } catch {
-    // a page may have no storage: then it draws again
+    // without storage, the page draws it again
   }
 }
 
-// A drawing has begun; if it takes long, it is remembered until it is finished.
+// Called when a drawing starts. A long drawing is remembered until it is finished.
 export function started(words) {
   finished();
   timer = setTimeout(() => remember(words), LONG_MS);
 }
 
-// A person has stopped it.
+// Called when the user stops a drawing.
 export const stopped = remember;
 
 export function finished() {

@@ -1,19 +1,39 @@
-// view_controls.js: views by buttons: from the sides, the whole model, the whole screen.
-import { on, refuse, state, view } from './app.js';
+// view_controls.js: buttons for views from all sides, the whole model and full screen, and a slider that cuts the model open.
+import { gestureKey, on, refuse, state, view } from './app.js';
+import { cut, cutShare } from './camera.js';
 import { $, button, element } from './dom.js';
+import { move } from './move.js';
 import { setOption } from './row.js';
+import { showNumber, slider } from './slider.js';
 import { State, VIEW } from './state.js';
 import { text } from './strings.js';
 import { followWindow, isFollowing } from './window_size.js';
 
 const NAMES = { front: 'viewFront', back: 'viewBack', left: 'viewLeft', right: 'viewRight', top: 'viewTop', bottom: 'viewBottom', iso: 'viewIso' };
 
-// The view that the program chooses, of the whole model.
+// Shows the whole model from the direction that the program chooses.
 export const viewAll = () => state.set([...VIEW.filter((name) => name !== 'projection'), 'camera'].reduce((words, name) => new State(words).withValues(name, []), state.words));
 
 function toggleFullScreen() {
   const done = document.fullscreenElement ? document.exitFullscreen() : $('stage').requestFullscreen();
   done.catch((error) => refuse(error.message));
+}
+
+// Cuts the front of the model away. Both sides of faces are drawn, because the inside becomes visible.
+function cutTo(share) {
+  if (!view.camera) return;
+  const key = gestureKey(), culled = state.values('cull');
+  move(cut(view.camera, view.sphere, share));
+  if (share > 0 && !culled.length) state.set(state.withValues('cull', ['none']), key);
+  if (!(share > 0) && culled.join() === 'none') state.set(state.withValues('cull', []), key);
+}
+
+function cutControl() {
+  const made = slider(element('span', { textContent: text('viewCut') }), text('viewCut'), [0, 1, 0.01], 0, (value) => cutTo(Number(value)));
+  const show = () => !view.moving && view.camera && showNumber(made, cutShare(view.camera, view.sphere).toFixed(2));
+  on('picture', show);
+  show();
+  return made;
 }
 
 export function viewControls() {
@@ -32,5 +52,6 @@ export function viewControls() {
   on('words', show);
   show();
   document.addEventListener('fullscreenchange', () => (full.textContent = text(document.fullscreenElement ? 'fullScreenEnd' : 'fullScreen')));
-  return element('div', { className: 'buttons view-buttons', attributes: { role: 'group', 'aria-label': text('sectionView') } }, ...sides, button('viewAll', viewAll), full, fit);
+  const buttons = element('div', { className: 'buttons view-buttons', attributes: { role: 'group', 'aria-label': text('sectionView') } }, ...sides, button('viewAll', viewAll), full, fit);
+  return element('div', {}, buttons, cutControl());
 }

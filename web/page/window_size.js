@@ -1,11 +1,11 @@
-// window_size.js: the picture follows the window, as long as its size is the one that filled the window before.
+// window_size.js: adapts the picture to the window while its size is the one that filled the window before.
 import { on, stageSize, state } from './app.js';
 
 let filled = stageSize(), timer = 0;
 
 export const isFollowing = () => state.values('size').at(-1) === filled;
 
-// The picture fills the window from now on.
+// From now on, the picture fills the window.
 export function followWindow() {
   filled = stageSize();
   state.set(state.withValues('size', [filled]));
@@ -19,7 +19,7 @@ addEventListener('resize', () => {
     if (filled !== before && state.values('size').at(-1) === before) state.replace(`--size=${before}`, `--size=${filled}`);
   }, 150);
 });
-// Texts of the page may come later than its size.
+// Texts that arrive late can change the size of the stage.
 on('ready', () => {
   if (!isFollowing()) filled = stageSize();
 });

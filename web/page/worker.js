@@ -1,14 +1,14 @@
-// worker.js: draws in a thread of its own. Messages: {id, call, ...}; answers: {id, result}, {id, error, cancelled}, or {id, missing}: the call needs that part of
-// the module, which the page fetches, and then asks again; and {progress}: the share of the running call that is done. Of drawings that wait, the page
-// sends the newest alone.
+// worker.js: draws in a thread of its own. Messages: {id, call, ...}. Answers: {id, result}, {id, error, cancelled}, {progress}: the fraction of the running
+// call that is done, or {id, missing}: the call needs that part of the module, which the page fetches before it asks again. The page sends only the newest of the
+// waiting drawings.
 import { Decoders } from './decoders.js';
 import { Lambent, LambentError, PartMissing } from './lambent.js';
 
-const parts = new Map(); // by name, of a module in parts
+const parts = new Map(); // by name, if the module is divided
 let lambent = null, decoders = null, first = null, broken = null, memory = 0;
-let threaded = null; // the module with threads, and how many
+let threaded = null; // the module with threads, and their number
 
-let model = null; // the last one that was drawn
+let model = null; // the last drawn model
 
 const progress = (share) => self.postMessage({ progress: share });
 
@@ -27,7 +27,7 @@ async function useThreads() {
 // Informs the page about the threads; `flag` is the address of the cancel flag in their memory.
 const aboutThreads = () => ({ threads: lambent.threads, shared: lambent.instance.exports.memory.buffer, flag: lambent.instance.exports.web_cancel_flag() });
 
-// The part that each of these calls needs, if the module is divided. It is fetched first, since a call that stops for it loses the model.
+// The part of a divided module that each of these calls needs. It is fetched first, since a call that stops for it loses the model.
 const NEEDS = { explain: 'more', lights: 'more', scene: 'more', contents: 'more' };
 const neededPart = ({ call, parted }) => parted && NEEDS[call] && (threaded ? 'threads-' : '') + NEEDS[call];
 
@@ -38,7 +38,7 @@ const calls = {
     use(new Lambent(first, undefined, { progress }));
     return lambent.options();
   },
-  // A Lambent that has asked for a part is replaced, or gives way to one with threads; one that has not yet only gets it.
+  // A Lambent that has asked for a part is replaced, as is one that gets threads. Otherwise it only receives the part.
   async complete({ part, wasm, threads }) {
     if (threads) {
       threaded = { module: await WebAssembly.compile(wasm), ...threads };
@@ -68,7 +68,7 @@ const calls = {
     model = null;
     return null;
   },
-  // `missing`: the paths that reading the model has asked for, and not found.
+  // `missing`: paths that the reader asked for and did not find.
   draw({ words }) {
     if (model !== words[0]) for (const paths of [lambent.files.absent, lambent.files.used]) paths.clear();
     model = words[0];
@@ -80,7 +80,7 @@ const calls = {
   lights: ({ words }) => lambent.lights(words),
   scene: ({ words }) => lambent.scene(words),
   contents: ({ words }) => lambent.contents(words),
-  // The files that the model of the last picture has read, as [path, bytes].
+  // The files that the last picture's model was read from, as [path, bytes].
   used: () => [...lambent.files.used].filter((path) => lambent.files.get(path)).map((path) => [path, lambent.files.get(path).slice()]),
 };
 

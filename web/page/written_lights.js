@@ -1,9 +1,9 @@
-// written_lights.js: the lights of the picture as words: what the program has chosen can be changed from then on.
+// written_lights.js: writes the lights of the picture as options, so that lights chosen by the program can be changed.
 import { call, state } from './app.js';
 import { lightWords } from './lights.js';
 import { State } from './state.js';
 
-// The words with the picture's lights, and how many there are. The picture must stay the same, which is checked; null: it would not.
+// Returns the words with the picture's lights, and their number. Null: the picture would change, which is checked.
 export async function writtenLights() {
   const before = state.words, { lights, ambient } = await call('lights', { words: before });
   let words = state.withValues('rig', []);

@@ -90,7 +90,7 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
 // most
 //
 //
-//  0.64·1.33 (key) + 0.19 (sky, there) = 1.04
+//  0.66·1.33 (key) + 0.19 (sky, there) = 1.07
 //
 //
 // at the corner of the box that is nearest to the key light. Only the key light casts shadows (--shadows, --ground),
@@ -102,14 +102,15 @@ static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
     lights[0].frame = LAM_FRAME_VIEW;
     lights[0].position = v3(-1.23, 1.29, 2.66);
     lights[0].attenuation = (lam_attenuation){0.527f, 0, 0.0462f}; // 1 at the centre
-    lights[0].diffuse = (lam_rgb){0.64f, 0.64f, 0.64f};
+    lights[0].diffuse = (lam_rgb){0.66f, 0.66f, 0.66f};
     lights[0].specular = (lam_rgb){0.9f, 0.9f, 0.9f};
-    lights[0].occluded = 0.5f;
+    lights[0].occluded = 0.6f;
     lights[0].radius = 0.4f;
     lights[1] = camera_light("fill", v3(0.95, 0.25, -0.28), 0.06f, 0.10f);
     lights[1].occluded = 1;
     lights[1].no_shadows = true;
     lights[2] = camera_light("rim", v3(-0.53, 0.66, -0.55), 0.46f, 0.30f);
+    lights[2].occluded = 0.6f;
     lights[2].no_shadows = true;
     lights[3] = lam_light_default(LAM_LIGHT_HEMISPHERE);
     lights[3].name = "sky";

@@ -181,6 +181,18 @@ bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error)
 // Returns the largest distance of a used vertex from a point, in world space.
 double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
 
+// Adds the areas of the triangles `first`, `first + step` …, doubled: the sum, and the signed sum that faces `axis`. A
+// front face whose normal is `axis` counts as positive. `transform` may be NULL.
+void mesh_add_areas(const lam_mesh *mesh, size_t first, size_t step, const lam_mat4 *transform, lam_vec3 axis,
+                    double *all, double *facing);
+
+// Returns whether the visible objects are a terrain: an open surface with slopes, most of which faces up. It samples
+// about a thousand triangles. `scene` may be NULL.
+bool scene_is_terrain(const struct lam_scene *scene);
+
+// Changes the lights of the studio for a terrain, and returns their number.
+int rig_light_from_side(lam_light lights[LAM_RIG_LIGHTS_MAX]);
+
 // Returns whether a mesh consists of lines or points. Functions that compute normals or follow surfaces skip such
 // meshes.
 static inline bool mesh_is_strokes(const lam_mesh *mesh) { return mesh->line_count || mesh->point_count; }

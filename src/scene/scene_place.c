@@ -182,6 +182,8 @@ int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[L
     if (rig == LAM_RIG_AUTO)
         rig = lam_scene_light_count(scene) || scene_lit_by_environment(scene) ? LAM_RIG_NONE : LAM_RIG_STUDIO;
     int count = lam_rig_lights(rig, lights);
+    if (rig == LAM_RIG_STUDIO && scene_is_terrain(scene))
+        count = rig_light_from_side(lights);
     for (int i = 0; i < count; i++)
         place_rig_light(scene, &lights[i]);
     return count;

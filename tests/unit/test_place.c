@@ -352,6 +352,68 @@ static void rigs_stand_about_the_scene(void **state)
     lam_scene_free(scene);
 }
 
+enum { HILLS_SIDE = 33 };
+
+// Hills of a height over a level square, as two objects that take turns by rows.
+static lam_scene *hills(float height)
+{
+    static float points[3 * HILLS_SIDE * HILLS_SIDE];
+    static uint32_t corners[2][6 * HILLS_SIDE * HILLS_SIDE];
+    uint32_t counts[2] = {0, 0};
+    for (int z = 0; z < HILLS_SIDE; z++)
+        for (int x = 0; x < HILLS_SIDE; x++) {
+            float *p = points + 3 * (z * HILLS_SIDE + x);
+            p[0] = (float)x;
+            p[1] = height * (float)((x + z) % 3);
+            p[2] = (float)z;
+        }
+    for (uint32_t z = 0; z + 1 < HILLS_SIDE; z++)
+        for (uint32_t x = 0; x + 1 < HILLS_SIDE; x++) {
+            uint32_t a = z * HILLS_SIDE + x, c = a + HILLS_SIDE, *at = corners[z % 2] + 3 * (size_t)counts[z % 2];
+            memcpy(at, (uint32_t[]){a, c, c + 1, a, c + 1, a + 1}, 6 * sizeof *at);
+            counts[z % 2] += 2;
+        }
+    lam_scene *scene = lam_scene_make(NULL);
+    for (int i = 0; i < 2; i++) {
+        lam_object object = lam_object_default();
+        object.mesh = lam_scene_add_mesh(scene,
+                                         &(lam_mesh){.positions = points,
+                                                     .vertex_count = HILLS_SIDE * HILLS_SIDE,
+                                                     .indices = corners[i],
+                                                     .triangle_count = counts[i]},
+                                         NULL);
+        assert_true(lam_scene_add_object(scene, &object, NULL) >= 0);
+    }
+    return scene;
+}
+
+// The studio lights a terrain from the side, whatever its axes, and nothing else.
+static void terrains_are_lit_from_the_side(void **state)
+{
+    (void)state;
+    lam_light lights[LAM_RIG_LIGHTS_MAX];
+    lam_scene *terrain = hills(0.7f), *level = hills(0), *steep = hills(4), *ball = shape_scene("sphere", 2);
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, lights), 3);
+    assert_true(-lights[0].position.x > 2 * (lights[0].position.y + lights[0].position.z) / 2);
+    assert_string_equal(lights[2].name, "sky");
+    for (int i = 0; i < 3; i++)
+        assert_true(lam_light_check(&lights[i], NULL));
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_THREE_POINT, lights), 4);
+    assert_int_equal(lam_scene_rig_lights(level, LAM_RIG_AUTO, lights), 4);
+    assert_int_equal(lam_scene_rig_lights(steep, LAM_RIG_AUTO, lights), 4);
+    assert_int_equal(lam_scene_rig_lights(ball, LAM_RIG_AUTO, lights), 4);
+    lam_scene_set_up(terrain, LAM_UP_Z); // it stands like a wall
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, lights), 4);
+    assert_true(lam_scene_rotate(terrain, (lam_vec3){0, 0, 0}, (lam_vec3){1, 0, 0}, PI_HALF, NULL));
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, lights), 3);
+    assert_true(lam_scene_hide_object(terrain, 0, true, NULL)); // the other half faces up too
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, lights), 3);
+    lam_scene_free(terrain);
+    lam_scene_free(level);
+    lam_scene_free(steep);
+    lam_scene_free(ball);
+}
+
 static void draw(lam_scene *scene, lam_image *image)
 {
     lam_camera camera = lam_camera_default();
@@ -549,6 +611,7 @@ int main(void)
         cmocka_unit_test(lights_go_with_the_model),
         cmocka_unit_test(view_matrix),
         cmocka_unit_test(parts_change_their_material),
+        cmocka_unit_test(terrains_are_lit_from_the_side),
         cmocka_unit_test(tangents_of_a_square),
         cmocka_unit_test(tangents_of_a_torus),
         cmocka_unit_test(tangents_can_be_bounded),

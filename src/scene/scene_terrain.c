@@ -1,0 +1,65 @@
+// scene_terrain.c: recognizes terrains, which the studio lights from the side.
+#include "scene_internal.h"
+
+#include "linear.h"
+#include "up_axis.h"
+
+// A scene is a terrain if it is open, and its area faces up: the vertical part of the sum of all area vectors is at
+// least FACING of the whole area. A closed surface faces all sides equally, so its sum is 0. A level plane has nothing
+// that light from the side could show.
+#define FACING 0.6
+#define LEVEL  0.98
+
+enum { SAMPLES = 1024 }; // sampled triangles; a scene with fewer is a model of a few faces
+
+void mesh_add_areas(const lam_mesh *mesh, size_t first, size_t step, const lam_mat4 *transform, lam_vec3 axis,
+                    double *all, double *facing)
+{
+    for (size_t t = first; t < mesh->triangle_count; t += step) {
+        lam_vec3 p[3];
+        for (size_t k = 0; k < 3; k++) {
+            const float *at = mesh->positions + 3 * (size_t)(mesh->indices ? mesh->indices[3 * t + k] : 3 * t + k);
+            p[k] = v3((double)at[0], (double)at[1], (double)at[2]);
+        }
+        lam_vec3 a = v3_sub(p[1], p[0]), b = v3_sub(p[2], p[0]);
+        if (transform) {
+            a = mat4_vector(transform, a);
+            b = mat4_vector(transform, b);
+        }
+        lam_vec3 area = v3_cross(a, b);
+        *all += v3_length(area);
+        *facing += v3_dot(area, axis);
+    }
+}
+
+bool scene_is_terrain(const struct lam_scene *scene)
+{
+    uint64_t count = scene ? lam_scene_triangle_count(scene) : 0;
+    if (count < SAMPLES)
+        return false;
+    const size_t step = (size_t)(count / SAMPLES);
+    const lam_vec3 up = from_y_up(lam_scene_up(scene), v3(0, 1, 0));
+    double all = 0, facing = 0;
+    size_t first = 0; // of the samples in the next mesh
+    for (int i = 0; i < scene->objects.count; i++) {
+        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
+        if (mesh_is_strokes(mesh) || !scene_shows(scene, i))
+            continue;
+        mesh_add_areas(mesh, first, step, &scene_object(scene, i)->transform, up, &all, &facing);
+        const size_t n = mesh->triangle_count;
+        first = (first < n ? first + (n - first + step - 1) / step * step : first) - n;
+    }
+    return facing > FACING * all && facing < LEVEL * all;
+}
+
+// Places the studio's lights as cartographers shade relief: the key light grazes the surface from the left, and there is
+// no light from behind, which would light all slopes alike. Slopes that face right get the fill light.
+int rig_light_from_side(lam_light lights[LAM_RIG_LIGHTS_MAX])
+{
+    lights[0].position = v3(-2.7, 0.8, 1.2);
+    lights[0].diffuse = (lam_rgb){0.9f, 0.9f, 0.9f};
+    lights[1].diffuse = (lam_rgb){0.18f, 0.18f, 0.18f};
+    lights[2] = lights[3];
+    lights[2].sky = (lam_rgb){0.14f, 0.14f, 0.14f};
+    return 3;
+}

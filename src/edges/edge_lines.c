@@ -64,11 +64,17 @@ static bool is_culled(const struct frame_draw *draw, bool front)
     return draw->cull == (front ? LAM_CULL_FRONT : LAM_CULL_BACK);
 }
 
-// Returns the style of an edge, or −1 if it is not drawn.
-static int style_of(const struct edge_task *task, const struct mesh_edge *edge)
+// Returns the style of an edge that is no feature edge, and not culled, or −1 if it is not drawn.
+static int plain_style(const struct edge_task *task, const struct mesh_edge *edge)
+{
+    return task->view->frame->settings.wireframe && !(edge->kind & EDGE_INNER) ? EDGE_STYLE_WIREFRAME : -1;
+}
+
+// Returns the style of an edge, or −1 if it is not drawn, and gets the LAM_EDGES_… bits of a feature edge.
+static int style_of(const struct edge_task *task, const struct mesh_edge *edge, unsigned *kinds_of)
 {
     const lam_draw_params *settings = &task->view->frame->settings;
-    int plain = settings->wireframe && !(edge->kind & EDGE_INNER) ? EDGE_STYLE_WIREFRAME : -1;
+    int plain = plain_style(task, edge);
     bool culls = task->draw->cull != LAM_CULL_NONE;
     if (!settings->edges && !culls)
         return plain;
@@ -88,7 +94,21 @@ static int style_of(const struct edge_task *task, const struct mesh_edge *edge)
         kinds = 0;
     if (!(edge->kind & (EDGE_OPEN | EDGE_SHARED)) && front[0] != (edge->kind & EDGE_ALIKE ? !front[1] : front[1]))
         kinds |= LAM_EDGES_SILHOUETTE;
-    return kinds & (unsigned)settings->edges ? EDGE_STYLE_FEATURE : plain;
+    *kinds_of = kinds & (unsigned)settings->edges;
+    return *kinds_of ? EDGE_STYLE_FEATURE : plain;
+}
+
+// Returns the style of an edge whose weight is known, without specks.
+static int drawn_style(const struct edge_task *task, uint32_t e)
+{
+    unsigned kinds;
+    uint16_t weight = task->weights ? task->weights[e] : EDGE_UNWEIGHED;
+    if (weight == EDGE_SPECK)
+        return plain_style(task, &task->edges[e]);
+    if (weight != EDGE_UNWEIGHED)
+        return EDGE_STYLE_FEATURE;
+    // Feature edges without a weight are outside the picture.
+    return task->weights && !task->view->frame->settings.wireframe ? -1 : style_of(task, &task->edges[e], &kinds);
 }
 
 // --- clipping to the picture
@@ -285,7 +305,7 @@ bool edge_task_draw(struct edge_task *task, void *memory)
     s->line_count = s->point_count = 0;
     for (uint32_t e = 0; e < task->count; e++) {
         struct edge_line *line = &s->lines[s->line_count];
-        int style = style_of(task, &task->edges[e]);
+        int style = drawn_style(task, e);
         if (style < 0 || !set_line(task, &task->edges[e], style, line))
             continue;
         task->drawn++;
@@ -310,12 +330,65 @@ bool edge_task_draw(struct edge_task *task, void *memory)
     return flush(task, s);
 }
 
+// Returns the height of a triangle relative to its longest edge, at most 1.
+static double height_share(const struct edge_task *task, uint32_t triangle)
+{
+    double p[3][3], n[3], longest = 0;
+    for (uint32_t k = 0; k < 3; k++)
+        position(task, 3 * triangle + k, p[k]);
+    for (int k = 0; k < 3; k++) {
+        double side[3];
+        for (int i = 0; i < 3; i++)
+            side[i] = p[(k + 1) % 3][i] - p[k][i];
+        double square = dot(side, side);
+        longest = square > longest ? square : longest;
+    }
+    faces_eye(task, triangle, n);
+    return longest > 0 ? math_sqrt(dot(n, n)) / longest : 0;
+}
+
+// A crease beside a sliver, a triangle whose height is below 1/SLIVER of its longest edge, weighs less, in proportion.
+enum { SLIVER = 8 };
+
+// Returns the weight of a line with these LAM_EDGES_… bits.
+static uint16_t weight_of(const struct edge_task *task, const struct mesh_edge *edge, unsigned kinds,
+                          const struct edge_line *line)
+{
+    double length = line->length;
+    if (!line->whole[0] || !line->whole[1])
+        return EDGE_WEIGHT_MAX;
+    if (kinds == LAM_EDGES_CREASE && !(edge->kind & EDGE_SHARED)) {
+        double a = height_over(task, edge->corner, line), b = height_over(task, edge->other, line);
+        double c = height_share(task, edge->corner / 3), d = height_share(task, edge->other / 3);
+        double height = a < b ? a : b, share = SLIVER * (c < d ? c : d);
+        length *= (height < 1 ? height : 1) * (share < 1 ? share : 1);
+    }
+    return length < EDGE_WEIGHT_MAX / EDGE_WEIGHT_PIXEL ? (uint16_t)(length * EDGE_WEIGHT_PIXEL) : EDGE_WEIGHT_MAX;
+}
+
+void edge_task_weigh(struct edge_task *task)
+{
+    for (uint32_t e = 0; e < task->count; e++) {
+        struct edge_line line;
+        unsigned kinds;
+        bool feature = style_of(task, &task->edges[e], &kinds) == EDGE_STYLE_FEATURE &&
+                       set_line(task, &task->edges[e], EDGE_STYLE_FEATURE, &line);
+        task->weights[e] = feature ? weight_of(task, &task->edges[e], kinds, &line) : EDGE_UNWEIGHED;
+    }
+}
+
+void edge_task_ends(const struct edge_task *task, uint32_t edge, double ends[2][3])
+{
+    position(task, task->edges[edge].corner, ends[0]);
+    position(task, edge_end(task->edges[edge].corner), ends[1]);
+}
+
 void edge_task_measure(struct edge_task *task)
 {
     for (uint32_t e = 0; e < task->count; e++) {
         struct edge_measure *m = &task->measures[e];
         struct edge_line line;
-        *m = (struct edge_measure){.style = style_of(task, &task->edges[e]), .link = {NO_LINK, NO_LINK}};
+        *m = (struct edge_measure){.style = drawn_style(task, e), .link = {NO_LINK, NO_LINK}};
         if (m->style >= 0 && !set_line(task, &task->edges[e], m->style, &line))
             m->style = -1;
         if (m->style < 0)

@@ -18,12 +18,23 @@ struct edge_measure {
 
 enum { EDGES_PER_TASK = 2048 };
 
+// The weight of a feature edge (edge_specks.c): its length in the picture, in parts of a pixel. A crease beside a face
+// that is narrower than a pixel, or beside a sliver, counts less, in proportion. An edge that continues outside the picture has the largest
+// weight.
+enum {
+    EDGE_WEIGHT_PIXEL = 1024, // the unit
+    EDGE_WEIGHT_MAX = 0xfffd,
+    EDGE_SPECK = 0xfffe,     // too small a group to be drawn
+    EDGE_UNWEIGHED = 0xffff, // no feature edge, or outside the picture
+};
+
 struct edge_task {
     const struct edge_view *view;
     const struct frame_draw *draw;
     const struct mesh_edge *edges;
     uint32_t count;
     struct edge_measure *measures; // one per edge; NULL if there are no chains
+    uint16_t *weights;             // one per edge; NULL if there are no feature edges
     edge_rays *rays_of;
     struct edge_strokes *strokes; // out: strokes of the thread
     uint64_t drawn, rays;         // out: added to
@@ -37,6 +48,16 @@ bool edge_task_draw(struct edge_task *task, void *scratch);
 
 // Fills the measures of a task, except their chains.
 void edge_task_measure(struct edge_task *task);
+
+// Fills the weights of a task.
+void edge_task_weigh(struct edge_task *task);
+
+// Gets the ends of an edge in the hierarchy's space.
+void edge_task_ends(const struct edge_task *task, uint32_t edge, double ends[2][3]);
+
+// Marks the edges of groups with a total weight of less than eight pixels as specks, in tasks that contain all edges of
+// a draw. Returns false if memory runs out, or the call must end.
+bool edge_specks_drop(const struct edge_task *draws, int draw_count, struct loop_status *loop);
 
 // Links the measured edges of a draw to chains, and places them there. At each corner it connects two lines of one
 // style if they are the only ones, or else the straightest pairs that turn by less than 60 degrees. Returns false if

@@ -25,6 +25,7 @@ struct edge_memory {
     struct edge_strokes *strokes;
     struct buffer scratch;  // temporary memory of the threads
     struct buffer measures; // measures of the edges, if hidden lines are dashed
+    struct buffer weights;  // weights of the edges, if there are feature edges
     int thread_count;
     struct buffer coverage[EDGE_STYLES]; // one float per pixel
     bool styles[EDGE_STYLES];            // the styles in the last frame

@@ -74,6 +74,26 @@ class Edges(Case):
         self.assertGreater(answer["times_ms"]["steps"]["edges"], 0)
         self.assertEqual(self.good("cube", "-s", "64", "--edges", "all", "--surfaces", "off", "-o", "d.png").stderr.count(b"\n"), 1)  # no warning
 
+    def test_specks_are_left_out(self):
+        """A crease of a few pixels alone is dirt, in a larger picture it is a line; of slivers it is dirt at any length that is seen."""
+        plate = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n"
+
+        def tent(length, width):  # two faces upon a ridge along x, 45 degrees down on either side
+            ridge = [(-length / 2, 0, 0.5), (length / 2, 0, 0.5)]
+            sides = [(x, y, 0.5 - width) for y in (-width, width) for x in (-length / 2, length / 2)]
+            return plate + "".join("v %g %g %g\n" % p for p in ridge + sides) + "f 5 7 8 6\nf 6 10 9 5\n"
+        front = ("-b", "white", "--azimuth", "0", "--elevation", "0")
+        for name, length, width, size, drawn in (("tent.obj", 0.1, 0.1, 100, False), ("tent.obj", 0.1, 0.1, 400, True), ("long.obj", 1, 0.1, 100, True), ("sliver.obj", 1, 0.002, 100, False)):
+            model = self.model(name, tent(length, width))
+            with self.subTest(name, size=size):
+                self.assertEqual(self.png(model, "-s", size, *front) != self.png(model, "-s", size, *front, "--edges", "crease"), drawn)
+        # A short edge in the middle of a long line stays.
+        edges = [(i / 40 - 0.5, 0, 0.5) for i in range(41)]
+        text = plate + "".join("v %g %g %g\nv %g -0.2 0.3\nv %g 0.2 0.3\n" % (*p, p[0], p[0]) for p in edges)
+        text += "".join("f %d %d %d %d\nf %d %d %d %d\n" % (a, a + 1, a + 4, a + 3, a + 3, a + 5, a + 2, a) for a in range(5, 125, 3))
+        line = self.png(self.model("many.obj", text), "-s", 100, *front, "--edges", "crease", "--surfaces", "off")
+        self.assertGreater(sum(line[2][4 * (50 * 100 + x)] < 200 or line[2][4 * (49 * 100 + x)] < 200 for x in range(100)), 30)
+
     def test_dashes_run_along_curves(self):
         """A hidden circle of 360 edges, each shorter than a dash, has the dashes of its whole length."""
         ring = [(math.cos(math.radians(a)), math.sin(math.radians(a))) for a in range(360)]

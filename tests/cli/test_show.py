@@ -62,6 +62,16 @@ class Show(Case):
         self.assertEqual(pixel(self.png("sphere", "--view", "front", "-s", SIZE + 1, "--show", "roughness"), 20, 20), (0, 0, 0, 255))
         self.assertEqual(self.floats(*gold[:-2], "--material", "#ffc356,metallic=0.6,roughness=0.4", "--show", "roughness")[SIZE * SIZE // 2 * 3 + 60], struct.unpack("f", struct.pack("f", 0.4))[0])
 
+    def test_environment_is_black_with_a_sentence(self):
+        """Without an environment and without physical materials, --show environment says why it is black."""
+        said = lambda *words: "--show environment' is black" in self.good(*words, "-s", 16, "--show", "environment", "-o", "e.png").stderr.decode()
+        physical = ("--material", "white,roughness=0.4")
+        self.given.add("e.png")
+        self.assertTrue(said("sphere"))
+        self.assertTrue(said("sphere", *physical, "--light", "point"))
+        self.assertFalse(said("sphere", *physical))
+        self.assertFalse(said("sphere", "--environment", "sky", "--reflectivity", "0.5"))
+
     def test_vectors_without_maps(self):
         """Normals and cosines are no colours: a texture does not multiply them, wherever they are computed."""
         (self.folder / "red.ppm").write_bytes(b"P6 1 1 255\n\xff\x10\x08")

@@ -423,12 +423,22 @@ bool job_write(struct job *job, lam_error *error)
     return ok;
 }
 
+// Warns if --show environment can only be black.
+static void warn_environment(struct job *job)
+{
+    const char *show = job->options->picture.show;
+    if (show && strcmp(show, "environment") == 0 && !lam_scene_environment(job->scene) && !job->studio)
+        lam_scene_add_warning(job->scene, "option '--show environment' is black: no environment lights this model; "
+                                          "'--environment studio' sets one for physical and reflecting materials");
+}
+
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
 {
     lam_control control;
     if (!job_control(job, progress, &control, error) || !job_apply_options(job, &control, &job->sphere, error) ||
         !environment_apply(job->options, job->environments, job->scene, &control, error))
         return false;
+    warn_environment(job);
     if (job->options->picture.save_scene && option_given(job->options, "show"))
         lam_scene_add_warning(job->scene, "the saved scene file describes the picture without --show");
     if (job->options->picture.save_scene && job->options->limits.files_inside && !scene_settings_are_beside(job))

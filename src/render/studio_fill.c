@@ -5,6 +5,7 @@
 #include <lambent/render.h>
 
 #include <stdio.h>
+#include <stdlib.h>
 
 // The luminance below which a pixel counts as black, and the luminance of a surface that would be visible if it were
 // lit.
@@ -32,10 +33,31 @@ static double black_share(const lam_image *lit, const lam_image *surfaces, bool 
     return counted ? (double)black / (double)counted : 0;
 }
 
+static int by_size(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+// Returns the ratio of a pixel's luminance to that of its surface that a quarter of the lit pixels exceed, or 0 if none
+// is lit. The pixels of `lit` are overwritten.
+static double lit_ratio(const lam_image *lit, const lam_image *surfaces)
+{
+    float *ratios = lit->pixels;
+    size_t count = 0;
+    for (size_t i = 0; i < (size_t)lit->width * (size_t)lit->height; i++) {
+        const float *p = (const float *)lit->pixels + 4 * i, *q = (const float *)surfaces->pixels + 4 * i;
+        if (q[3] > 0 && luminance(q) > BLACK && luminance(p) >= BLACK)
+            ratios[count++] = (float)(luminance(p) / luminance(q));
+    }
+    qsort(ratios, count, sizeof *ratios, by_size);
+    return count ? (double)ratios[count * 3 / 4] : 0;
+}
+
 // Draws two pictures, the lit one and the colours of the surfaces, and returns the share that is black, or −1 on
-// failure.
+// failure. *ratio is the result of lit_ratio.
 static double measure(lam_device *device, const lam_scene *scene, const lam_camera *camera,
-                      const lam_draw_params *params, int width, int height, const lam_control *control,
+                      const lam_draw_params *params, int width, int height, const lam_control *control, double *ratio,
                       lam_error *error)
 {
     bool ground = params->ground != LAM_GROUND_NONE;
@@ -56,6 +78,7 @@ static double measure(lam_device *device, const lam_scene *scene, const lam_came
     drawn.ground = LAM_GROUND_NONE;
     ok = ok && lam_draw(device, scene, camera, &drawn, &surfaces, control, error);
     double share = ok ? black_share(&lit, &surfaces, ground) : -1;
+    *ratio = ok ? lit_ratio(&lit, &surfaces) : 0;
     lam_image_free(&lit);
     lam_image_free(&surfaces);
     return share;
@@ -90,12 +113,13 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
                    !lam_reflection_describe(params->reflection)->microfacet; // which an environment does not light
     if (classic || params->output != LAM_OUTPUT_PICTURE || lam_scene_environment(scene))
         return true;
-    double share = measure(device, scene, camera, params, width, height, control, error);
+    double ratio, share = measure(device, scene, camera, params, width, height, control, &ratio, error);
     if (share < 0)
         return false;
     if (share <= 0.1)
         return true;
-    double scale = math_exp2(params->exposure - LAM_STUDIO_FILL_EXPOSURE);
+    // The exposure suits a picture that is mostly black. With the studio, a few lit surfaces would be much too bright.
+    double scale = math_exp2(params->exposure - LAM_STUDIO_FILL_EXPOSURE) / (ratio > 1 ? ratio : 1);
     lam_environment *studio = lam_environment_built_in("studio", error);
     bool ok = studio && lam_scene_set_environment(scene, studio, 0, error) && scale_lights(scene, scale, error);
     lam_environment_free(studio);

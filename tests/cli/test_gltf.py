@@ -161,6 +161,20 @@ class Gltf(GltfCase):
             self.assertEqual((self.folder / "t0.png").read_bytes(), (self.folder / "t1.png").read_bytes())
             self.given.update(["a.png", "b.png", "a.json", "front.png", "back.png", "t0.png", "t1.png"])
 
+    def test_lights_beside_the_dim_studio(self):
+        """With the dim studio, the few surfaces that the file's own lights reach have their colour, and are not white."""
+        light = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 300}]}}
+        blue = {"pbrMetallicRoughness": {"baseColorFactor": [0.04, 0.08, 0.8, 1], "metallicFactor": 0, "roughnessFactor": 0.5}}
+        model = self.model(scenes=[{"nodes": [0, 1, 2]}], materials=[blue] * 3, extensions=light, nodes=[
+            {"mesh": 0, "scale": [2, 2, 1]}, {"mesh": 1, "translation": [3, 0, 0], "rotation": [0, math.sin(math.pi / 8), 0, math.cos(math.pi / 8)]},
+            {"translation": [40, 0, -1], "extensions": {"KHR_lights_punctual": {"light": 0}}}])
+        text = self.good(model, "-s", "64", "-o", "a.png", "--view", "front").stderr
+        self.given.add("a.png")
+        self.assertIn(b"a dim studio lights it too", text)
+        picture = read_png((self.folder / "a.png").read_bytes())
+        lit = max((pixel(picture, x, 32) for x in range(64) if pixel(picture, x, 32)[3] == 255), key=sum)
+        self.assertTrue(lit[0] < 100 and lit[2] > 150, lit)
+
     def test_glass_that_is_not_shown(self):
         """A warning says that glass is opaque under methods that do not show it."""
         model = self.model(materials=[{"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}, {}, {}])

@@ -187,7 +187,7 @@ void mesh_add_areas(const lam_mesh *mesh, size_t first, size_t step, const lam_m
                     double *all, double *facing);
 
 // Returns whether the visible objects are a terrain: an open surface with slopes, most of which faces up. It samples
-// about a thousand triangles. `scene` may be NULL.
+// a few hundred triangles. `scene` may be NULL.
 bool scene_is_terrain(const struct lam_scene *scene);
 
 // Changes the lights of the studio for a terrain, and returns their number.

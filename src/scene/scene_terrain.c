@@ -10,7 +10,18 @@
 #define FACING 0.6
 #define LEVEL  0.98
 
-enum { SAMPLES = 1024 }; // sampled triangles; a scene with fewer is a model of a few faces
+enum {
+    TRIANGLES_MIN = 1024, // with fewer, it is a model of a few faces
+    SAMPLES = 256,        // sampled triangles
+};
+
+// Multiplies by the upper 3×3.
+static lam_vec3 turned(const lam_mat4 *m, lam_vec3 v)
+{
+    return v3(m->m[0][0] * v.x + m->m[0][1] * v.y + m->m[0][2] * v.z,
+              m->m[1][0] * v.x + m->m[1][1] * v.y + m->m[1][2] * v.z,
+              m->m[2][0] * v.x + m->m[2][1] * v.y + m->m[2][2] * v.z);
+}
 
 void mesh_add_areas(const lam_mesh *mesh, size_t first, size_t step, const lam_mat4 *transform, lam_vec3 axis,
                     double *all, double *facing)
@@ -23,8 +34,8 @@ void mesh_add_areas(const lam_mesh *mesh, size_t first, size_t step, const lam_m
         }
         lam_vec3 a = v3_sub(p[1], p[0]), b = v3_sub(p[2], p[0]);
         if (transform) {
-            a = mat4_vector(transform, a);
-            b = mat4_vector(transform, b);
+            a = turned(transform, a);
+            b = turned(transform, b);
         }
         lam_vec3 area = v3_cross(a, b);
         *all += v3_length(area);
@@ -35,7 +46,7 @@ void mesh_add_areas(const lam_mesh *mesh, size_t first, size_t step, const lam_m
 bool scene_is_terrain(const struct lam_scene *scene)
 {
     uint64_t count = scene ? lam_scene_triangle_count(scene) : 0;
-    if (count < SAMPLES)
+    if (count < TRIANGLES_MIN)
         return false;
     const size_t step = (size_t)(count / SAMPLES);
     const lam_vec3 up = from_y_up(lam_scene_up(scene), v3(0, 1, 0));

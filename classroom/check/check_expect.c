@@ -127,7 +127,7 @@ static bool leave_out_turns(struct run *r, lam_device *device, struct scene_comp
     return ok;
 }
 
-// A possible expectation: bits of enum expectation, and numbers.
+// A possible expectation, given by bits of enum expectation and by numbers.
 struct candidate {
     unsigned expectation;
     struct contract_defaults numbers;
@@ -285,6 +285,6 @@ bool check_draw_references(struct run *r, lam_error *error)
     if (ok && numbers)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
                         "lambent takes the numbers of the exercise, such as the strength of the ambient light, from "
-                        "the shader's text: those that fit best");
+                        "the shader's text, and uses the numbers that fit best");
     return ok;
 }

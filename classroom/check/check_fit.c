@@ -172,8 +172,8 @@ static bool add_faults(struct fit *f, const struct interpretation *interpretatio
     return true;
 }
 
-// Finds the first fault, or else two faults, that explain every scene with one of the interpretations: `best` then
-// fits.
+// Finds the first fault, or else two faults, that explain every scene with one of the interpretations. If there are
+// any, `best` fits.
 static bool find_faults(struct fit *f, const struct interpretation *interpretations, int count,
                         struct interpretation *best, lam_error *error)
 {

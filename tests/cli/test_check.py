@@ -1,6 +1,6 @@
-# test_check.py: the command `check`: correct shaders pass, each known mistake is identified, and shaders that do not compile, do
-# not end or write NaN are reported.
-# Above 600 lines: one test for each option and each kind of submission, with the programs that they share.
+# test_check.py: the command `check`: correct shaders pass, each known mistake is identified, and shaders that do not compile,
+# never end or write NaN are reported. The file has more than 600 lines because it contains one test for each option and each
+# kind of submission, with the programs that they share.
 import base64
 import collections
 import concurrent.futures
@@ -26,9 +26,10 @@ from lectures import LECTURES  # noqa: E402
 from mistakes import MISTAKES  # noqa: E402
 
 SHADERS = ROOT / "tests" / "check"
-EVERY = int(os.environ.get("LAMBENT_CHECK_EVERY", "1"))  # only every n-th mistake and correct style; make test-long has all
+EVERY = int(os.environ.get("LAMBENT_CHECK_EVERY", "1"))  # only every n-th mistake and correct style; make test-long checks all
 SCHEMA = json.loads((ROOT / "docs" / "check.schema.json").read_text())
-# A search draws thousands of pictures with the same code; sanitized, the tests without one reach all of it.
+# A search draws thousands of pictures with the same code; with sanitizers, the tests without a search cover
+# all of this code.
 searches = unittest.skipIf("LAMBENT_SANITIZED" in os.environ, "a long search: builds without sanitizers run it")
 
 
@@ -40,7 +41,7 @@ def gl_missing():
 
 
 def edited(name, edits=()):
-    """The texts of a shader of tests/check, edited, by ending."""
+    """The edited texts of a shader of tests/check, by ending."""
     texts = {}
     for ending in ("frag", "vert"):
         path = SHADERS / f"{name}.{ending}"
@@ -61,13 +62,13 @@ class CheckTest(Case):
             self.skipTest(self.MISSING)
 
     def shader(self, name, edits=()):
-        """Writes a shader of tests/check, edited, as s.frag and s.vert; returns the arguments that check it."""
+        """Writes an edited shader of tests/check as s.frag and s.vert; returns the arguments that check it."""
         for ending, text in edited(name, edits).items():
             (self.folder / f"s.{ending}").write_text(text)
         return ["s.frag", *(["--vertex", "s.vert"] if (SHADERS / f"{name}.vert").exists() else [])]
 
     def run_program(self, *words, **more):
-        return super().run_program(*words, **{"timeout": None, **more})  # however slow the machine is
+        return super().run_program(*words, **{"timeout": None, **more})  # even on a slow machine
 
     def report_of(self, *words, code=0, size=64, **more):
         done = self.run_program("check", *words, "-s", size, "--json", **more)
@@ -97,18 +98,19 @@ class Right(CheckTest):
             with self.subTest(name):
                 report = self.report_of(*self.shader(name), size=128)
                 self.assertEqual((report["verdict"], report["contract"], report["lit_in"]), ("passes", contract, lit))
-                # Only the raw material of three.js has no name of a highlight, and one frame comes from derivatives.
+                # Only the raw material of three.js has no name for a highlight, and one frame comes from
+                # derivatives.
                 self.assertEqual((report["mistakes"], len(report["notes"])), ([], int(name in ("threejs-raw", "learnopengl-pbr-maps"))))
-                # The reference comes from the CPU device: the pictures agree far within the tolerance.
-                # Only at the edge of a cone may single pixels be on its other side.
+                # The reference comes from the CPU device, and the pictures agree far within the
+                # tolerance. Only at the edge of a cone, single pixels may be on its other side.
                 self.assertLess(max(scene["maximum"] for scene in report["scenes"] if "spot" not in scene["name"]), 1e-3)
                 self.assertLess(max(scene["share_over"] for scene in report["scenes"]), 1e-3)
                 self.assertGreater(min(scene["pixels"] for scene in report["scenes"]), 1000)
 
     def test_every_correct_style(self):
-        """The shaders of tests/check/correct.py, each of which is correct in its own way."""
+        """The shaders of tests/check/correct.py, each of which is correct in a different way."""
         self.assertGreaterEqual(len(CORRECT), 60)
-        groups = {}  # those with the same options are checked together
+        groups = {}  # shaders with the same options are checked together
         for number, (name, options, texts) in list(enumerate(CORRECT))[::EVERY]:
             for ending, text in texts.items():
                 (self.folder / f"{number:03}.{ending}").write_text(text, newline="")
@@ -122,7 +124,7 @@ class Right(CheckTest):
             self.assertEqual(done.stdout.count(b"\n"), sum(file.endswith("frag") for file in files), done.stderr)
 
     def test_printed_shaders(self):
-        """Shaders printed by `lambent shader` pass: their loops say which lights they have."""
+        """Shaders printed by `lambent shader` pass: their loops show which lights they use."""
         light = {"point": "point:attenuation=1/0.1/0.02", "plain": "point:position=1/2/3", "sun": "directional",
                  "spot": "spot:cutoff=30", "cones": "spot:inner=10,outer=20", "exponent": "spot:exponent=9", "sky": "hemisphere"}
         for words, lights in (
@@ -138,7 +140,7 @@ class Right(CheckTest):
                               [scene["name"] for scene in report["scenes"]])
 
     def test_printed_reflection_models(self):
-        """What `lambent shader` prints passes, with every reflection model: as it is, with products, and in two other forms."""
+        """Printed shaders of `lambent shader` pass with every reflection model: unchanged, with products, and in two other forms."""
         text = " ".join(self.good("--help").stdout.decode().split())
         models = re.search(r"The reflection model: ([a-z, -]*) or auto\.", text)[1].split(", ")
         self.assertGreaterEqual(len(models), 8)
@@ -163,7 +165,7 @@ class Right(CheckTest):
 
     @long
     def test_printed_model_with_a_mistake(self):
-        """In a model of which no mistakes are known, the verdict is right and says so; in GGX they are found."""
+        """For a reflection model without known mistakes, the verdict is right and states this; for GGX, mistakes are found."""
         for model, old, new, ids in (("oren-nayar", "b.diffuse * ", "0.5 * b.diffuse * ", None), ("ggx --single-scattering", "b.diffuse = b.diffuse * (1.0 - (", "b.diffuse = b.diffuse * (1.0 - 0.0 * (", ["diffuse-not-reduced"])):
             with self.subTest(model):
                 self.good("shader", "--reflection", *model.split(), "-q", "-o", "p")
@@ -189,7 +191,7 @@ class Right(CheckTest):
             self.bad(3, "check", "p.frag", "--vertex", "p.vert", says=says, leaves=("p.vert", "p.frag"))
 
     def test_printed_maps(self):
-        """The shader of a glTF file with every map passes: its maps hold other numbers in each scene."""
+        """The shader of a glTF file with every map passes; in each scene, its maps contain other numbers."""
         pictures = ["data:image/png;base64," + base64.b64encode(write_png(2, 2, bytes(range(i, i + 16)))).decode() for i in range(4)]
         corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
         data = b"".join(struct.pack("<3f", *p) for p in corners) + struct.pack("<9f", *[0, 0, 1] * 3) + \
@@ -224,7 +226,7 @@ class Right(CheckTest):
         self.assertEqual([m["id"] for m in told], ["metallic-from-red"])
 
     def test_alone(self):
-        """A fragment shader alone gets a correct vertex shader, in its own version of GLSL."""
+        """For a fragment shader alone, Lambent generates a correct vertex shader in the same version of GLSL."""
         for name in ("pittsburgh", "oregon", "nyu", "lambent", "learnopengl", "learnopengl-lights", "angel", "threejs", "threejs-raw"):
             with self.subTest(name):
                 self.shader(name)
@@ -259,7 +261,7 @@ class Right(CheckTest):
         self.assertEqual(self.report_of(*words, "--tolerance", 255)["verdict"], "passes")
 
     def test_terms(self):
-        """A term of which no name is declared is not asked for, unless --terms says so."""
+        """A term without a declared name is not expected, unless --terms requests it."""
         lines = (SHADERS / "pittsburgh.frag").read_text().splitlines(keepends=True)
         text = "".join(line for line in lines if "specular_product;" not in line and "specular = vec4(0.0)" not in line and "dot(n, l) <=" not in line)
         text = text.replace("specular_product * pow(max(dot(n, h), 0.0), shininess)", "vec4(0.0)")
@@ -274,7 +276,7 @@ class Right(CheckTest):
         self.bad(1, "check", "s.frag", "--terms", "ambient,difuse", says="did you mean 'diffuse'", leaves=("s.frag", "s.vert"))
 
     def test_low_precision(self):
-        """mediump, which llvmpipe computes with 16 bits: the pictures agree as closely as with highp."""
+        """With mediump, which llvmpipe computes with 16 bits, the pictures agree as closely as with highp."""
         for first in ("#version 100\nprecision mediump float;\n", "precision mediump float;\n",
                       "#ifdef GL_ES\nprecision lowp float;\n#endif\nvarying mediump vec3 unused;\n"):
             words = self.shader("pittsburgh")
@@ -296,7 +298,7 @@ class Right(CheckTest):
         self.assertEqual(self.report_of(*words)["verdict"], "passes")
 
     def test_styles(self):
-        """A normal turned to the eye by faceforward() is no mistake, and does not hide one."""
+        """A normal turned towards the eye by faceforward() is not a mistake, and does not hide one."""
         turned = ("frag", "vec3 v = normalize(V);", "vec3 v = normalize(V);\n    n = faceforward(n, -v, n);")
         report = self.report_of(*self.shader("pittsburgh", [turned]))
         self.assertEqual((report["verdict"], report["mistakes"]), ("passes", []))
@@ -319,7 +321,7 @@ class Right(CheckTest):
 
 
 class Mistakes(CheckTest):
-    """One method for each row of tests/check/mistakes.py, generated below. The rows are checked together, as a class's would be."""
+    """One method for each row of tests/check/mistakes.py, generated below. The rows are checked together, like the submissions of a class."""
 
     @classmethod
     def setUpClass(cls):
@@ -328,7 +330,7 @@ class Mistakes(CheckTest):
             return
         folder = pathlib.Path(tempfile.mkdtemp(prefix="lambent-cli-"))
         cls.addClassCleanup(shutil.rmtree, folder, True)
-        calls = collections.defaultdict(list)  # pictures are cached by contract, so a contract's shaders stay together
+        calls = collections.defaultdict(list)  # pictures are cached by contract, so the shaders of a contract stay together
         for number, (name, ids, edits) in list(enumerate(MISTAKES))[::EVERY]:
             options = demanding(PROGRAM, name, ids.split(), folder)
             for ending, text in edited(name, edits).items():
@@ -363,7 +365,8 @@ for number, row in list(enumerate(MISTAKES))[::EVERY]:
     setattr(Mistakes, "test_%03d_%s_%s" % (number, row[0], row[1].replace(" ", "_and_")), method)
 
 
-# Scenes of which one has what each mistake of `lambent shader --mistake` needs. Phong's model needs its own highlight.
+# A list of scenes that contains the requirements of each mistake of `lambent shader --mistake`. The Phong model
+# needs its own highlight.
 LAMP = "point:attenuation=0.4/0.3/0.2"
 LAMP_AND_SUN = ("--light", LAMP, "--light", "directional:direction=-1/-1/-1")
 SCENES = (("--light", LAMP), ("--light", LAMP, "--reflection", "phong"), ("--light", "directional:direction=-1/-1/-1"),
@@ -372,7 +375,7 @@ SCENES = (("--light", LAMP), ("--light", LAMP, "--reflection", "phong"), ("--lig
 
 class LectureStyle(CheckTest):
     def test_correct(self):
-        """Shaders in the lecture style pass, lit in either stage, whatever the lights."""
+        """Shaders in the lecture style pass with any lights and with lighting in either stage."""
         flat, gouraud = ("--shading", "flat"), ("--shading", "gouraud")
         for number, words in enumerate((*SCENES, (*SCENES[0], *gouraud), (*SCENES[3], *flat), (*SCENES[1], *gouraud, "--products"),
                                         ("--reflection", "lambert"), ("--viewer", "infinite"), ("--reflection", "kajiya-kay", *LAMP_AND_SUN),
@@ -413,7 +416,7 @@ class LectureStyle(CheckTest):
 
 class Refused(CheckTest):
     def test_names_of_rewritten_texts_mean_nothing_on_the_desktop(self):
-        """`fixed_NormalMatrix` stands for gl_NormalMatrix only in texts that were rewritten for OpenGL ES."""
+        """`fixed_NormalMatrix` replaces gl_NormalMatrix only in texts rewritten for OpenGL ES."""
         words = self.shader("lambent", [("vert", "uniform mat3 normal_matrix", "uniform mat3 fixed_NormalMatrix"), ("vert", "normal_matrix * ", "fixed_NormalMatrix * ")])
         report = self.report_of(*words, code=6)
         self.assertEqual(report["verdict"], "differs")
@@ -444,7 +447,7 @@ class Refused(CheckTest):
         self.hints_of("nyu", [("frag", "float attenuation =", "float weakened =")], "'attenuation' is not declared")
 
     def test_global_from_uniform(self):
-        """GLSL ES initialises globals with constants only."""
+        """GLSL ES allows only constants as initial values of globals."""
         for ending, old, new in (("vert", "varying ", "out "), ("frag", "varying ", "in ")):
             text = (SHADERS / f"nyu.{ending}").read_text().replace("#version 120\n", "").replace("attribute ", "in ").replace(old, new)
             text = text.replace("gl_FragColor", "pixel").replace("void main()", "vec3 tint = uColor;\nvoid main()" if ending == "frag" else "void main()")
@@ -460,7 +463,7 @@ class Refused(CheckTest):
                   "write uniform vec4 ambient_product")
 
     def test_nearest_of_what_is_declared(self):
-        """A name is looked for among those that its statement can use: by spelling, sound and role, never in another function."""
+        """Similar names are searched only among names that are valid in the statement: by spelling, sound and role, never in another function."""
         report = self.hints_of("pittsburgh", [("frag", "vec3 v = normalize(V);", "vec3 v = normalise(V) + eye_position + light_dir;"),
                                           ("frag", "uniform float shininess;", "uniform float shininess;\nuniform vec3 eye_point;\n"
                                            "float other(float light_dir) { return light_dir; }")],
@@ -471,17 +474,17 @@ class Refused(CheckTest):
     def test_young_functions(self):
         matrix = [("vert", "normalize(normal_matrix * vNormal.xyz)", "normalize(transpose(inverse(mat3(model_view))) * vNormal.xyz)")]
         report = self.hints_of("pittsburgh", matrix, "inverse() needs GLSL 140 (in WebGL 300 es), and this shader is GLSL 120: write `#version 140`")
-        self.assertEqual(len(self.notes(report, "compiler")), 1)  # neither overloads nor errors that follow from it
+        self.assertEqual(len(self.notes(report, "compiler")), 1)  # neither overloads nor resulting errors
         self.assertEqual(self.report_of(*self.shader("pittsburgh", matrix + [("vert", "#version 120", "#version 140"),
                                                                             ("frag", "#version 120", "#version 140")]))["verdict"], "passes")
 
     def test_misspelt_position(self):
-        """A misspelt gl_Position does not make attributes of varyings."""
+        """A misspelt gl_Position does not turn varyings into attributes."""
         report = self.hints_of("pittsburgh", [("vert", "gl_Position", "gl_position")], "'gl_position' should be gl_Position")
         self.assertEqual(self.notes(report, "unknown"), [])
 
     def test_both_shaders(self):
-        """The errors of both shaders are reported at once."""
+        """The errors of both shaders are reported together."""
         report = self.hints_of("pittsburgh", [("vert", "void main()", "main()"), ("frag", "normalize(V)", "normalize(W)")],
                            "write `void main()`", "'W' is not declared")
         self.assertEqual({note["file"] for note in report["notes"] if note["kind"] == "compiler"}, {"s.vert", "s.frag"})
@@ -516,7 +519,7 @@ class Unruly(CheckTest):
 
     @searches
     def test_search_limit(self):
-        """The search ends at its limit, and says so; where it is long enough, the limit changes nothing."""
+        """The search ends at its limit and reports this; if the limit is sufficient, it changes nothing."""
         words = self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")])
         reported = [self.report_of(*words, "--scenes", "all", "--search-limit", n, size=48, code=6) for n in (100, 20000, 10000)]
         self.assertEqual([(r["verdict"], r["mistakes"]) for r in reported], [("differs", [])] * 3)
@@ -539,7 +542,7 @@ class Unruly(CheckTest):
 
     @searches
     def test_every_size(self):
-        """Pictures with mistakes are drawn at every second or third pixel of large ones: the names are the same."""
+        """Pictures with mistakes are drawn at every second or third pixel of large pictures; the names are the same."""
         words = self.shader("pittsburgh", [("frag", "0.0), shininess)", "0.0), 2.0 * shininess)")])
         for size in (96, 119, 121, 128):
             report = self.report_of(*words, "--scenes", "all,highlight,gate", size=size, code=6)
@@ -553,7 +556,8 @@ class Unruly(CheckTest):
         self.assertGreater(sum(scene["not_numbers"] for scene in report["scenes"]), 0)
         self.assertTrue(any("NaN" in text for text in self.notes(report, "hint")))
 
-    # A software driver leaves a loop after some ten thousand iterations; these are slow, and there are many pixels.
+    # A software driver leaves a loop after about ten thousand iterations; these iterations are slow, and there are
+    # many pixels.
     LOOP = """float turn = 0.0;
     while (turn < 2.0) {
         turn = 0.5 * sin(turn + shininess) * pow(1.5 + cos(turn), 1.1);
@@ -564,7 +568,7 @@ class Unruly(CheckTest):
         return [*self.shader("pittsburgh", [("frag", "vec3 n = normalize(N);", self.LOOP)]), "-s", "512"]
 
     def processes(self):
-        """Processes with this test's variable in their environment."""
+        """The processes with this test's variable in their environment."""
         mark, found = b"LAMBENT_TEST=" + str(self.folder).encode(), []
         for entry in pathlib.Path("/proc").iterdir():
             try:
@@ -575,7 +579,7 @@ class Unruly(CheckTest):
         return found
 
     def wait_for(self, condition):
-        while not condition():  # bounded by the suite's own time limit
+        while not condition():  # limited by the suite's own time limit
             time.sleep(0.05)
 
     def test_endless(self):
@@ -584,7 +588,7 @@ class Unruly(CheckTest):
         self.assertEqual(self.processes(), [])
 
     def test_endless_and_asker_killed(self):
-        """The drawing process ends although its parent can no longer stop it."""
+        """The drawing process ends even if its parent can no longer stop it."""
         asker = subprocess.Popen([PROGRAM, "check", *self.endless(), "--stop-after", "1e5"], cwd=self.folder, stdout=subprocess.DEVNULL,
                                  env={**os.environ, "LAMBENT_TEST": str(self.folder)})
         self.wait_for(lambda: any(b"check-worker" in words for _, words in self.processes()))
@@ -602,7 +606,7 @@ class Unruly(CheckTest):
 
     @long
     def test_endless_and_left(self):
-        """Mesa 22 leaves such a loop by itself, and its processor time gives it away; Mesa 25 goes on, and the limit stops it."""
+        """Mesa 22 leaves such a loop after some iterations, and its processor time reveals it; Mesa 25 continues until the limit stops it."""
         report = self.report_of(*self.shader("pittsburgh", [("frag", "vec3 n = normalize(N);", self.LOOP)]), "--scenes", "all",
                                 "--stop-after", 20, code=6)
         self.assertEqual(report["verdict"], "endless")
@@ -627,26 +631,26 @@ class Unruly(CheckTest):
                 self.assertIn(said, " ".join(self.notes(report, "hint")))
             else:
                 self.assertEqual(report["verdict"], "passes")
-                self.assertEqual(len(report["notes"]), 1, report["notes"])  # no name of a diffuse or specular term
+                self.assertEqual(len(report["notes"]), 1, report["notes"])  # no name for a diffuse or specular term
                 self.assertIn("not expected: diffuse, specular", report["notes"][0]["text"])
 
     def test_unused_and_unset(self):
-        """An unknown name that nothing depends on does no harm; one with the value 0 is reported before any mistake."""
+        """An unknown name on which nothing depends does no harm; an unknown name with the value 0 is reported before any mistake."""
         unused = ("frag", "uniform float shininess;", "uniform float shininess;\nuniform vec3 of_no_use;")
         self.assertEqual(self.report_of(*self.shader("pittsburgh", [unused]), "--scenes", "all")["notes"], [])
         words = self.shader("pittsburgh", [("vert", "uniform mat3 normal_matrix;", "uniform mat3 turn;"),
                                            ("vert", "normal_matrix * vNormal", "turn * vNormal")])
-        self.assertEqual(self.report_of(*words)["contract"], "inferred")  # its use tells what it is
+        self.assertEqual(self.report_of(*words)["contract"], "inferred")  # its use determines its role
         self.bad(1, "check", *words, "--contract", "pittsburgh", says=("an input has no value", "'turn' (mat3"), leaves=("s.frag", "s.vert"))
 
     def test_driver_sleeps(self):
-        """A driver that waits for ever uses no processor time: the limit on elapsed time stops it."""
+        """A driver that waits forever uses no processor time, so the limit on elapsed time stops it."""
         self.driver("#include <unistd.h>\n#define STAND for (;;) pause()\n")
         report = self.report_of(*self.shader("oregon"), "--stop-after", 0.1, code=6, env={"LD_LIBRARY_PATH": str(self.folder)})
         self.assertEqual(report["verdict"], "endless")
 
     def driver(self, start):
-        """A replacement for the driver, each of whose functions does STAND."""
+        """A replacement for the driver, in which each function executes STAND."""
         source = self.folder / "egl.c"
         source.write_text(start + "void *eglGetProcAddress(const char *n) { (void)n; STAND; }\n" + "".join(
             f"void *egl{name}(void) {{ STAND; }}\n" for name in
@@ -678,10 +682,10 @@ class Unruly(CheckTest):
 
 
 class Contracts(CheckTest):
-    """A contract is a file: those that are built in, and a teacher's own."""
+    """A contract is a file: built-in contracts, and a teacher's own contract."""
 
     def own(self, old_names):
-        """Oregon's contract with other names, as my.json, and its correct shaders with the same."""
+        """Oregon's contract with other names, as my.json, and its correct shaders with the same names."""
         words = self.shader("oregon")
         text = (ROOT / "classroom" / "check" / "contracts" / "oregon.json").read_text()
         for path, name in ((self.folder / "s.frag", "s.frag"), (self.folder / "s.vert", "s.vert")):
@@ -712,7 +716,7 @@ class Contracts(CheckTest):
         self.bad(1, "check", *words, "--contract", "oregan", says=("'oregan'", "auto, lambent", "did you mean 'oregon'"), leaves=("s.frag", "s.vert"))
 
     def test_schema(self):
-        """The schema has the keys and roles that the reader knows, and a built-in contract can be printed and read again."""
+        """The schema contains the keys and roles that the reader knows, and a printed built-in contract can be read again."""
         schema = json.loads(self.good("generate", "contract-schema").stdout)
         wrong = {"contract": 1, "name": "x", "zzzzzzzzzzzzzz": 1}
         for keys, nest in ((schema["properties"], lambda file: file),
@@ -733,7 +737,8 @@ class Contracts(CheckTest):
         return ["s.frag", "--vertex", "s.vert"]
 
     def test_unknown(self):
-        """Names of no contract: the roles of the inputs are found by their use. Without evidence there is no verdict, but a sentence."""
+        """For names of no contract, the use of the inputs determines their roles. Without evidence, Lambent prints a sentence instead of a
+        verdict."""
         vert, frag = ((SHADERS / f"learnopengl.{ending}").read_text() for ending in ("vert", "frag"))
         for old, new in (("aPos", "inVertex"), ("aNormal", "inNormal"), ("uniform mat4 model;", "uniform mat4 M;"), ("(model", "(M")):
             vert = vert.replace(old, new)
@@ -750,16 +755,16 @@ class Contracts(CheckTest):
                                      ((vert, shadowed), (), ("'shadowMap' (sampler2D)", "--contract FILE")),
                                      (("void main() { gl_Position = gl_Vertex; }", black), (), ("no verdict",))):
             self.bad(1, "check", *self.write(*texts), *options, leaves=("s.frag", "s.vert"), says=says)
-        for contract in ("oregon", "learnopengl", "pittsburgh"):  # black passes nowhere
+        for contract in ("oregon", "learnopengl", "pittsburgh"):  # a black picture passes nowhere
             done = self.run_program("check", *self.write(vert, black), "--contract", contract)
             self.assertNotEqual(done.returncode, 0, contract)
-        # A slip of the pen is a mistake of the shader.
+        # A slip of the pen counts as a mistake of the shader.
         text = (SHADERS / "learnopengl.frag").read_text().replace("viewPos", "viewPosn")
         report = self.report_of(*self.write((SHADERS / "learnopengl.vert").read_text(), text), code=6)
         self.assertIn("'viewPosn' is not in the contract learnopengl; did you mean 'viewPos'", " ".join(self.notes(report, "unknown")))
 
     def test_inferred(self):
-        """Shaders of no contract: fixed state, numbers for the light, accepted forms, two mistakes, and what is not understood."""
+        """Shaders without a contract: fixed state, numeric lights, accepted forms, two mistakes, and unrecognised inputs."""
         fixed = ("varying vec3 N, L;\nvoid main() {\n    N = normalize(gl_NormalMatrix * gl_Normal);\n    L = gl_LightSource[0].position.xyz - vec3(gl_ModelViewMatrix * gl_Vertex);\n"
                  "    gl_Position = ftransform();\n}\n",
                  "varying vec3 N, L;\nvoid main() {\n    float d = max(dot(normalize(N), normalize(L)), 0.0);\n"
@@ -787,7 +792,7 @@ class Contracts(CheckTest):
         self.bad(1, "check", "s.frag", says=("vLighting", "--vertex"), leaves=("s.frag",))
 
     def test_numbers_for_names(self):
-        """What an exercise writes as numbers may be other numbers, and a highlight has the surface's colour or the light's."""
+        """Numbers in an exercise's text may be replaced by other numbers, and a highlight may have the colour of the surface or of the light."""
         words = self.shader("learnopengl", [("frag", "ambientStrength = 0.1", "ambientStrength = 0.3"), ("frag", "specularStrength = 0.5", "specularStrength = 0.8"),
                                             ("frag", ", 32.0)", ", 64.0)")])
         self.assertEqual(self.report_of(*words)["verdict"], "passes")
@@ -800,17 +805,17 @@ class Contracts(CheckTest):
 
     @searches
     def test_numbers_without_names(self):
-        """Where the text does not say which of its numbers is which, those that fit are taken; a mistake is still found."""
+        """If the text does not show the meaning of its numbers, the numbers that fit best are used; a mistake is still found."""
         edits = [("frag", "    float ambientStrength = 0.1;\n", ""), ("frag", "    float specularStrength = 0.5;\n", ""),
                  ("frag", "(ambientStrength + diffuse + specularStrength * specular)", "(0.25 + diffuse + 0.7 * specular)")]
         report = self.report_of(*self.shader("learnopengl", edits))
         self.assertEqual(report["verdict"], "passes")
-        self.assertIn("from the shader's text: those that fit best", " ".join(self.notes(report, "hint")))
+        self.assertIn("from the shader's text, and uses the numbers that fit best", " ".join(self.notes(report, "hint")))
         words = self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")])
         self.assertIn("\"gate\": \"required\"", " ".join(self.notes(self.report_of(*words), "hint")))
         report = self.report_of(*words, *demanding(PROGRAM, "learnopengl", ["no-gate"], self.folder), code=6)
         self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
-        # Numbers that come nearer than those of the exercise explain nothing.
+        # Numbers that fit better than the numbers of the exercise explain nothing.
         for old, new, expected in [("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("max(dot(n, l), 0.0)", "dot(n, l) * 0.5 + 0.5", ["half-lambert"]),
                                    ("vec3 v = normalize(viewPos - FragPos)", "vec3 v = viewPos - FragPos", ["half-of-raw-eye"]),
                                    ("max(dot(n, l), 0.0)", "pow(max(dot(n, l), 0.0), 2.0)", ["n.l-squared"])][::EVERY]:
@@ -827,14 +832,14 @@ class Contracts(CheckTest):
         self.assertEqual(report["verdict"], "passes")
 
     def test_scenes_once(self):
-        """Scenes that a shader cannot tell apart are drawn once."""
+        """Scenes that a shader cannot distinguish are drawn once."""
         names = [scene["name"] for scene in self.report_of(*self.shader("learnopengl"))["scenes"]]
         self.assertIn("all", names)
         self.assertNotIn("diffuse", names)
         self.assertIn("diffuse", [scene["name"] for scene in self.report_of(*self.shader("learnopengl-materials"))["scenes"]])
 
     def test_engine(self):
-        """three.js declares names for a ShaderMaterial: messages have the lines of the text itself, and nothing is declared twice."""
+        """three.js declares names for a ShaderMaterial: messages use the line numbers of the original text, and nothing is declared twice."""
         report = self.report_of(*self.shader("threejs", [("vert", "* normal)", "* nromal)"), ("frag", "vec3 h = normalize(l + v);", "vec3 h = normalize(l + w);")]), code=6)
         self.assertEqual(report["verdict"], "refused")
         lines = {note["file"]: note["line"] for note in report["notes"] if note["kind"] == "compiler"}
@@ -848,7 +853,7 @@ class Contracts(CheckTest):
         self.assertEqual(self.report_of(*words, code=6)["verdict"], "refused")
 
     def test_lectures(self):
-        """What is found in the courses' own programs (docs/check/contracts.md)."""
+        """The findings in the courses' own programs (docs/check/contracts.md)."""
         files = [f"{name}.{ending}" for name, *_ in LECTURES[::EVERY] for ending in ("vert", "frag")]
         for file in files:
             shutil.copy(SHADERS / "lectures" / file, self.folder)
@@ -875,7 +880,7 @@ class Contracts(CheckTest):
 
 
 class Several(CheckTest):
-    """Several shaders at once: files are paired by name, and one that cannot be checked does not stop the others."""
+    """Several shaders in one call: files are paired by name, and a shader that cannot be checked does not stop the others."""
 
     def write(self, name, shader, edits=()):
         for ending, text in edited(shader, edits).items():
@@ -902,7 +907,7 @@ class Several(CheckTest):
         self.assertEqual([r["vertex"] for r in reports], [n + ".vert" for n in names[:3]] + [None, None])
         self.assertEqual([r.get("verdict") for r in reports], ["passes", "differs", "differs", None, None])
         self.assertEqual([m["id"] for m in reports[1]["mistakes"]], ["no-gate"])
-        # The second such shader is compared with cached pictures: the same to the last digit.
+        # The second such shader is compared with cached pictures, with identical results.
         self.assertEqual(reports[1]["mistakes"], reports[2]["mistakes"])
         self.assertEqual([r["exit_code"] for r in reports[3:]], [1, 2])
         self.assertIn("--contract", reports[3]["error"])
@@ -925,7 +930,7 @@ class Several(CheckTest):
 
 class Without(Case):
     def test_no_gl(self):
-        """Without libEGL the error says what to install."""
+        """Without libEGL, the error message names the package to install."""
         (self.folder / "libEGL.so.1").write_text("no library")
         (self.folder / "s.frag").write_text((SHADERS / "oregon.frag").read_text())
         done = self.run_program("check", "s.frag", env={"LD_LIBRARY_PATH": str(self.folder)})

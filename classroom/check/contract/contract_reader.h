@@ -9,7 +9,7 @@ struct contract_reader {
     struct json_reader json;
     struct arena *arena;
     struct contract *contract;
-    struct contract_name *names; // the names read so far; later contract->names
+    struct contract_name *names; // the names read so far, which become contract->names
     int name_count;
 };
 

@@ -104,8 +104,8 @@ static bool contradict(const struct name_words *a, const struct name_words *b)
     return false;
 }
 
-// Returns the share of all words that both names contain. Sets `telling` to whether one of the shared words says more
-// than that the name is a position, a matrix or a colour.
+// Returns the share of all words that both names contain. Sets `telling` if one of the shared words is more specific
+// than position, matrix or colour.
 static double shared_words(const struct name_words *a, const struct name_words *b, bool *telling)
 {
     int shared = 0;

@@ -8,8 +8,8 @@
 // look. Words with the same role count as equal (position and point, eye and camera, normal and N).
 double name_similarity(const char *a, const char *b);
 
-// Returns the candidate most similar to `name`; of equal ones the first. Returns NULL if none is similar enough to be
-// suggested. NULL candidates are skipped.
+// Returns the candidate most similar to `name`. If several are equally similar, it returns the first of them. Returns
+// NULL if none is similar enough to be suggested. NULL candidates are skipped.
 const char *name_nearest(const char *name, const char *const *candidates, int count);
 
 #endif

@@ -25,7 +25,7 @@ enum uniform_semantic {
     SEMANTIC_AMBIENT,
     SEMANTIC_DIFFUSE,
     SEMANTIC_SPECULAR,
-    // The product, times the light's colour.
+    // That product times the light's colour.
     SEMANTIC_AMBIENT_PRODUCT,
     SEMANTIC_DIFFUSE_PRODUCT,
     SEMANTIC_SPECULAR_PRODUCT,

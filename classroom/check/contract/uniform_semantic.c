@@ -69,8 +69,8 @@ static struct uniform_value light_position(const struct reference_light *light, 
                                                 : vector(mat4_point(to, light->position), 1);
 }
 
-// Returns the cosine of the cutoff and the exponent; for shaders with two angles, returns a hard edge at the cutoff, or
-// none.
+// Returns the cosine of the cutoff and the exponent. For shaders with two angles, it returns a hard edge at the cutoff,
+// or no edge.
 static struct uniform_value cone(const struct reference_light *light)
 {
     if (light->cutoff_deg <= 0)
@@ -189,7 +189,7 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return cone(light);
     case SEMANTIC_CUTOFF:
         return number(cone(light).v[0]);
-    case SEMANTIC_OUTER_CUTOFF: // no width between the two angles: all soft edges are hard
+    case SEMANTIC_OUTER_CUTOFF: // soft edges become hard, because there is no width between the two angles
         return number(cone(light).v[0] - (light->cutoff_deg > 0 ? 1e-6f : 0.1f));
     case SEMANTIC_SPOT_EXPONENT:
         return number(light->exponent);

@@ -8,8 +8,8 @@
 #include "shader_interface.h"
 
 // The switches. The fault shader tests each switch with is(NAME). Switches up to MEAN_DISTANCE concern normals, spaces
-// and lengths, those up to USE_ACES the written colour, the others the terms (fault_shader.c compiles no code for
-// groups that are off).
+// and lengths. The next ones, up to USE_ACES, concern the written colour, and the others the terms. fault_shader.c
+// compiles no code for groups that are off.
 // clang-format off
 #define FAULT_BITS(X) \
     X(LONG_NORMAL) X(LONG_NORMAL_VERTEX) X(LONG_EYE) X(LONG_LIGHT) X(RAW_HALF) X(HALF_LONG) \
@@ -57,7 +57,7 @@ enum fault_bit {
         FAULT_BIT_COUNT
 };
 enum { FAULT_WORDS = 4 };
-_Static_assert(FAULT_BIT_COUNT <= 64 * FAULT_WORDS, "fault_set has room for all switches");
+_Static_assert(FAULT_BIT_COUNT <= 64 * FAULT_WORDS, "fault_set has a bit for each switch");
 
 // A set of switches, and the change of the highlight's exponent.
 typedef struct fault_set {
@@ -100,7 +100,7 @@ enum fault_where {
 enum fault_maps {
     MAPS_BASE = 1,                // the shader reads a map of the base colour
     MAPS_METALLIC_ROUGHNESS = 2,  // a map of roughness and metalness
-    MAPS_DATA = 4,                // that map, or one of only metalness or roughness
+    MAPS_DATA = 4,                // that map, or a map of metalness or roughness alone
     MAPS_NORMAL = 8,              // a normal map
     MAPS_OCCLUSION = 16,          // an occlusion map, which multiplies an ambient term
     MAPS_EMISSION = 32,           // an emission map
@@ -136,10 +136,11 @@ struct fault {
     unsigned maps;                // bits of fault_maps
     float factor;                 // the factor of the exponent, or 0
     enum fault_fit fit;
-    bool rare;       // not reported together with another fault with the same pictures
+    bool rare;       // rarer than other faults with the same pictures, and not reported together with them
     bool style;      // not a mistake, but a form that is as correct as the reference
     bool whole_term; // one or more terms are missing completely
-    unsigned demand; // bits of contract_demand: a mistake only if the contract requires one of them, else a style
+    unsigned demand; // bits of contract_demand: the fault is a mistake only if the contract requires one of these
+                     // forms; otherwise it is a style
 };
 
 extern const struct fault faults[];

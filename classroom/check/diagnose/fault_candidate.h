@@ -7,7 +7,7 @@
 // As fractions of the difference without faults: the largest remainder of a scene, or of all scenes, that counts as
 // explained.
 static const double max_ratio_explained = 0.125;
-// Means that a mean difference has no limit.
+// The limit of a mean difference if there is no limit.
 static const double no_limit = 1e9;
 
 // A set of faults, and the remaining difference.

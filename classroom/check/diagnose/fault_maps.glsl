@@ -81,7 +81,7 @@ float rough()
     return is(ROUGHNESS_INVERTED) ? 1.0 - r : r;
 }
 
-// Light of the surface's own.
+// The light that the surface emits.
 vec3 emitted()
 {
     if (!has(EMISSION_MAP) || is(NO_EMISSION)) {

@@ -228,7 +228,7 @@ void fault_shader_close(struct fault_shader *m)
         return;
     lam_error unused;
     if (m->rests)
-        fault_shader_wake(m, &unused); // a context that cannot be woken is closed at rest
+        fault_shader_wake(m, &unused); // if the context cannot be woken, it is closed at rest
     for (int i = 0; i < m->program_count; i++)
         forget(m, m->programs[i].built);
     place_close(&m->place);
@@ -410,7 +410,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_number(m, "metallic", reference_scene->metallic);
     set_number(m, "roughness", reference_scene->roughness);
     set_maps(m, reference_scene);
-    // The inside of a closed mesh is not visible; upside down, its front faces are reversed.
+    // The inside of a closed mesh is not visible. In an upside-down picture, front faces are reversed.
     bool closed = reference_scene->mesh == MESH_SPHERE || reference_scene->mesh == MESH_COARSE;
     if (m->full)
         return fail(error, LAM_LIMIT, "check: more than %d values for its own shader", MAX_VALUES);

@@ -8,7 +8,7 @@
 // All inputs that determine a picture of the fault shader.
 struct render_key {
     int scene;                            // index in reference_scenes
-    uint64_t contract, declared, numbers; // the contract's hash; of shader_interface; shader_constants_hash
+    uint64_t contract, declared, numbers; // hashes: of the contract, of shader_interface, and shader_constants_hash
     int light_frame, reflection, vertex_lit;
     int size; // width and height in pixels
     int light_capacity;

@@ -42,7 +42,7 @@ static bool is_noise(const char *words)
            strstr(words, ", error") || strstr(words, "of type error");
 }
 
-// Adds the messages of one log, each with the hints that explain it. `d` NULL: the linker's log.
+// Adds the messages of one log, each with the hints that explain it. If `d` is NULL, the log is the linker's.
 static void add_log(struct diagnostics *diagnostics, const char *text, const struct declarations *d, const char *file)
 {
     char log[sizeof((struct draw_result *)0)->log];

@@ -86,7 +86,7 @@ static void add_binding(struct shader_run *run, int index)
         return;
     }
     if (input->type == LAM_CHECK_TYPE_OTHER && known->semantic == SEMANTIC_ZERO)
-        return; // the default value of a uniform that nobody sets
+        return; // the default value of a uniform that is not set
     if (!type_fits(input->type, known)) {
         if (run->drawn.types_count < MAX_UNKNOWN_NAMES)
             snprintf(run->drawn.types[run->drawn.types_count++], sizeof run->drawn.types[0],

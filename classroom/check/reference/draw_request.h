@@ -20,11 +20,11 @@ struct draw_result {
     int state;                          // enum draw_state
     int group_counts[MAX_LIGHT_GROUPS]; // for each list of lights, the number of lights that the driver uses
     char driver[128];
-    bool refused_vertex, refused_fragment; // DRAWN_REFUSED: those that do not compile
+    bool refused_vertex, refused_fragment; // with DRAWN_REFUSED, the shaders that do not compile
     // the log of the vertex shader or the linker; for DRAWN_SLOW the scene's name
     char log[4096];
     char fragment_log[4096];
-    double seconds;                      // DRAWN_SLOW: processor time of that scene
+    double seconds;                      // with DRAWN_SLOW, the processor time of that scene
     char unknown[MAX_UNKNOWN_NAMES][64]; // active uniforms and attributes that are not in the contract
     char types[MAX_UNKNOWN_NAMES][96];   // messages about uniforms whose type does not fit
     int unknown_count, types_count;

@@ -18,7 +18,7 @@ struct gl_mesh {
 };
 
 struct gl_place {
-    struct gl_context context; // must not move while it is current
+    struct gl_context context; // its address must not change while it is current
     struct gl_previous_context previous;
     int size;
     bool rests;     // the context is not current
@@ -31,7 +31,7 @@ struct gl_place {
 // The destination of an input's values.
 struct gl_input {
     GLint location;                             // the location of the first element, or −1 in a block
-    GLint block, offset, stride, matrix_stride; // in the block, of the first element, in bytes
+    GLint block, offset, stride, matrix_stride; // the position of the first element in the block, in bytes
     GLenum type;
 };
 
@@ -258,7 +258,7 @@ static void forget(void *place, lam_check_program *program)
     struct gl_program *p = program->program;
     if (p && !t->rests) { // otherwise they are freed with the context
         t->context.gl.DeleteProgram(p->name);
-        t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // ignores 0, like the next call
+        t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // this call and the next one ignore 0
         t->context.gl.DeleteTextures(MAX_TEXTURES, p->textures);
     }
     if (p) {
@@ -421,7 +421,7 @@ static void upload_mesh(struct gl_place *t, const lam_check_mesh *mesh)
     own->there = true;
 }
 
-// Binds a buffer to an attribute, or to the built-in one if it is negative.
+// Binds a buffer to an attribute, or to the built-in attribute if the number is negative.
 static void point_at(const struct gl *gl, GLuint buffer, int place, int width, bool is_normal)
 {
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer);

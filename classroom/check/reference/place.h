@@ -7,7 +7,7 @@
 enum { MAX_TEXTURE_COORDINATES = 2, MAX_FACTORS = 2 };
 
 struct place {
-    lam_check_painter painter; // a copy: a cache may keep the context longer
+    lam_check_painter painter; // a copy, because a cache may keep the context longer
     void *place;               // the painter's context; NULL if not open
     int size;
     char renderer[128];
@@ -19,7 +19,7 @@ struct place {
 
 bool place_open(struct place *place, const lam_check_painter *painter, lam_check_language language, int size,
                 lam_error *error);
-void place_close(struct place *place); // a zeroed one is allowed
+void place_close(struct place *place); // a zeroed struct is allowed
 
 // The indices of a program's inputs for map data, −1 if missing.
 struct map_inputs {

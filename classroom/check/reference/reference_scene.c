@@ -25,7 +25,7 @@
 #define LAMP   {.type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, WHITE, .attenuation = {0.6f, 0.1f, 0.04f}}
 
 const struct reference_scene reference_scenes[] = {
-    {"all", "every term together, a stretched model, a light near by", 0, STRETCHED, MATTER, .ka = 0.25f, .kd = 0.8f,
+    {"all", "every term together, a stretched model, a nearby light", 0, STRETCHED, MATTER, .ka = 0.25f, .kd = 0.8f,
      .ks = 0.6f, .shininess = 20, .metallic = 0.3f, .roughness = 0.5f, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_POINT, .position = {1.6, 2.2, 2.4}, TINTED, .attenuation = {0.6f, 0.1f, 0.04f}}}},
     {"ambient", "the ambient term alone", NEED_AMBIENT, STRETCHED, MATTER, .ka = 0.8f, .shininess = 20, .metallic = 0,
@@ -39,9 +39,9 @@ const struct reference_scene reference_scenes[] = {
     {"gate", "light from behind: no highlight where n.l is not above 0", 0, .mesh = MESH_SPHERE, BALL, MATTER,
      .ks = 0.9f, .kd = 0.1f, .shininess = 3, .metallic = 0, .roughness = 0.3f, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_POINT, .position = {-1.2, 1.9, -2.4}, WHITE, .attenuation = {1, 0, 0}}}},
-    {"grazing", "a light just below a plane: no highlight, however small", 0, .mesh = MESH_PLANE,
-     .scale = {1.5, 1, 1.6}, .turn_axis = {0, 1, 0}, .eye = {0.3, 0.55, 3.4}, .target = {0, 0, 0}, MATTER, .kd = 0.5f,
-     .ks = 1, .shininess = 40, .metallic = 0.5f, .roughness = 0.4f, .light_count = 1,
+    {"grazing", "a light just below a plane: not even a small highlight", 0, .mesh = MESH_PLANE, .scale = {1.5, 1, 1.6},
+     .turn_axis = {0, 1, 0}, .eye = {0.3, 0.55, 3.4}, .target = {0, 0, 0}, MATTER, .kd = 0.5f, .ks = 1, .shininess = 40,
+     .metallic = 0.5f, .roughness = 0.4f, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_POINT, .position = {0.1, -0.15, -3}, WHITE, .attenuation = {1, 0, 0}}}},
     {"coarse", "few triangles: interpolated normals are short", 0, .mesh = MESH_COARSE, .scale = {1.1, 0.6, 0.9},
      .turn_axis = {1, 1, 0}, .turn_deg = 20, .move = {0.3, 0.2, 0.1}, .eye = {-0.8, 0.9, 3.2}, .target = {0.2, 0.1, 0},
@@ -118,18 +118,18 @@ const struct reference_scene reference_scenes[] = {
     {"alpha", "a translucent material: alpha is the diffuse alpha", NEED_ALPHA, .mesh = MESH_SPHERE, BALL, COLORS,
      .alpha = 0.4f, .ka = 0.15f, .kd = 0.7f, .ks = 0.4f, .shininess = 10, .metallic = 0, .roughness = 0.5f,
      .light_count = 1, .lights = {LAMP}},
-    {"bumps", "a normal map on a stretched patch, a light near by", NEED_NORMAL_MAP, .mesh = MESH_PATCH, PATCH, MATTER,
+    {"bumps", "a normal map on a stretched patch, a nearby light", NEED_NORMAL_MAP, .mesh = MESH_PATCH, PATCH, MATTER,
      .ka = 0.1f, .kd = 0.8f, .ks = 0.4f, .shininess = 12, .metallic = 0.3f, .roughness = 0.45f,
      .bump = {0.42, -0.30, 0.78}, .light_count = 1, .lights = {LAMP}},
-    {"bumps aside", "another normal map there, a light from the side", NEED_NORMAL_MAP, .mesh = MESH_PATCH, PATCH,
-     MATTER, .ka = 0.1f, .kd = 0.7f, .ks = 0.5f, .shininess = 10, .metallic = 0.8f, .roughness = 0.5f,
+    {"bumps aside", "another normal map on that patch, a light from the side", NEED_NORMAL_MAP, .mesh = MESH_PATCH,
+     PATCH, MATTER, .ka = 0.1f, .kd = 0.7f, .ks = 0.5f, .shininess = 10, .metallic = 0.8f, .roughness = 0.5f,
      .bump = {-0.25, -0.45, 0.80}, .light_count = 1,
      .lights = {{.type = LAM_LIGHT_POINT, .position = {-2.3, 1.1, 2}, WHITE, .attenuation = {0.6f, 0.1f, 0.04f}}}},
     {"mirrored", "a normal map whose u is mirrored", NEED_NORMAL_MAP | NEED_TANGENT_SIGN, .mesh = MESH_PATCH_MIRRORED,
      PATCH, MATTER, .ka = 0.1f, .kd = 0.8f, .ks = 0.4f, .shininess = 12, .metallic = 0.3f, .roughness = 0.45f,
      .bump = {0.38, 0.36, 0.76}, .light_count = 1, .lights = {LAMP}},
-    {"glow", "light of the surface's own", NEED_EMISSION_MAP, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.1f, .kd = 0.5f,
-     .ks = 0.3f, .shininess = 12, .metallic = 0.3f, .roughness = 0.5f, .emission = {0.30f, 0.12f, 0.45f},
+    {"glow", "light that the surface emits", NEED_EMISSION_MAP, .mesh = MESH_SPHERE, BALL, MATTER, .ka = 0.1f,
+     .kd = 0.5f, .ks = 0.3f, .shininess = 12, .metallic = 0.3f, .roughness = 0.5f, .emission = {0.30f, 0.12f, 0.45f},
      .light_count = 1, .lights = {LAMP}},
 };
 const int reference_scene_count = sizeof reference_scenes / sizeof reference_scenes[0];
@@ -184,8 +184,8 @@ static int add_mesh(lam_scene *scene, enum reference_mesh mesh, lam_error *error
     return -1;
 }
 
-// Fills `points`, whose arrays have an element for every corner. `heads` has the first vertex of each position, or −1.
-// `next` has, for each vertex, the next one at its position.
+// Fills `points`, whose arrays have an element for every corner. `heads` contains the first vertex of each position, or
+// −1. `next` contains, for each vertex, the next vertex at its position.
 static void share_vertices(const lam_mesh *m, struct reference_points *points, int32_t *heads, int32_t *next)
 {
     for (uint32_t p = 0; p < m->vertex_count; p++)

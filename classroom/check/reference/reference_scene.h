@@ -58,8 +58,8 @@ enum reference_rule {
 struct reference_light {
     lam_light_type type; // point, directional, spot
     lam_vec3 position;
-    // Directional: the direction to the light; spot: opposite to its axis; point: as for a spot, for shaders that read
-    // an axis (zero: from the camera's target).
+    // For a directional light, the direction to the light. For a spot, the opposite of its axis. For a point light the
+    // same, for shaders that read an axis (zero: from the camera's target).
     lam_vec3 to_light;
     lam_rgb color;        // Ld
     lam_rgb specular;     // Ls
@@ -90,8 +90,8 @@ struct reference_scene {
     // exactly a unit vector, as in filtered maps.
     lam_vec3 bump;
     lam_rgb emission; // the colour of an emission map
-    // For shaders that read maps: the bits (map_bit) of the maps, and of the maps with a separate factor. Factor times
-    // texel is the number above.
+    // For shaders that read maps: the bits (map_bit) of the maps, and of the maps with a separate factor. The product
+    // of factor and texel is the number above.
     unsigned maps, factors;
     float occlusion;    // the value of an occlusion map
     bool encoded_maps;  // contract.maps
@@ -106,12 +106,12 @@ extern const int reference_scene_count;
 int reference_scene_find(const char *name); // returns −1 if not found
 
 // Positions, normals and tangents of vertices, three floats each, without duplicate vertices, and three indices for
-// each triangle: few enough for OpenGL ES 2 with its 16-bit indices. From malloc.
+// each triangle. The 16-bit indices of OpenGL ES 2 are sufficient. The arrays are allocated with malloc.
 struct reference_points {
     float *positions, *normals, *tangents;
-    // For maps: texture coordinates with two floats, linear in the position, so that their derivatives are nowhere
-    // zero, and tangents with four: the tangent and the sign of the bitangent. On a patch the tangent is the direction
-    // in which u increases.
+    // Data for maps. Texture coordinates have two floats and are linear in the position, so that their derivatives are
+    // nowhere zero. Tangents have four floats: the tangent and the sign of the bitangent. On a patch the tangent is the
+    // direction in which u increases.
     float *texture_coordinates, *surface_tangents, *bitangents;
     uint16_t *indices;
     int vertex_count, count; // `count` is the number of indices

@@ -25,8 +25,8 @@ struct word {
     int line;
     int depth;      // nesting of braces
     bool is_member; // follows a '.'
-    // For declarations_uses, in the first of equal words: the number of occurrences, and of occurrences as a declared
-    // name.
+    // For declarations_uses. The first of several equal words stores how often the word occurs, and how often it occurs
+    // as a declared name.
     int times, declared;
 };
 

@@ -45,8 +45,8 @@ static lam_rgb *light_color(struct reference_light *light, enum light_term term)
 }
 
 // Sets the strength of a term to the fixed value if the shader has no name for it. A scene switches a term off by its
-// strength; in that case the term's colour becomes black, or else the lights' colours. `color` NULL, `lit` false: the
-// shader has no such colour.
+// strength; in that case the term's colour becomes black, or else the lights' colours. If `color` is NULL or `lit` is
+// false, the shader has no such colour.
 static void fix_strength(struct reference_scene *s, const struct default_number *fixed, float *strength, lam_rgb *color,
                          bool lit, enum light_term term)
 {

@@ -10,7 +10,7 @@
 // Returns the restrictions on the kinds of lights (reference_rule), or 0 if the shader is not in the lecture style.
 unsigned lecture_light_rules(const struct declarations *lit);
 
-// Returns the reflection model of a shader in the lecture style; AUTO: Lambert's.
+// Returns the reflection model of a shader in the lecture style; AUTO means Lambert's.
 lam_reflection lecture_model(const struct declarations *lit);
 
 // Returns whether its viewer is infinitely far: the vector to the eye is a constant.

@@ -6,7 +6,7 @@
 
 // The texts of a program as the contract's engine compiles them.
 struct complete_texts {
-    const char *vertex, *fragment; // `vertex` NULL: not given
+    const char *vertex, *fragment; // `vertex` is NULL if it is not given
     char *owned[2];                // the allocated copies
     int lines[2];                  // the number of lines in the prefixes
 };

@@ -22,7 +22,7 @@ struct tokens {
 
 struct macro {
     char name[64];
-    bool function, disabled; // disabled: during its own expansion
+    bool function, disabled; // a macro is disabled during its own expansion
     int parameter_count;
     char parameters[MAX_PARAMETERS][64];
     const struct token *body;
@@ -479,7 +479,7 @@ bool preprocess(struct declarations *d, const char *text)
                 end++;
             run_directive(&p, &t->items[i + 1], end - i - 1);
             i = end + 1;
-        } else { // up to the next directive, because a macro's arguments may be on several lines
+        } else { // expands the text up to the next directive, because a macro's arguments may be on several lines
             while (end < t->count && !t->items[end].directive)
                 end++;
             if (is_active(&p))

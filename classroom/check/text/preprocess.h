@@ -1,4 +1,4 @@
-// preprocess.h: the words of a GLSL text after preprocessing: macros are expanded, excluded branches removed.
+// preprocess.h: the words of a GLSL text after preprocessing: macros are expanded, and excluded branches are removed.
 #ifndef PREPROCESS_H
 #define PREPROCESS_H
 

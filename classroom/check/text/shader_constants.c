@@ -76,7 +76,7 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
     return false;
 }
 
-// Finds the exponent of a highlight among all pow(x, number): the largest. Squares and similar powers have other
+// Finds the exponent of a highlight: the largest number in all pow(x, number). Squares and similar powers have other
 // meanings.
 static bool find_exponent(const struct declarations *d, double *out)
 {

@@ -26,12 +26,13 @@ struct shader_interface {
     // The space of the shaders' lighting, CAMERA or WORLD, and of their first light.
     lam_light_frame space, light_frame;
     unsigned supports; // bits of reference_need, and of reference_rule
-    // As contract->groups. If the shaders declare no light, the first group is the light that the contract fixes.
+    // The groups, in the order of contract->groups. If the shaders declare no light, the first group is the light that
+    // the contract fixes.
     struct light_group groups[MAX_LIGHT_GROUPS];
     bool vertex_lit; // the fragment shader has no name of a material or light
     bool physical;   // uses metalness and roughness; contract->physical describes the lighting
     // For a shader printed by `lambent shader`: its reflection model, tone curve, and whether it has multiple
-    // scattering. AUTO, AUTO and false: another shader, or Lambert's model.
+    // scattering. They are AUTO, AUTO and false for other shaders and for Lambert's model.
     lam_reflection printed_model;
     lam_tone printed_tone;
     bool multiple_scattering;

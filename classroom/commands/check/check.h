@@ -30,7 +30,7 @@ lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_by
 struct check_submission {
     char *name; // the path of the fragment shader; in a class, relative to the folder and without the extension
     char *fragment, *vertex;
-    const char *problem; // why nothing can be checked; NULL if it can
+    const char *problem; // the reason why nothing can be checked, or NULL
 };
 void check_free_submissions(struct check_submission *submissions, int count);
 

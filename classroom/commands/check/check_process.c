@@ -3,7 +3,7 @@
 //
 // The time limit applies to the processor time of all threads, so that other load on the machine does not make a shader
 // appear endless. The processor may be idle while a graphics card works, so the elapsed time is limited too, to
-// WALL_TIMES as much.
+// WALL_TIMES times as much.
 #include "check.h"
 
 #include <errno.h>

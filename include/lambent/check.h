@@ -270,8 +270,8 @@ typedef struct lam_check_params {
     // The search for mistakes ends after comparing this many pictures of combined mistakes; 0: 10000. The result is the
     // same on every machine, with or without a cache.
     uint64_t max_pictures;
-    // Draws instead of OpenGL. NULL: NULL: OpenGL draws, on `gl_device`. If `draw` is set, it still draws the shaders
-    // under test. The caller keeps the painter and its data valid until the check and its cache are freed.
+    // Draws instead of OpenGL. NULL: OpenGL draws, on `gl_device`. If `draw` is set, it still draws the shaders under
+    // test. The caller keeps the painter and its data valid until the check and its cache are freed.
     const lam_check_painter *painter;
     LAM_RESERVED(13);
 } lam_check_params;

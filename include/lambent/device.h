@@ -112,10 +112,9 @@ typedef enum lam_output {
     LAM_OUTPUT_NORMALS,
     // Tangents from the file or the direction field, perpendicular to the normal. They are coded as normals.
     LAM_OUTPUT_TANGENTS,
-    // Distance d in front of the eye along the view, model units. 8-bit code: 8-bit code: (far − d)/(far − near), so
-    // that near is white and far is black. near and far are the distances of the scene's nearest and farthest vertices,
-    // limited to the camera's planes (lam_frame_report.depth_near, depth_far). A range below 1/100000 of far is all
-    // white.
+    // Distance d in front of the eye along the view, model units. 8-bit code: (far − d)/(far − near), so that near is
+    // white and far is black. near and far are the distances of the scene's nearest and farthest vertices, limited to
+    // the camera's planes (lam_frame_report.depth_near, depth_far). A range below 1/100000 of far is all white.
     LAM_OUTPUT_DEPTH,
     LAM_OUTPUT_N_L, // cosine between normal and light; 8-bit: max(n·l, 0)
     // Cosine between normal and half vector. 8-bit code: max(n·h, 0).
@@ -403,7 +402,7 @@ typedef struct lam_frame_report {
 LAM_API bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                       const lam_draw_params *params, lam_image *image, const lam_control *control, lam_error *error);
 
-// Finds the exposure, in stops, at which 95 % of the covered pixels of a frame are at most as bright as 0.8 (Rec. 709
+// Finds the exposure, in stops, at which 95 % of the covered pixels of a frame are at most as bright as 0.8 (BT.709
 // luminance), rounded to thirds of a stop. The exposure is 0 if there is no light. The frame is drawn with an exposure
 // of 0, at most 512 pixels wide and high. Errors as lam_draw.
 LAM_API bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_camera *camera,

@@ -16,7 +16,7 @@ typedef enum lam_pixel_format {
     LAM_RGBA32F = 1, // 4 floats per pixel
     LAM_BGRA8,       // 4 bytes per pixel, blue first
     LAM_RGB8,        // 3 bytes per pixel
-    // 1 byte per pixel: the luminance of the RGB8 picture (Rec. 709: 0.2126 R + 0.7152 G + 0.0722 B of its linear
+    // 1 byte per pixel: the luminance of the RGB8 picture (BT.709: 0.2126 R + 0.7152 G + 0.0722 B of its linear
     // light, encoded again). Raw numbers and outputs of surface properties (lam_output) are weighted without
     // conversion.
     LAM_GREY8,

@@ -17,9 +17,9 @@ extern "C" {
 //   gold,opacity=0.5       both, the name first
 //   ambient=diffuse        returns as much ambient light as diffuse light
 //   #ff8800                is short for color=#ff8800; also a colour's name that no material has, or r/g/b
-// Colours are as lam_color_parse takes them, or one number for all three channels. The symbols of colours (ka, kd, ks,
-// kr) multiply them; `color` sets ambient and diffuse, `specular_color` the highlight's colour for ks and kr. False: the
-// material is unchanged.
+// Colours have the forms of lam_color_parse, or are one number for all three channels. The symbols of colours (ka, kd,
+// ks, kr) multiply them; `color` sets ambient and diffuse, `specular_color` the highlight's colour for ks and kr.
+// Returns false on failure and leaves the material unchanged.
 LAM_API bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *material, lam_error *error);
 
 // Returns the keys of lam_material_parse, from 0, or NULL if the index is out of range.

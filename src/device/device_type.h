@@ -17,14 +17,14 @@ struct device_type {
     // Returns the bytes kept from frame to frame.
     uint64_t (*memory)(const struct lam_device *device);
     void (*free)(struct lam_device *device); // frees the device itself too
-    bool makes_normals;                      // can draw frames whose makes_normals is set
+    bool makes_normals;                      // whether it can draw frames whose makes_normals is set
 };
 
 // The base of every device; a device's own struct begins with it.
 struct lam_device {
     const struct device_type *type;
     char name[96];
-    lam_isa isa; // AUTO and 0 threads if they do not apply
+    lam_isa isa; // LAM_ISA_AUTO and 0 threads if they do not apply to this device
     int threads;
     struct pool *pool; // NULL if only the calling thread runs tasks
     struct frame frame;

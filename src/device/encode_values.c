@@ -7,7 +7,8 @@
 
 #include <string.h>
 
-static float clamped(float x, float low, float high) { return x > high ? high : x > low ? x : low; } // NaN gives low
+// Returns `low` for NaN.
+static float clamped(float x, float low, float high) { return x > high ? high : x > low ? x : low; }
 
 static uint8_t code_byte(float x) { return (uint8_t)(clamped(x, 0, 1) * 255.0f + 0.5f); }
 
@@ -21,8 +22,8 @@ static void color_of_ids(const float v[3], uint8_t out[4])
         out[c] = (uint8_t)(48 + (h >> (40 + 8 * c) & 0xff) * 207 / 255);
 }
 
-// Returns 1 at the scene's nearest vertex and 0 at its farthest. A scene that is flatter than the rounding of depths is
-// all near.
+// Returns 1 at the scene's nearest vertex and 0 at its farthest. If the depths differ by less than their rounding
+// error, the whole scene counts as nearest.
 static float depth_code(const struct frame *frame, float depth)
 {
     float far = frame->depth_far, range = far - frame->depth_near;
@@ -89,7 +90,7 @@ void encode_empty(const struct frame *frame, lam_pixel_format format, void *to)
         write_pixels(frame, (struct pixel_lanes){zero, zero, zero, zero}, format, to, 1);
 }
 
-// Writes the excess of the picture's pixel over 0…1, or in 8 bits a colour that marks it.
+// Writes how far the picture's pixel is outside 0…1; an 8-bit format gets a marker colour instead.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to)
 {
     float out[4] = {0}, straight[3];

@@ -133,7 +133,7 @@ static lam_explained_place place_of(const struct frame_draw *draw, lam_vec3 orig
     }
     const double w = pixel[3];
     out.eye_position = v3(eye[0], eye[1], eye[2]);
-    out.clip[0] = 2 * pixel[0] / width - w; // the frame's matrix gives pixels, y down
+    out.clip[0] = 2 * pixel[0] / width - w; // the frame's matrix maps to pixels, with y downwards
     out.clip[1] = w - 2 * pixel[1] / height;
     out.clip[2] = pixel[2];
     out.clip[3] = w;
@@ -232,7 +232,7 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
     }
 }
 
-// The explanation and its arena.
+// An explanation and the arena that owns its memory.
 struct explanation {
     lam_explanation values; // first
     struct arena arena;
@@ -319,7 +319,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     out->stops = (params ? params->exposure : 0) + device->frame.brightened;
     copy_lights(&recorder, &device->frame);
     complete(&recorder, scene, camera, &device->frame);
-    explanation->arena = recorder.arena; // copied back because it has grown
+    explanation->arena = recorder.arena; // the recorder's arena has grown, so it is copied back
     if (recorder.failed) {
         lam_explanation_free(out);
         fail(error, LAM_LIMIT, "out of memory");

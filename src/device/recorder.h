@@ -6,7 +6,7 @@
 
 #include <lambent/explain.h>
 
-enum { RECORDER_POINTS = 3 }; // maximum of one fragment
+enum { RECORDER_POINTS = 3 }; // the most points of one fragment
 
 struct recorder {
     struct arena arena;   // owns the explanation
@@ -31,14 +31,15 @@ struct recorder {
     lam_explained_values values;
 };
 
-// Adds a fragment, zeroed, or NULL if memory runs out.
+// Adds a zeroed fragment and returns it. Returns NULL if memory runs out.
 lam_explained_fragment *recorder_add(struct recorder *recorder);
 
 // Records that a translucent fragment is blended into a sample. `transmittance` belongs to the layers before it.
 void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float transmittance,
                     float share);
 
-// Records the light behind a sample's layers, from the picture behind them or the background, in the units of the sum.
+// Records the light behind a sample's translucent layers, which comes from the picture behind them or from the
+// background. It has the units of the sum.
 void recorder_behind(struct recorder *recorder, int pixel, const float light[3]);
 
 // Allocates zeroed memory for the explanation. Returns NULL if memory runs out.

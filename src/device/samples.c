@@ -2,7 +2,8 @@
 // "Multisample patterns"), which graphics processors use.
 #include "samples.h"
 
-// by_distance: sample indices from the nearest to the farthest of the centre; equal distances are in ascending order.
+// by_distance lists the sample indices by their distance from the centre, the nearest first. Samples at equal distances
+// are in ascending order.
 static const struct sample_pattern patterns[] = {
     {.count = 1, .x = {0}, .y = {0}, .min = 0, .max = 0, .by_distance = {0}},
     {.count = 2, .x = {4, -4}, .y = {4, -4}, .min = -4, .max = 4, .by_distance = {0, 1}},

@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-enum { CHECK_INTERVAL = 1 << 14, TOGETHER_MAX = 16 }; // the most ends at one corner that are compared in pairs
+enum { CHECK_INTERVAL = 1 << 14, TOGETHER_MAX = 16 }; // at most this many ends at one corner are compared in pairs
 
 // An end of a line at a corner of the mesh.
 struct end {
@@ -78,7 +78,8 @@ static void link_corner(struct edge_measure *measures, const struct end *ends, u
     }
 }
 
-// Places all edges of an edge's chain, from its beginning; a closed chain begins next to the edge.
+// Computes the positions of all edges in the chain of an edge, from the beginning of the chain. A closed chain begins
+// next to the edge.
 static void place_chain(struct edge_measure *measures, uint32_t edge)
 {
     uint32_t first = 2 * edge; // the end at which the chain is entered

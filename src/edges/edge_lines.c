@@ -19,7 +19,7 @@ struct scratch {
     struct edge_line lines[EDGES_PER_TASK];
     struct edge_point points[POINTS];
     uint8_t hidden[POINTS];
-    // The end of a visible part, between the shares from and to.
+    // A change of visibility along a line, between the fractions `from` and `to` of its length.
     struct change {
         double from, to;
         uint8_t hidden; // at `from`
@@ -42,8 +42,8 @@ static void position(const struct edge_task *task, uint32_t corner, double p[3])
     ray_point(task->view->hierarchy, p, p);
 }
 
-// Computes a triangle's normal of any length, in the hierarchy's space and on the side given by its winding. Returns
-// whether it faces the eye.
+// Computes a triangle's normal, not normalized, in the hierarchy's space. It points to the side that the winding
+// determines. Returns whether it faces the eye.
 static bool faces_eye(const struct edge_task *task, uint32_t triangle, double n[3])
 {
     const struct edge_view *view = task->view;
@@ -113,7 +113,8 @@ static int drawn_style(const struct edge_task *task, uint32_t e)
 
 // --- clipping to the picture
 
-// Clips a line where a·q is below 0; `a` is given at its two ends. Returns false if nothing of 0 … 1 remains.
+// Removes the part of a line in which a·q is below 0. `at_0` and `at_1` are a·q at the two ends. Returns false if
+// nothing of the line remains.
 static bool cut(double at_0, double at_1, double range[2])
 {
     if (at_0 >= 0 && at_1 >= 0)
@@ -316,7 +317,7 @@ bool edge_task_draw(struct edge_task *task, void *memory)
         line->first = s->point_count;
         line->count = 0;
         if (!shows_all) {
-            // One point per pixel of its length, each in the middle of its interval.
+            // The line gets one point per pixel of its length, in the middle of the pixel's interval.
             line->count = line->length < 1                 ? 1
                           : line->length < POINTS_PER_LINE ? (uint32_t)(line->length + 0.5)
                                                            : POINTS_PER_LINE;

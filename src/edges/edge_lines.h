@@ -19,7 +19,7 @@ struct edge_view {
 
 // The part of an edge that is inside the picture, or close to it.
 struct edge_line {
-    // its ends p as p/w and 1/w; p is in the hierarchy's space, w the clip coordinate
+    // p/w and 1/w of its ends p, where p is in the hierarchy's space and w is the clip coordinate
     double over_w[2][3], inverse_w[2];
     double x[2], y[2], length; // in the window, pixels
     double half;               // half of its width, pixels

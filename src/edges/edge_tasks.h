@@ -36,8 +36,8 @@ struct edge_task {
     struct edge_measure *measures; // one per edge; NULL if there are no chains
     uint16_t *weights;             // one per edge; NULL if there are no feature edges
     edge_rays *rays_of;
-    struct edge_strokes *strokes; // out: strokes of the thread
-    uint64_t drawn, rays;         // out: added to
+    struct edge_strokes *strokes; // output: the strokes of the thread
+    uint64_t drawn, rays;         // output: sums to which the task adds
 };
 
 // Bytes of scratch memory that a thread needs.

@@ -18,9 +18,9 @@ static uint32_t apex_of(const struct corner_weld *weld, uint32_t corner)
     return weld->of[corner - corner % 3 + (corner % 3 + 2) % 3];
 }
 
-// Returns the edges that begin at `count` corners. Triangles with the same three vertices are one face, because files may
-// contain each face twice, once for each side. Of such a pair, the corner whose direction is opposite to the first
-// face's is used.
+// Returns the edges that begin at `count` corners. Triangles with the same three vertices are one face, because files
+// may contain each face twice, once for each side. If a face occurs twice, the corner whose direction is opposite to
+// the first face's is used.
 static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *weld, const uint64_t *keys,
                                 uint32_t count)
 {

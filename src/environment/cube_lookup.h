@@ -16,7 +16,7 @@ struct cube_place {
     num s, t;
 };
 
-// A direction seen from its face: the point is across ÷ major, down ÷ major.
+// A direction in the coordinates of its face. It meets the face at (across ÷ major, down ÷ major).
 struct cube_side {
     inum face;
     num across, down, major;

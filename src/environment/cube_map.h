@@ -38,7 +38,7 @@ static inline size_t cube_bytes(int size)
     return ((size_t)size + 2) * ((size_t)size + 2) * LAM_FACE_COUNT * 3 * sizeof(float);
 }
 
-// Opens the file of picture `index`; the caller releases it. Messages call it *name.
+// Opens the file of picture `index`; the caller releases it. Messages use *name as its name.
 struct call_control;
 struct file_bytes;
 struct picture_source {
@@ -48,7 +48,7 @@ struct picture_source {
 };
 
 // Makes an environment from one picture or six faces (`count`), which are read one after the other within a call.
-// `call` may be NULL. The environment's memory stays charged.
+// `call` may be NULL. The memory of the environment remains charged to the call.
 struct lam_environment *environment_read(const struct picture_source *source, int count, lam_color_mode color,
                                          struct call_control *call, lam_error *error);
 

@@ -29,7 +29,7 @@ static bool continues(struct call_control *call, int row, lam_error *error)
 
 // --- faces from sections of a picture
 
-// A square section of a linear picture that becomes a face; `turned` by 180°.
+// A square section of a linear picture that becomes a face, rotated by 180° if `turned` is set.
 struct chunk {
     const lam_image *image;
     int x, y;

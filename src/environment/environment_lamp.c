@@ -1,8 +1,8 @@
 // environment_lamp.c: finds the brightest lamp of an environment (environment_lamp.h).
 //
 // A texel is bright if its luminance exceeds BRIGHT times the mean. For each direction of a small cube, the light of
-// bright texels within LAMP_COSINE is summed; the direction with the largest sum is the lamp's, and these texels are
-// the lamp. All sums are in double, in a fixed order.
+// bright texels within LAMP_COSINE is summed. The direction with the largest sum is the lamp's direction, and the lamp
+// consists of these texels. All sums are in double, in a fixed order.
 #include "environment_lamp.h"
 
 #include "fail.h"
@@ -15,7 +15,7 @@
 
 #define BRIGHT       3.0
 #define LAMP_COSINE  0.87 // cosine of 29.5 degrees
-#define LEAST_SHARE  0.05 // as a share of the mean light; weaker lamps are ignored
+#define LEAST_SHARE  0.05 // fraction of the mean light below which a lamp is ignored
 #define SOLID_ANGLE  12.566370614359172
 #define RADIUS_LEAST 0.0047 // the radius of the sun
 enum { LAMP_SIZE = 64, CANDIDATE_SIZE = 8 };

@@ -45,8 +45,8 @@ int environment_light_rows(void);
 double prefiltered_roughness(int level);
 
 // Returns the light of an environment. It makes the parts in `needed` that do not exist yet and keeps them with the
-// environment. Any number of threads may call it, and read the parts that they requested. `pool` NULL: it starts
-// threads of its own; `call` may be NULL. Returns NULL on failure: LAM_LIMIT, LAM_CANCELLED.
+// environment. Any number of threads may call it, and read the parts that they requested. If `pool` is NULL, it starts
+// threads of its own. `call` may be NULL. Returns NULL on failure: LAM_LIMIT, LAM_CANCELLED.
 struct pool;
 const struct environment_light *environment_light(const struct lam_environment *cube, unsigned needed,
                                                   struct pool *pool, struct call_control *call, lam_error *error);

@@ -68,7 +68,7 @@ static void sky_row(int face, int t, float *texels)
 // The studio for physical materials: a cubic room around the origin. The brightest lamp, at the ceiling, lights the
 // tops and casts short soft shadows on a ground. A large lamp in front and above lights the sides that face the viewer,
 // and a dim lamp at the right lights the third side, so that the three faces of a cube differ. Metals mirror the bright
-// horizon between a dark floor and a dim wall; the lamp behind brightens the rims of black objects. A level white
+// horizon between a dark floor and a dim wall; the lamp behind brightens the rims of black objects. A horizontal white
 // surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face of the cube map is a wall of the
 // room.
 struct lamp {

@@ -9,7 +9,7 @@
 
 enum { DENSITY_SIZE = 128 }; // approximate size of the copy used for importance sampling
 
-// Returns the bits of `i` mirrored behind the binary point.
+// Returns the fraction whose binary digits are the bits of `i` in reverse order.
 static double radical_inverse(uint32_t i)
 {
     double value = 0, digit = 0.5;

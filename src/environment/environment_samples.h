@@ -15,7 +15,7 @@
 struct sampled_light {
     float direction[3]; // unit, in the caller's axes
     float density;      // directions per steradian
-    float color[3];     // the light from there
+    float color[3];     // the light from this direction
 };
 
 // A point of the unit disc; the points are evenly distributed.

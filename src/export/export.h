@@ -68,18 +68,18 @@ void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 void export_lose_objects(struct exporting *e, const char *reason);
 
 // Adds a file beside the model; takes ownership of its bytes, which come from malloc. Its name is the model's name
-// without its extension, followed by `ending`. "-0.png". With `beside`, other files refer to it by name, so letters
-// that OBJ and MTL cannot use in names become _. Fails with LAM_LIMIT.
+// without its extension, followed by `ending`, such as "-0.png". With `beside`, other files refer to it by name, so
+// letters that OBJ and MTL cannot use in names become _. Fails with LAM_LIMIT.
 const char *export_add_file(struct exporting *e, const char *ending, bool beside, lam_bytes bytes);
 
 // Reports that memory has run out. Returns false.
 bool export_no_memory(struct exporting *e, size_t bytes);
 
-// Memory for a moment, charged to the call.
+// Allocates temporary memory, charged to the call.
 void *export_memory(struct exporting *e, size_t bytes);
 void export_memory_free(struct exporting *e, void *memory, size_t bytes);
 
-// The condition of long loops: asks at each 64 ki items whether the call may continue.
+// The condition of long loops. After every 64 ki items, it checks whether the call may continue.
 bool export_asks(struct exporting *e);
 static inline bool export_continues(struct exporting *e, size_t item) { return item % 65536 || export_asks(e); }
 

@@ -8,7 +8,7 @@
 
 lam_vec3 export_turned(const struct exporting *e, lam_vec3 p)
 {
-    switch (e->from) { // first to y up; a negative axis is upside down
+    switch (e->from) { // rotates to y up first; a negative axis is upside down
     case LAM_UP_X:
         p = v3(-p.y, p.x, p.z);
         break;

@@ -34,7 +34,7 @@ struct glb {
     struct text bytes;         // the buffer
     struct glb_arrays *arrays; // one per mesh of the scene
     struct scene_list own;     // struct glb_mesh: one per mesh of the file
-    // indexed by double-sidedness: for each material and the default one; −1 if not written yet
+    // for each material and the default one, its index in the file, one-sided and double-sided; −1 if not written yet
     int *material_index[2];
     struct scene_list pictures; // struct glb_image
     int thumbnail;              // index of its image
@@ -45,13 +45,14 @@ struct glb {
 void glb_set(struct glb *glb, json_t *object, const char *key, json_t *value);
 int glb_add(struct glb *glb, json_t *list, json_t *value); // returns its index
 
-void glb_set_name(struct glb *glb, json_t *object, const char *name); // no name if it is NULL or not UTF-8
+void glb_set_name(struct glb *glb, json_t *object, const char *name); // sets no name if it is NULL or not UTF-8
 json_t *glb_floats(struct glb *glb, const float *numbers, int count);
 
 // Lists an extension in extensionsUsed, and returns its object in `object`, which is created if it is missing.
 json_t *glb_extension(struct glb *glb, json_t *object, const char *name);
 
-// Appends bytes to the buffer, aligned to four, as a view. Returns the index of the view. `target` is its target, or 0.
+// Appends bytes to the buffer, aligned to four, as a view. Returns the index of the view. `target` is the target of the
+// view in glTF, or 0.
 int glb_add_view(struct glb *glb, const void *bytes, size_t size, int target);
 
 // Fills the error with the reason why the file is incomplete, and returns false.

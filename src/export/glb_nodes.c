@@ -177,7 +177,7 @@ static void add_camera(struct glb *glb, const lam_camera *c, const char *name)
         m.m[0][0] = x.x, m.m[1][0] = x.y, m.m[2][0] = x.z;
         m.m[0][1] = y.x, m.m[1][1] = y.y, m.m[2][1] = y.z;
     }
-    if (!(near_plane > 0) && !(far_plane > 0)) { // fitted to the scene, but glTF needs a number
+    if (!(near_plane > 0) && !(far_plane > 0)) { // these planes are fitted to the scene, but glTF needs numbers
         lam_vec3 centre;
         double radius;
         lam_scene_sphere(glb->e->scene, -1, &centre, &radius);

@@ -44,7 +44,8 @@ static int wrap_code(lam_wrap wrap) { return wrap == LAM_WRAP_CLAMP ? 33071 : wr
 // Returns the index of the sampler, or −1 for the default, which repeats and filters between levels.
 static int sampler_of(struct glb *glb, const lam_texture_map *map)
 {
-    static const int minify[2][3] = {{9987, 9985, 9729}, {9986, 9984, 9728}}; // linear, nearest; by lam_mip
+    static const int minify[2][3] = {{9987, 9985, 9729}, {9986, 9984, 9728}}; // indexed by filter (linear, nearest) and
+                                                                              // by lam_mip
     if (!map->wrap_s && !map->wrap_t && !map->magnify && !map->minify && !map->mip)
         return -1;
     json_t *object =

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { VALUE = 64 }; // bytes of memory for a value of JSON, about
+enum { VALUE = 64 }; // approximate bytes of memory for a JSON value
 
 static bool charge(struct glb *glb) { return !glb->e->call || call_charge(glb->e->call, VALUE); }
 

@@ -82,7 +82,7 @@ static void put_options(struct exporting *e, struct text *text, const lam_textur
     double sign = flips ? -1 : 1, scale[2] = {(double)m[0][0], -sign * (double)m[1][1]},
            offset[2] = {(double)m[0][2], 1 - ((double)m[1][2] + (flips ? (double)m[1][1] : 0))};
     if (m[0][1] != 0 || m[1][0] != 0)
-        export_lose(e, "turned texture coordinates of maps are omitted: MTL does not support them");
+        export_lose(e, "rotated texture coordinates of maps are omitted: MTL does not support them");
     if (map->texcoords)
         export_lose(e, "maps of the second texture coordinates use the first: OBJ has one set");
     if (scale[0] != 1 || scale[1] != 1)

@@ -62,7 +62,7 @@ lam_animation *lam_animation_make(const char *format, int width, int height, con
         return NULL;
     }
     if (index < 0) {
-        fail(error, LAM_UNSUPPORTED, "animation: '%s' is no format of several pictures, expected png or webp", format);
+        fail(error, LAM_UNSUPPORTED, "animation: '%s' is not a format for animations, expected png or webp", format);
         return NULL;
     }
     if (!check(width, height, p, error))

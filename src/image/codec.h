@@ -75,7 +75,8 @@ bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_
 bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                   lam_image *image, lam_error *error);
 
-// Does the same with `more` bytes after the pixels, fewer than one row per row; they are not charged.
+// Does the same, with `more` bytes after the pixels; these bytes are fewer than the picture's own, and they are not
+// charged.
 bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                          size_t more, lam_image *image, lam_error *error);
 
@@ -103,7 +104,7 @@ bool picture_linearize(const struct picture_file *file, lam_image *image, bool w
 // Lambent's own mark in a JPEG file.
 #define JPEG_REMARK "lambent"
 
-// The writing halves of codec_jpeg and codec_png.
+// The writers of codec_jpeg and codec_png, which are in files of their own.
 bool jpeg_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                 lam_error *error);
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,

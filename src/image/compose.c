@@ -3,7 +3,7 @@
 
 #include "srgb.h"
 
-// Returns the nearest byte, by bisection; numbers outside 0…1 are clamped, NaN gives 0.
+// Returns the nearest byte, found by bisection. Numbers outside 0…1 are clamped, and NaN gives 0.
 static uint8_t byte_of(const struct compose *compose, double linear)
 {
     int byte = 0;

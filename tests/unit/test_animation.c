@@ -1,5 +1,5 @@
-// test_animation.c: animations' interface, and scenes that come back to a marked state. What the files hold is tested by
-// tests/cli/test_animation.py, which decodes them.
+// test_animation.c: the interface of animations, and scenes that are reset to a marked state.
+// tests/cli/test_animation.py decodes the files and tests their contents.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -40,7 +40,7 @@ static void test_formats(void **state)
     lam_error error;
     assert_null(lam_animation_make("jpg", 10, 10, NULL, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
-    assert_string_equal(error.text, "animation: 'jpg' is no format of several pictures, expected png or webp");
+    assert_string_equal(error.text, "animation: 'jpg' is not a format for animations, expected png or webp");
 }
 
 static void test_arguments(void **state)
@@ -79,7 +79,7 @@ static void test_arguments(void **state)
     lam_animation_free(NULL);
 }
 
-// Frames of every format of 8 bits, and the end.
+// Frames of every 8-bit format, and the end.
 static void test_frames(void **state)
 {
     (void)state;
@@ -102,7 +102,7 @@ static void test_frames(void **state)
     lam_animation_free(animation);
 }
 
-// The first frame of the file is what a reader of still pictures sees, also where later frames have more channels.
+// Readers of still pictures see the first frame of the file, even if later frames have more channels.
 static void test_first_frame(void **state)
 {
     (void)state;
@@ -164,7 +164,7 @@ static void fill_noise(lam_image *image, uint32_t *seed)
         bytes[i] = (uint8_t)((*seed = *seed * 1664525u + 1013904223u) >> 24);
 }
 
-// The encoded frames count: a PNG of n frames is refused once they, or they and the file, are over the limit.
+// Encoded frames count: a PNG of n frames is refused if they, or they and the file, exceed the limit.
 static void test_memory(void **state)
 {
     (void)state;
@@ -182,9 +182,9 @@ static void test_memory(void **state)
     assert_int_equal(error.code, LAM_LIMIT);
     assert_non_null(strstr(error.text, "memory limit"));
     assert_in_range(frames, 10, LIMIT / FRAME);
-    assert_false(lam_animation_finish(animation, NULL, &bytes, &error)); // of no more use
+    assert_false(lam_animation_finish(animation, NULL, &bytes, &error)); // it cannot be used any more
     lam_animation_free(animation);
-    for (int fits = 0; fits < 2; fits++) { // frames below the limit, whose file is above it beside them
+    for (int fits = 0; fits < 2; fits++) { // the frames are below the limit, and the frames and their file exceed it
         animation = make("png", NULL);
         for (int i = 0; i < (fits ? 7 : 12); i++, fill_noise(&image, &seed))
             assert_true(lam_animation_add(animation, &image, &control, &error));
@@ -198,7 +198,7 @@ static void test_memory(void **state)
     lam_image_free(&image);
 }
 
-// Of a WebP the encoder's canvases count, beside what encoding a frame takes.
+// For a WebP, the encoder's canvases count, and the memory for encoding a frame.
 static void test_memory_webp(void **state)
 {
     (void)state;
@@ -229,7 +229,7 @@ static void draw(const lam_scene *scene, lam_device *device, lam_image *image)
         fail_msg("%s", error.text);
 }
 
-// Whatever changes, a reset brings the picture back.
+// A reset restores the picture after any change.
 static void test_reset(void **state)
 {
     (void)state;
@@ -302,7 +302,7 @@ static void test_warnings_once(void **state)
 static void test_rotation(void **state)
 {
     (void)state;
-    // A quarter turn about the diagonal of y and z takes x to its cross product with it.
+    // A quarter turn about the diagonal of y and z maps x to its cross product with it.
     lam_mat4 m = lam_mat4_rotation((lam_vec3){0, 3, 3}, 1.57079632679489661923);
     const double expected[3] = {0, sqrt(0.5), -sqrt(0.5)};
     for (int i = 0; i < 3; i++)

@@ -111,7 +111,7 @@ static const char *letters_of(const lam_layer *layer)
     return layer->channels ? layer->channels : named ? "RGB" : "RGBA";
 }
 
-// Lists the channels of all layers. Returns NULL on error; there is nothing to free then.
+// Lists the channels of all layers. Returns NULL on error; in that case there is nothing to free.
 static struct channel *list_channels(const lam_layer *layers, int count, int *channel_count, lam_error *error)
 {
     struct channel *channels = calloc(4 * (size_t)count, sizeof *channels);
@@ -267,8 +267,8 @@ static int64_t size_of_source(exr_const_context_t context, void *user)
     return (int64_t)((const struct source *)user)->size;
 }
 
-// Returns the position of a channel of the file in a pixel of the picture, or −1 if it has none. Y is luminance, for
-// all three colours.
+// Returns the position of a channel of the file in a pixel of the picture, or −1 if it has none. Y is the luminance,
+// which is used for all three colours.
 static int place_of(const char *name)
 {
     static const char letters[] = "RGBA";

@@ -21,7 +21,7 @@ struct reader {
     jmp_buf out;
     char message[JMSG_LENGTH_MAX];
     const struct picture_file *file;
-    bool rgb;           // LAM_RGB8 instead of LAM_RGBA8, except for inks
+    bool rgb;           // decodes to LAM_RGB8 instead of LAM_RGBA8, except for CMYK files
     bool stopped;       // the call must end
     bool out_of_memory; // in libjpeg
     size_t charged;     // bytes for libjpeg's coefficients
@@ -45,7 +45,7 @@ static void take_message(j_common_ptr jpeg, int level)
 
 static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 
-// Is called for every row of blocks, in each scan.
+// libjpeg calls this function for every row of blocks, in each scan.
 static void monitor(j_common_ptr jpeg)
 {
     struct reader *reader = (struct reader *)jpeg->err;
@@ -84,8 +84,8 @@ static bool charge_coefficients(struct reader *reader, lam_error *error)
 }
 
 // Converts one row of cyan, magenta, yellow and black ink values to RGBA, without a colour profile: each channel is the
-// product of the light that its ink and the black ink transmit. 255 means no ink in files with Adobe's marker, a
-// convention of Photoshop that every program follows; otherwise 0 does.
+// product of the light that its ink and the black ink transmit. In files with Adobe's marker, 255 means no ink, a
+// convention of Photoshop that every program follows. In other files, 0 means no ink.
 static void mix_inks(uint8_t *row, size_t width, bool inverted)
 {
     const unsigned flip = inverted ? 0 : 255;
@@ -97,7 +97,7 @@ static void mix_inks(uint8_t *row, size_t width, bool inverted)
     }
 }
 
-// The function that libjpeg may leave by longjmp; it changes only memory behind its pointers.
+// libjpeg may leave this function by longjmp, so it changes only memory behind its pointers.
 static bool decode(struct reader *reader, lam_image *image, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;

@@ -12,7 +12,7 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-// From QUALITY_OF_FULL_COLOR on, chroma is stored for every pixel, below it for every four.
+// From QUALITY_OF_FULL_COLOR on, chroma is stored for every pixel, and below it for every four pixels.
 enum { QUALITY_DEFAULT = 90, QUALITY_OF_FULL_COLOR = 90 };
 
 // libjpeg's error struct, which its callbacks receive, followed by our members.
@@ -36,7 +36,7 @@ static void ignore_message(j_common_ptr jpeg, int level) { (void)jpeg, (void)lev
 
 static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 
-// The function that libjpeg may leave by longjmp; it changes only memory behind its pointer.
+// libjpeg may leave this function by longjmp, so it changes only memory behind its pointer.
 static bool encode(struct writer *writer, lam_error *error)
 {
     struct jpeg_compress_struct *jpeg = &writer->jpeg;

@@ -13,7 +13,7 @@
 
 enum {
     RIFF_HEADER = 12,
-    CHUNK_BYTES = 1 << 14, // bytes per step; fewer if so many bytes are more pixels than
+    CHUNK_BYTES = 1 << 14, // bytes per step, or fewer if they may contain more than PLAIN_PIXELS pixels
     CHUNK_PIXELS = 1 << 22,
     PLAIN_PIXELS = 1 << 24, // pixels that a file of any size may have: 4096×4096 of one colour take a few bytes
 };
@@ -214,7 +214,7 @@ bool webp_configure(const struct webp_library *webp, const lam_image *image, con
                     "WebP: " WEBP_LIBRARY " is not of the version that this build was made for");
     config->lossless = quality == 0 || quality == 100;
     if (config->lossless)
-        config->quality = 75; // the effort, not a quality
+        config->quality = 75; // the effort of lossless encoding, not a quality
     config->exact = config->lossless;
     picture->use_argb = config->lossless;
     picture->width = image->width;

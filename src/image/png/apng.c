@@ -27,7 +27,7 @@ struct apng_frame {
 
 struct apng {
     struct animation_settings settings;
-    lam_image before; // the previous frame; no pixels: none
+    lam_image before; // the previous frame; it has no pixels if there is none
     struct apng_frame *frames;
     int count, capacity;
     uint64_t held; // bytes of the frames
@@ -54,7 +54,7 @@ static void *apng_start(const struct animation_settings *settings, lam_error *er
     return apng;
 }
 
-// Returns the smallest box that contains all differences of two pictures; one pixel if they are equal.
+// Returns the smallest box that contains all differences of two pictures, or one pixel if they are equal.
 static struct box changed_box(const lam_image *a, const lam_image *b)
 {
     const size_t row = 4 * (size_t)a->width;
@@ -200,7 +200,7 @@ static void put_frame_control(struct writer *writer, const struct apng *apng, co
     png_put_u32(data + 12, (uint32_t)box->x);
     png_put_u32(data + 16, (uint32_t)box->y);
     put_delay(apng->settings.frames_per_second, data + 20);
-    data[24] = 0; // APNG_DISPOSE_OP_NONE means keep the frame
+    data[24] = 0; // APNG_DISPOSE_OP_NONE keeps the frame
     data[25] = 0; // APNG_BLEND_OP_SOURCE: replace the previous pixels, alpha included
     close_chunk(writer, "fcTL", CONTROL_BYTES);
 }

@@ -25,9 +25,9 @@ struct adler_part {
     uint64_t size;
 };
 
-// Append to a part: one byte, several bytes, zeros, a row of pixels, or the following part. A row is `width` 32-bit
-// words whose first `bytes_per_pixel` bytes (1 … 4) are in the stream; the other bytes must be zero, and so must the
-// words after the row up to a multiple of 4.
+// These functions append to a part: one byte, several bytes, zeros, a row of pixels, or the following part. A row is
+// `width` 32-bit words whose first `bytes_per_pixel` bytes (1 … 4) are in the stream; the other bytes must be zero, and
+// so must the words after the row up to a multiple of 4.
 void adler_byte(struct adler_part *part, uint8_t byte);
 void adler_bytes(struct adler_part *part, const uint8_t *bytes, size_t size);
 void adler_zeros(struct adler_part *part, uint64_t count);

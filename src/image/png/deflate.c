@@ -34,7 +34,8 @@ bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int r
     deflate->stride = stride_of(width);
     uint32_t *words = arena_array(arena, (size_t)rows * deflate->stride, sizeof *words);
     deflate->last_positions = arena_array(arena, 1 << DEFLATE_HASH_BITS, sizeof *deflate->last_positions);
-    // One more token than is kept: find_runs writes a token for each pixel before it knows whether to keep it.
+    // There is space for one token more than is kept, because find_runs writes a token for each pixel before it knows
+    // whether to keep it.
     deflate->tokens = arena_array(arena, (size_t)rows * ((size_t)width + 1) + 1, sizeof *deflate->tokens);
     if (!words || !deflate->last_positions || !deflate->tokens)
         return false;
@@ -187,8 +188,8 @@ static inline uint64_t two_pixels(const uint32_t *at)
     return pair;
 }
 
-// Returns the number of equal pixels starting at `a` and `b`, at most `max`. It reads up to two pixels more: rows are
-// padded.
+// Returns the number of equal pixels starting at `a` and `b`, at most `max`. It may read two pixels beyond them, which
+// is safe because rows are padded.
 static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
 {
     int count = 0;

@@ -3,7 +3,8 @@
 
 size_t deflate_capacity(int width, int rows, int bytes_per_pixel)
 {
-    // Stored blocks, the empty one at the end, and the bytes after it that the last 8-byte step overwrites.
+    // The size of the stored blocks, of the empty block at the end, and of the bytes after it that the last 8-byte step
+    // overwrites.
     size_t bytes = (size_t)rows * ((size_t)width * (unsigned)bytes_per_pixel + 1);
     return bytes + 5 * (bytes / MAX_STORED + 2) + 8;
 }
@@ -100,7 +101,7 @@ static void store(struct storing *storing, uint8_t byte)
     storing->left--;
 }
 
-// For strips that compression would make longer: noise, and pictures with few pixels.
+// Stores a strip uncompressed if compression would make it longer: noise, and pictures with few pixels.
 static uint8_t *put_stored(const struct deflate *deflate, uint8_t *out)
 {
     struct storing storing = {out, stream_bytes(deflate), 0};

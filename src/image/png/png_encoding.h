@@ -13,7 +13,7 @@
 struct png_encoding {
     const lam_image *image;
     const uint8_t *zeros; // the row above the first row
-    int bytes_per_pixel;  // 1 means grey, 2 means grey and alpha, 3: RGB, 4: RGBA
+    int bytes_per_pixel;  // 1 is grey, 2 is grey and alpha, 3 is RGB, 4 is RGBA
     int rows;             // the rows of each strip; the last may have fewer
     int strips;
     size_t capacity;          // the most bytes of a strip's stream

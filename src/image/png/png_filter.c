@@ -82,7 +82,7 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
     }
 }
 
-// Expanded, so that each loop is compiled for its filter.
+// The filter is a constant in each call, so that each loop is compiled for its filter.
 INLINE void filter_row_by(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
                           bool gather, uint32_t *out)
 {

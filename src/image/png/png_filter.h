@@ -15,9 +15,8 @@ enum png_filter {
 };
 
 // Filters a row of `width` RGBA pixels; `above` is the previous row (zeros for the first). `out` gets a word for each
-// pixel: its bytes_per_pixel bytes of the stream, the first lowest (1 means red, 2 means red and alpha, 3 means red,
-// green and blue, 4: all), and zeros above them. It has capacity for a multiple of 4 words; the words from `width` on
-// become zero.
+// pixel: its bytes_per_pixel bytes of the stream, the first lowest (1: red; 2: red and alpha; 3: red, green and blue;
+// 4: all), and zeros above them. It has capacity for a multiple of 4 words; the words from `width` on become zero.
 void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, int bytes_per_pixel,
                     uint32_t *out);
 

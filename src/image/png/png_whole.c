@@ -15,7 +15,7 @@
 
 enum {
     PIXELS_MIN = 1 << 14,  // for smaller pictures, opening the library takes longer than it saves
-    BYTES_MAX = 128 << 20, // decompressed; cancelling waits for them
+    BYTES_MAX = 128 << 20, // the most decompressed bytes; cancelling waits for them
     CHUNK_EXTRA = 12,      // length, type and checksum of a chunk
 };
 
@@ -114,7 +114,7 @@ static inline void store_pixel(uint8_t *at, wide8 v)
     memcpy(at, &bytes, 4);
 }
 
-// Returns the smaller number in each lane. Written so that compilers emit the vector instructions.
+// Returns the smaller number in each lane. It is written so that compilers emit the vector instructions.
 static inline wide8 min8(wide8 x, wide8 y)
 {
     for (int i = 0; i < 8; i++)

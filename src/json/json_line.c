@@ -44,7 +44,8 @@ static void skip_value(struct cursor *c)
     } while (depth > 0);
 }
 
-// Moves from an object or a list to one of its members, at its key if it has one. Returns false if it is missing.
+// Moves the cursor from an object or a list to one of its members. In an object, this is the member's key. Returns
+// false if it is missing.
 static bool enter(struct cursor *c, const struct place *step, const char **found)
 {
     skip_space(c);

@@ -1,5 +1,5 @@
 // json_reader.h: values of a JSON file, checked on access. Each error names the file, the position in it, the value
-// found and the expected one. Scene files and shader contracts are read with it.
+// found and the value expected. Scene files and shader contracts are read with it.
 #ifndef JSON_READER_H
 #define JSON_READER_H
 
@@ -50,15 +50,15 @@ const char *json_kind(const json_t *value, char out[JSON_KIND_SIZE]);
 bool json_check_keys(const struct json_reader *r, const struct place *place, const json_t *object,
                      const char *const *keys);
 
-// Check a value itself and get it. Numbers must be in [min, max]; a list has `min` to `max` of them. *count may be
-// NULL.
+// These functions check a value itself and store it. Numbers must be in [min, max]; a list has `min` to `max` of them.
+// *count may be NULL.
 bool json_number_of(const struct json_reader *r, const struct place *place, const json_t *value, double min, double max,
                     double *out);
 bool json_numbers_of(const struct json_reader *r, const struct place *place, const json_t *list, size_t min, size_t max,
                      double *out, size_t *count);
 
-// Check the value of a key of `object` and get it; *out is unchanged if the key is missing. Return false if the value
-// is wrong.
+// These functions check the value of a key of `object` and store it. *out is unchanged if the key is missing. They
+// return false if the value is wrong.
 bool json_take_number(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
                       double min, double max, double *out);
 bool json_take_bool(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
@@ -71,7 +71,7 @@ struct json_choice {
     const char *name;
     int value;
 };
-// Checks for one of several words, at most 16; the list ends with a NULL name.
+// Checks that a value is one of several names, at most 16. The list ends with a NULL name.
 bool json_choice_of(const struct json_reader *r, const struct place *place, const json_t *value,
                     const struct json_choice *words, int *out);
 bool json_take_word(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,

@@ -28,7 +28,7 @@ void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count)
         double x = radius * math_cos(golden_angle * i), y = radius * math_sin(golden_angle * i);
         uint32_t place = place_of(x, y);
         int at = i;
-        for (; at > 0 && places[at - 1] > place; at--) { // insertion sort; equal places keep their order
+        for (; at > 0 && places[at - 1] > place; at--) { // stable insertion sort
             places[at] = places[at - 1];
             pattern->x[at] = pattern->x[at - 1];
             pattern->y[at] = pattern->y[at - 1];

@@ -31,7 +31,7 @@ struct occlusion_pattern {
 static inline uint32_t occlusion_turn(uint32_t x, uint32_t y)
 {
     uint32_t part = x * 0x112e0be8u + y * 0x017e8cd9u;       // fraction of 0.06711056 x + 0.00583715 y
-    return (uint32_t)((uint64_t)part * 3472289 >> 16) >> 24; // … of 52.9829189 times that
+    return (uint32_t)((uint64_t)part * 3472289 >> 16) >> 24; // the fraction of 52.9829189 times that
 }
 
 void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count);

@@ -1,4 +1,4 @@
-// screen_occlusion.c: memory and passes of ambient occlusion (screen_occlusion.inc has the kernels).
+// screen_occlusion.c: memory and passes of ambient occlusion (screen_occlusion.inc contains the kernels).
 #include "screen_occlusion.h"
 
 #include "call_control.h"
@@ -74,7 +74,8 @@ static void fill_beside(const struct screen_occlusion *o, float *plane, int y, f
         row[x] = value;
     for (int x = o->grid_width; x < o->stride - LANES_MAX; x++)
         row[x] = value;
-    for (int x = o->stride - LANES_MAX; x < o->stride && y + 1 < o->grid_height; x++) // up to the next row
+    // the floats between this row and the next
+    for (int x = o->stride - LANES_MAX; x < o->stride && y + 1 < o->grid_height; x++)
         row[x] = value;
 }
 

@@ -26,7 +26,7 @@ struct screen_occlusion {
     size_t plane;                // floats from plane to plane
     bool orthographic;
     float pixel_size;    // size of a pixel in eye units, at distance 1 or, if orthographic, everywhere
-    float radius;        // radius of occlusion, eye units; 0 if there is none at this radius
+    float radius;        // radius of occlusion in eye units; 0 disables occlusion at this radius
     float cavity_radius; // radius of cavity shading (lam_cavity)
     bool ridges;         // whether cavity shading lightens ridges
     // The distance of the visible surface in front of the eye at each pixel, or SCREEN_EMPTY: one plane for each pixel

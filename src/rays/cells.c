@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum {
-    PART = 32, // triangles of a node's part that cells no longer divide
+    PART = 32, // a part of a node with at most this many triangles is no longer divided by cells
     // a range up to this size is divided by one thread; the nodes of larger ones have all their children
     SMALL = NODE_CHILDREN * PART,
     CELL_BITS_MAX = 16,

@@ -22,8 +22,8 @@
 #include "eights.h"
 #include "hierarchy.h"
 
-// The rays of a bundle differ from one of them by at most this, where they start and where they would end at their full
-// length (at most 1); summed over coordinates.
+// The rays of a bundle differ from one of them by at most this distance at their starts, and at their ends at full
+// length (at most 1), summed over coordinates.
 #define BUNDLE_APART 0.2f
 
 struct ray_lanes {

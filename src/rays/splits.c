@@ -229,7 +229,8 @@ static bool halve_few(struct primitive *p, struct range *r, int axis, struct ran
     float low = lane(r->middles.low, axis), high = lane(r->middles.high, axis), middle = 0.5f * low + 0.5f * high;
     float boundary = middle > low ? middle : high; // both sides contain triangles
     uint32_t left = 0, end = r->count;
-    for (uint32_t i = 0; i < r->count; i++) { // branchless: written to the front and to the back; one of both is kept
+    for (uint32_t i = 0; i < r->count; i++) { // branchless: each primitive is written to the front and to the back, and
+                                              // one of the two copies is kept
         bool on_left = p[i].low[axis] + p[i].high[axis] < boundary;
         sorted[left] = sorted[end - 1] = p[i];
         left += on_left;

@@ -110,7 +110,8 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
         return fail(error, LAM_BAD_ARGUMENT, "lam_studio_fill: an argument is NULL");
     *light_scale = 0;
     bool classic = params->reflection != LAM_REFLECTION_AUTO && params->reflection < LAM_REFLECTION_COUNT &&
-                   !lam_reflection_describe(params->reflection)->microfacet; // which an environment does not light
+                   !lam_reflection_describe(params->reflection)->microfacet; // an environment does not light such
+                                                                             // models
     if (classic || params->output != LAM_OUTPUT_PICTURE || lam_scene_environment(scene))
         return true;
     double ratio, share = measure(device, scene, camera, params, width, height, control, &ratio, error);

@@ -50,7 +50,7 @@ static lam_vec3 to_world(const struct view_axes *axes, double x, double y, doubl
     return v3_add(axes->centre, v3_add(across, v3_scale(axes->back, z)));
 }
 
-// Orthographic: the camera is centred on the box of the view extents; its half height is half of the box divided by the
+// An orthographic camera is centred on the box of the view extents. Its half height is half of the box divided by the
 // fill.
 static lam_camera fit_orthographic(const struct fitting *fitting, const struct view_points *points, double fill)
 {

@@ -137,7 +137,7 @@ lam_material lam_material_named(lam_material_id id, lam_color_mode color)
 
 const char *lam_material_name(lam_material_id id) { return known(id) ? named[id].name : NULL; }
 
-// Returns a letter in the spelling of the table. ASCII only, independent of the locale.
+// Converts a letter to the spelling of the table. It converts only ASCII letters, independently of the locale.
 static char canonical_letter(char c)
 {
     if (c >= 'A' && c <= 'Z')

@@ -62,7 +62,7 @@ struct scene_token {
 // A camera of the model's file.
 struct scene_camera {
     const char *name;  // NULL if unnamed
-    lam_camera camera; // near_plane > 0 and far_plane 0: no far plane
+    lam_camera camera; // if near_plane > 0 and far_plane is 0, there is no far plane
 };
 
 struct lam_scene {
@@ -89,7 +89,7 @@ struct lam_scene {
     lam_rgb ambient;
     lam_material default_material;   // the material of parts without one
     lam_environment *environment;    // shared with others, or NULL
-    double environment_rotation_rad; // about the up axis
+    double environment_rotation_rad; // rotation about the up axis
     struct lazy_environment *studio; // used if there is no other light (scene_lit_by_environment)
     lam_color_mode color;            // the encoding of the file's colours
     const char *format;
@@ -107,8 +107,8 @@ struct lam_scene {
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
-// Returns whether a scene has no lights but a lit physical material of its own. It is then lit by its environment, or
-// by the built-in studio if it has none, instead of a rig.
+// Returns whether a scene contains no lights, but at least one lit physical material of its own. It is then lit by its
+// environment, or by the built-in studio if it has none, instead of a rig.
 bool scene_lit_by_environment(const struct lam_scene *scene);
 
 struct scene_token *scene_token_make(lam_error *error); // NULL if memory runs out
@@ -122,8 +122,8 @@ int scene_adopt_material(struct lam_scene *scene, const lam_material *material, 
 int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
 int scene_adopt_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
 
-// Adds a reference to a texture that one of its materials uses; the reference ends with the scene. Returns false if
-// memory runs out.
+// Adds a reference to a texture that one of its materials uses. The scene releases the reference when it is freed.
+// Returns false if memory runs out.
 bool scene_share_texture(struct lam_scene *scene, const lam_texture *texture, lam_error *error);
 // Takes over the caller's reference to a texture, also on failure.
 bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_error *error);

@@ -25,7 +25,7 @@ static void extend_radius(const lam_scene *scene, int mesh_index, const lam_mat4
     for (uint32_t i = 0; i < extent->used_count; i++) {
         const float *p = mesh->positions + 3 * (size_t)(extent->used ? extent->used[i] : i);
         const double x = (double)p[0], y = (double)p[1], z = (double)p[2];
-        // As mat4_point does it, which is not inlined.
+        // The same operations as in mat4_point, which is not inlined.
         lam_vec3 at = v3((m[0][0] * x + m[0][1] * y) + m[0][2] * z + m[0][3] - centre.x,
                          (m[1][0] * x + m[1][1] * y) + m[1][2] * z + m[1][3] - centre.y,
                          (m[2][0] * x + m[2][1] * y) + m[2][2] * z + m[2][3] - centre.z);

@@ -56,7 +56,7 @@ static void set_directions(struct search *s)
         }
         s->axis[d] = v3(sum[0], sum[1], sum[2]);
         s->axis_size[d] = v3(absolute(sum[0]), absolute(sum[1]), absolute(sum[2]));
-        // Fewer than 64 operations, each with a relative error below 2⁻⁵².
+        // There are fewer than 64 operations, each with a relative error below 2⁻⁵².
         s->offset[d] += steps * 0x1p-46;
     }
 }

@@ -4,9 +4,9 @@
 
 #include <lambent/scene.h>
 
-// The axes of the view as world directions: the picture's right and top, and from the model to the eye. x, y and z of a
-// vertex are measured along them from `centre`, a point near the scene, so that the numbers keep their precision
-// wherever the scene is.
+// The axes of the view as world directions: to the right and to the top of the picture, and from the model to the eye.
+// x, y and z of a vertex are measured along them from `centre`, a point near the scene, so that the numbers keep their
+// precision wherever the scene is.
 struct view_axes {
     lam_vec3 right, above, back;
     lam_vec3 centre;
@@ -19,7 +19,7 @@ struct view_points {
     // seen along several axes.
     const struct view_axes *axes;
     int axes_count;
-    double ball_radius; // > 0: measures a ball around the axes' centre instead
+    double ball_radius; // if it is above 0, a ball around the axes' centre is measured instead
 };
 
 // The maxima over all points of ±x + kx·z, ±y + ky·z and z, in the axes of the view. With k = 0 this is the bounding
@@ -32,8 +32,8 @@ struct view_extents {
     lam_vec3 point[EXTENT_DIRECTIONS]; // the point with the maximum: its x, y and z
 };
 
-// Gets a point of the scene: the middle of the box of the first object that has triangles. Returns false, and zero, if
-// there is none.
+// Gets a point of the scene: the middle of the box of the first object that has triangles. If there is none, it returns
+// false and sets the point to zero.
 bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre);
 
 // Sets all extents for the given kx and ky.

@@ -23,9 +23,9 @@ struct variant {
 
 struct model {
     struct lam_scene inner;            // the scene as read; its lists and arrays are in the outer scene's arena
-    struct scene_origin origin;        // without the counts and copies
+    struct scene_origin origin;        // the origin without its counts and copies
     double crease_angle_rad;           // the angle for its normals; 0 means the default
-    struct variant variants[VARIANTS]; // the most recent ones
+    struct variant variants[VARIANTS]; // the most recent variants
     int variant_count;                 // number of variants made so far
 };
 
@@ -46,7 +46,7 @@ static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted
                       ? scene_add_formula(&model->inner, wanted->formula, r->source->call, &reason)
                       : scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
     if (object.mesh < 0) {
-        if (reason.code == LAM_BAD_ARGUMENT) // formulas too: their text may contain errors
+        if (reason.code == LAM_BAD_ARGUMENT) // also for formulas, whose text may contain errors
             return fail_place(r, KEY_OF(wanted->place, "shape"), "%s", reason.text);
         *r->error = reason;
         return false;
@@ -139,7 +139,7 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
     model->inner.arena = r->scene->arena;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
     r->scene->arena = model->inner.arena;
-    for (int i = 0; i < model->inner.textures.count; i++) { // also after an error: the scene frees them
+    for (int i = 0; i < model->inner.textures.count; i++) { // also after an error, since the scene frees them
         lam_texture *texture = ((lam_texture **)model->inner.textures.items)[i];
         ok = scene_adopt_texture(r->scene, texture, ok ? r->error : NULL) && ok;
     }

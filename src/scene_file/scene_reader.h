@@ -30,8 +30,8 @@ bool fail_place(struct scene_reader *r, const struct place *place, const char *f
 // with NULL.
 bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
 
-// Check the value of a key of `object` and get it; *out is unchanged if the key is missing. Return false if the value
-// is wrong. Numbers must be in [min, max].
+// These functions check the value of a key of `object` and store it. *out is unchanged if the key is missing. They
+// return false if the value is wrong. Numbers must be in [min, max].
 bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double min,
                  double max, double *out);
 bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int min,

@@ -1,7 +1,7 @@
 // scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. Every number is written
 // so that it reads back as the same bits.
 //
-// Longer than 600 lines: one function for each section of a file, in the order of the file.
+// The file is longer than 600 lines because it contains one function for each section of a file, in the order of the file.
 #include "scene_write.h"
 
 #include "fail.h"
@@ -535,7 +535,7 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_picture_se
     json_t *out = json_object();
     if (s->present & LAM_SETTING_SIZE)
         put(w, out, "size", list_of(w, (double[]){s->width, s->height}, 2));
-    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // otherwise the default for the size
+    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // otherwise the default for the picture's size applies
         put(w, out, "samples", json_integer(s->draw.samples));
     if (s->present & LAM_SETTING_BACKGROUND)
         put(w, out, "background", color(w, &s->draw.background.r, 4));

@@ -8,7 +8,7 @@ struct scene_writer {
     const struct lam_scene *scene;
     const char *path;   // the path of the file, for messages
     const char *folder; // the file's folder, absolute
-    bool ok;            // false: Jansson ran out of memory
+    bool ok;            // false if Jansson ran out of memory
     lam_error *error;
 };
 

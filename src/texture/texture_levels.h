@@ -11,7 +11,8 @@
 
 enum { TEXTURE_SIDE_MAX = 16384, TEXTURE_LEVELS_MAX = 15 };
 
-// Four channels at a time. GCC and Clang compile this for any instruction set, with the same bits.
+// A texel of four channels, which are computed together. GCC and Clang compile this for any instruction set, with the
+// same bits.
 typedef float texel __attribute__((vector_size(16)));
 typedef float texel_memory __attribute__((vector_size(16), aligned(4), may_alias));
 
@@ -24,7 +25,7 @@ struct lam_texture {
     int references; // accessed atomically
     int level_count;
     lam_texture_values values;
-    // Channels per texel: 3 if every alpha is 1. One number after the last texel of floats can be read.
+    // Channels per texel; 3 if every alpha is 1. If the texels are floats, one number after the last texel can be read.
     int channels;
     // No texel has an alpha below 1.
     bool opaque;
@@ -70,7 +71,8 @@ static inline texel texel_at(const struct lam_texture *texture, int level, int x
 struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values, const char *name,
                                      struct call_control *call, lam_error *error);
 
-// Makes a texture from the bytes of a picture's file. `color` LAM_COLOR_RAW: colours are used without conversion.
+// Makes a texture from the bytes of a picture's file. With LAM_COLOR_RAW as `color`, colours are used without
+// conversion.
 struct lam_texture *texture_decode(const void *bytes, size_t size, const char *name, lam_texture_values values,
                                    struct call_control *call, lam_error *error);
 

@@ -20,7 +20,7 @@ static inline bool texture_map_translucent(const lam_texture_map *map)
 // 1e30 if the texture was not made from bytes. They are computed once per texture, by any thread.
 void texture_map_range(const lam_texture_map *map, float out[2]);
 
-// `count` points: their texture coordinates in the mesh, and the derivatives by the pixel's x and y.
+// The texture coordinates of `count` points in the mesh, and the derivatives of the coordinates by the pixel's x and y.
 struct texture_points {
     const float *s, *t, *ds_dx, *dt_dx, *ds_dy, *dt_dy;
 };

@@ -1,7 +1,7 @@
 // texture_range.c: computes bounds of the numbers of a texture.
 #include "texture_map.h"
 
-// Texels at a time: their bytes fill whole registers with three or four channels.
+// The number of texels that are compared together. Their bytes fill whole registers with three or four channels.
 enum { TOGETHER = 16, CHANNELS = 4 };
 
 struct byte_ranges {
@@ -38,7 +38,7 @@ static void ranges_of_bytes(const uint8_t *bytes, size_t texels, size_t channels
     }
 }
 
-// Returns the smallest bytes of the channels, then the largest ones, from the lowest byte on.
+// Returns the smallest bytes of the channels in the low bytes, followed by the largest ones.
 static uint64_t ranges_of(const struct lam_texture *texture)
 {
     uint64_t *kept = (uint64_t *)(uintptr_t)&texture->ranges;

@@ -59,7 +59,7 @@ LANE_FN struct neighbours nearest_neighbours(num s, inum size)
     return (struct neighbours){imin_of(int_of(s * num_of_int(size)), size - 1), inum_of(0), num_of(0.0f)};
 }
 
-// `nearest` has the lanes that need only one texel.
+// `nearest` selects the lanes that need only one texel.
 LANE_FN struct tap_lanes tap_of(const lam_texture_map *map, num s, num t, inum width, inum height, mask nearest)
 {
     struct neighbours x = linear_neighbours(s, width, map->wrap_s), y = linear_neighbours(t, height, map->wrap_t);

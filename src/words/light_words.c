@@ -10,7 +10,8 @@
 #include "up_axis.h"
 #include "word_values.h"
 
-// Key numbers: the fields by their index in the table of lam_light_field (the first row of a key), then these.
+// Numbers of the keys. The number of a field is its index in the table of lam_light_field (the first row of its key);
+// these numbers follow.
 enum { TARGET = LAM_FIELDS_MAX, COLOR, INTENSITY, FRAME, NAME, KEYS };
 _Static_assert((int)KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
@@ -91,7 +92,8 @@ static bool seen(const struct parser *parser, const char *name) { return key_see
 
 // --- values of keys
 
-// Parses a point in the model's units, or in radii of its sphere (a 0 needs no r). `w` NULL: exactly three numbers.
+// Parses a point in the model's units, or in radii of its sphere (a 0 needs no r). If `w` is NULL, it expects exactly
+// three numbers.
 static bool point_for(const char *key, const char *value, lam_vec3 *out, bool *in_radii, double *w, lam_error *error)
 {
     double numbers[4];
@@ -147,7 +149,8 @@ static bool read_range(const char *value, struct parser *parser, lam_error *erro
     return true;
 }
 
-// Parses the radius of a sphere, or of a disc in degrees; the last key determines which one it is.
+// Parses the radius of a sphere, or the angular radius of a disc in degrees. The last key determines which of the two
+// it is.
 static bool read_size(const char *value, struct parser *parser, lam_error *error)
 {
     double *number = parser->numbers[field_index("radius")];
@@ -306,7 +309,7 @@ static bool set_cone(struct parser *parser, lam_error *error)
                     outer ? parser->numbers[field_index("outer")] : NULL, error))
         return false;
     if (!cutoff && !outer && seen(parser, "exponent"))
-        light->cutoff_rad = 0; // no edge: only the exponent shapes it
+        light->cutoff_rad = 0; // the cone has no edge; only the exponent shapes it
     return true;
 }
 

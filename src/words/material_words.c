@@ -9,8 +9,8 @@
 #include "spelling.h"
 #include "word_values.h"
 
-// Key numbers: the fields by their index in the table of lam_material_field, then a factor for each (for colours, named
-// by their symbols: ka, kd, ks, kr), then shorthands.
+// Numbers of the keys: first the fields, by their index in the table of lam_material_field; then a factor for each
+// field (the factors of colours are named ka, kd, ks and kr); then the shorthands.
 enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
 _Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
@@ -22,8 +22,8 @@ static const struct {
 enum { OTHERS = sizeof others / sizeof *others };
 
 struct parser {
-    lam_material_id id; // a named material; LAM_MATERIAL_COUNT: none
-    const char *words;  // of one of `others`; NULL: none
+    lam_material_id id; // a named material, or LAM_MATERIAL_COUNT if none is given
+    const char *words;  // the words of one of `others`, or NULL
     bool given[MATERIAL_KEYS];
     bool ambient_is_diffuse; // whether ambient=diffuse was given
     double numbers[MATERIAL_KEYS][4];

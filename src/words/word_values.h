@@ -5,7 +5,7 @@
 #include <lambent/fields.h>
 #include <lambent/scene.h>
 
-// The most bytes of a text, including its end.
+// The maximum size of a text in bytes, including the terminating zero.
 enum { WORDS_MAX = 1024 };
 
 // Copies a text that will be split. Returns false if it is too long.

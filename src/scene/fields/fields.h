@@ -22,15 +22,15 @@ enum field_reader {
 
 struct material_field {
     lam_field field; // first
-    // Name and comment in shaders whose uniforms are products of materials and lights. NULL means the same as in other
-    // shaders, "" that the field occurs only in the products.
+    // Name and comment in shaders whose uniforms are products of materials and lights. NULL means that both are the
+    // same as in other shaders; "" means that the field occurs only in the products.
     const char *product, *product_summary;
     enum field_reader reader;
     bool optional; // a scene file omits it if it is 0, the default
     bool physical; // only physical materials have the field, so writing it makes a material physical
     int layer;     // for FIELD_LAYER, the LAYER_… that reads it; a scene file omits default values
 };
-const struct material_field *material_field(int index); // NULL past the end
+const struct material_field *material_field(int index); // returns NULL past the end
 
 // Returns the layers of a material as bits LAYER_… of layer_kinds.h; 0 for a classic material.
 int material_layers(const lam_material *material);
@@ -57,7 +57,7 @@ bool field_equal(const lam_field *field, const void *a, const void *b);
 // Returns whether the bytes are 0; a flag then has its default.
 bool field_is_zero(const lam_field *field, const void *object);
 bool field_is_standard(const lam_field *field, const void *object); // compared as floats
-// Set the default, or any numbers with angles in degrees.
+// These functions set a field to its default, or to any numbers, with angles in degrees.
 void field_set_standard(const lam_field *field, void *object);
 void field_set_written(const lam_field *field, void *object, const double numbers[4]);
 

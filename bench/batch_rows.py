@@ -9,14 +9,14 @@ import measure
 import paths
 import whole
 
-# What is drawn: options, size, the least factor of F3D's processor time, and models. A run takes seconds on four processors: of one of
-# 0.2 s the start of the program and the last models, when some workers have none left, are a tenth.
+# Each row gives the options, the size, the required factor of F3D's processor time, and the models. A run takes seconds on four
+# processors. With a total of 0.2 s, a tenth would be the start of the program and the last models, when some workers are idle.
 ROWS = {"batch 1024 px, no occlusion": (["--samples", "4", "--ao", "off"], 1024, 20, 256), "batch 1024 px": (["--samples", "4"], 1024, 12, 256),
         "batch 256 px": (["--samples", "8"], 256, 40, 1024)}
 
 
 def folder_of_models(count):
-    """One model under many names, so that every file is read and drawn."""
+    """One model with many names, so that Lambent reads and draws every file."""
     source, folder = whole.small_model("spot"), os.path.join(paths.MODELS, "batch-%d" % count)
     if not os.path.exists(folder):
         shutil.rmtree(folder + ".unfinished", ignore_errors=True)
@@ -28,7 +28,7 @@ def folder_of_models(count):
 
 
 def busy(taken, others_s, workers):
-    """The share of the processors' time that a run used, of what other processes left it."""
+    """The fraction of the available processor time that a run used, excluding the time used by other processes."""
     return taken.cpu_ms / 1e3 / max(taken.wall_ms / 1e3 * workers - others_s, taken.cpu_ms / 1e3)
 
 

@@ -17,7 +17,7 @@ FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
 
 def picture(path):
-    """On white, as large as a cell."""
+    """White background, in the size of a cell."""
     image = Image.open(path).convert("RGBA")
     page = Image.new("RGBA", image.size, "white")
     page.alpha_composite(image)
@@ -63,7 +63,7 @@ def write_sheets(given):
 
 
 def tally(given):
-    """The majority of the judges counts; without one the pair is a draw."""
+    """The majority of the judges decides; without a majority, the pair is a draw."""
     key = json.loads((given.out / "key.json").read_text())
     votes = {number: [] for number in key}
     for path in given.answers:

@@ -5,9 +5,9 @@
     check.py LAMBENT --record   rewrites that file (make bench-check-record)
 
 With AVX2 (valgrind 3.19 knows no AVX-512) and one thread, the same build gives the same count to a few thousandths on any
-machine and at any load, so a slow-down shows in the change that causes it. A job that became faster must be recorded again, or the
-slack would hide the next slow-down. Counts of another build (compiler, sanitizer, debug) are not comparable: then the checks are
-skipped, with a message. Output is TAP."""
+machine and at any load, so a slow-down shows in the change that causes it. If a job became faster, record it again; otherwise the slack would hide
+the next slow-down. Counts of another build (compiler, sanitizer, debug) are not comparable, so the checks are then skipped with a message. Output is
+TAP."""
 import json
 import math
 import os
@@ -61,7 +61,7 @@ def jobs():
                   "encode": ["-s", "700", "--samples", "1", "--reflection", "none", "-b", "white", "cube"],
                   "shadows": ["-s", "200", "--samples", "1", "--light", "point:position=2/3/2", "--shadows", "teapot"],
                   "edges": ["-s", "200", "--samples", "1", "--edges", "all", "teapot"], "wireframe": ["-s", "200", "--samples", "1", "--wireframe", "teapot"]})
-    # What the default look has on top stands in a job of its own.
+    # The extra features of the default look have a job of their own.
     found = {name: words if words == ["--version"] else ["--ao", "off", *words] for name, words in found.items()}
     found["ambient occlusion"] = found["draw phong"][2:]
     found["ambient occlusion, cells"] = ["-s", "600", "--samples", "1", "teapot"]
@@ -72,7 +72,7 @@ def jobs():
 def instructions(lambent, arguments, folder):
     """Counted over the whole process."""
     drawing = [] if arguments == ["--version"] else ["-q", "--isa", "avx2", "--threads", "1", "-o", "out.png"]
-    # A fixed environment: its bytes lie on the stack and shift the addresses of everything else there.
+    # A fixed environment: its bytes are on the stack and shift the addresses of everything else there.
     done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", lambent, *drawing, *arguments], cwd=folder,
                           env={"PATH": "/usr/bin:/bin"}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     text = done.stderr.decode(errors="replace")

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""contact_sheet.py PROGRAM OUT [MODEL...]: pictures of models as strangers see them first, beside F3D's.
+"""contact_sheet.py PROGRAM OUT [MODEL...]: draws models with the default settings, next to F3D's pictures.
 
 Every model below the folder LAMBENT_MODELS (or those named; --short: a list of 19) on white, dark and blue at 1024, 256 and 128 pixels, by
 Lambent's defaults and, where f3d and Xvfb are installed, by F3D with its best options (FXAA, ambient occlusion, tone mapping for glTF) and the
-same camera. What OUT has already is not drawn again, so that a run can be stopped and go on; --again draws Lambent's pictures anew and keeps
-F3D's while the camera stays the same. Some models are drawn by one of the two alone, and some by none: the report says so.
+same camera. Existing pictures in OUT are not drawn again, so an interrupted run can be resumed; --again redraws Lambent's pictures, and keeps F3D's
+pictures while the camera is unchanged. The report lists models that only one of the programs, or neither of them, can draw.
 
 Writes the pictures, OUT/index.html, OUT/sheet-SIZE-BACKGROUND-PAGE.png (with montage, from ImageMagick) and OUT/statistics.txt: of the covered
 pixels at 256 the mean grey and its 5th, 50th and 95th percentile, how far the outline's pixels are from each background, and how much of the
@@ -32,7 +32,7 @@ SHORT = ["stl/trimesh/20mm-xyz-cube.stl", "stl/trimesh/featuretype.STL", "stl/tr
 FOLDERS = ("stl", "obj", "ply", "glb", "gltf", "gltf-tests")
 BACKGROUNDS = {"white": (255, 255, 255), "dark": (38, 38, 42), "blue": (47, 84, 130)}
 SIZES = (1024, 256, 128)
-SHOWN = {1024: 448, 256: 256, 128: 128}  # sizes on a sheet, and how many models it has
+SHOWN = {1024: 448, 256: 256, 128: 128}  # pictures per side of a sheet, and models per sheet
 MODELS_PER_SHEET = {1024: 8, 256: 24, 128: 96}
 ENDINGS = (".stl", ".obj", ".ply", ".glb", ".gltf")
 PATIENCE_S = 300
@@ -111,7 +111,7 @@ def area(white, dark):
 
 
 def statistics(folder, name, maker):
-    """The covered pixels are those that two backgrounds leave alike. None: pictures are missing, or empty."""
+    """Covered pixels have the same value over two backgrounds. Returns None if pictures are missing or empty."""
     try:
         pictures = {b: greys(os.path.join(folder, picture_name(name, maker, b, 256))) for b in BACKGROUNDS}
         small = [greys(os.path.join(folder, picture_name(name, maker, b, 128)))[2] for b in ("white", "dark")]
@@ -146,7 +146,7 @@ def f3d_words(path, camera, size, color, out):
 
 
 def draw(job):
-    """Draws what is missing of one model; its record is written when that is done."""
+    """Draws the missing pictures of one model, and then writes its record."""
     program, path, name, folder, options, f3d_pictures, again = job
     record_path = os.path.join(folder, name + ".json")
     record = json.load(open(record_path, encoding="utf-8")) if os.path.exists(record_path) else {}

@@ -1,5 +1,5 @@
-// decode.c: what the pictures of a model take by themselves: `decode FILE…` reads them one after the other and keeps all
-// until it ends.
+// decode.c: measures the decoding of a model's pictures: `decode FILE…` reads one after another and keeps all until it
+// ends.
 #include <lambent/image.h>
 
 #include <stdio.h>

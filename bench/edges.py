@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""edges.py: what lines over the picture of a million triangles cost, at 1024² with AVX2 and two threads.
+"""edges.py: measures the time of lines over the picture of a million triangles, at 1024² with AVX2 and two threads.
 
     edges.py LAMBENT            prints the table: milliseconds, the least of three runs
     edges.py LAMBENT --write    also writes it into docs/edges.md

@@ -11,7 +11,7 @@ import measure
 import paths
 import scenes
 
-REPEAT = 7  # frames of one process, whose median is one sample
+REPEAT = 7  # frames of one process; their median is one sample
 
 
 def picture(name, end="png"):
@@ -124,9 +124,9 @@ def rows(isas, gl_device, full):
 
 
 def spread_lights(count, radius, end=None):
-    """Lights a little above the terrain (model.c has its height), evenly in both directions. They fall to 1/255 at `radius`;
-    with `end` they have glTF's range there, and contribute nothing beyond. Without it each contributes everywhere: the
-    many distant ones add up."""
+    """Lights a little above the terrain (model.c has its height), evenly in both directions. Their light falls to 1/255 at `radius`; with `end`, the
+    lights have glTF's range there and contribute nothing beyond it. Without it, each light contributes everywhere, and the many distant lights add
+    up."""
     lights = []
     for i in range(count):
         # A sequence that fills the plane evenly (Roberts' R2).
@@ -139,8 +139,8 @@ def spread_lights(count, radius, end=None):
 
 
 def lights_a_tile_radius(count, wanted, pixels_per_unit, tile=64, size=(1920, 1080)):
-    """The radius at which each tile has on average `wanted` of the lights: a disc of radius r touches
-    (pi r^2 + 4 r s + s^2)/s^2 tiles of side s, those beyond the picture's edge counted."""
+    """The radius at which each tile has on average `wanted` lights. A disc of radius r touches (pi r^2 + 4 r s + s^2)/s^2 tiles of side s, including
+    tiles beyond the picture's edge."""
     touched = wanted * (size[0] / tile) * (size[1] / tile) / count
     low, high = 0.0, 10000.0
     for _ in range(80):
@@ -153,7 +153,7 @@ def lights_a_tile_radius(count, wanted, pixels_per_unit, tile=64, size=(1920, 10
 
 
 def many_lights(count, wanted, isas):
-    """`count` small lights over a terrain, beside 16 of the same kind that are evaluated everywhere (no cutoff)."""
+    """`count` small lights over a terrain, compared with 16 lights of the same kind that are evaluated everywhere (no cutoff)."""
     # Seen straight from above, so that the terrain fills the picture from side to side.
     terrain, size, height, half = scenes.model(200000, shape="terrain"), (1920, 1080), 4.0, 0.55
     radius = lights_a_tile_radius(count, wanted, size[1] / (2 * half))
@@ -190,8 +190,8 @@ def many_lights(count, wanted, isas):
 
 
 def threads(isas):
-    """The 1 M scene with one thread and with two. Enough frames are drawn to outweigh the first ones, in which the system has not
-    yet given each thread its own processor: of seven short frames they may be half."""
+    """The 1 M scene with one thread and with two threads. It draws enough frames to outweigh the first ones, in which the system has not yet given
+    each thread its own processor; these can be half of seven short frames."""
     scene = scene_of("frame 1M", 1000000, 1, "phong", (1024, 1024), 1)
     contestants = {"%s, %d" % (isa, n): (lambda isa=isa, n=n: ours_ms(scene, "--isa", isa, "-j", n, frames=30)) for isa in isas for n in (1, 2)}
     taken = measure.in_turn(contestants, 5)

@@ -1,5 +1,6 @@
-"""gltf_rows.py: rows of glTF files: textured models (the repository's, and with LAMBENT_MODELS more), alone and under an environment, and GLB files of
-1 and 10 million triangles, which are made here. Whole processes against F3D (whole.py); the prefilter of an environment by itself."""
+"""gltf_rows.py: rows of glTF files: textured models (from the repository, and with LAMBENT_MODELS more), alone and under an environment, and GLB
+files of 1 and 10 million triangles, which the bench generates. It compares whole processes with F3D (whole.py), and measures the prefilter of an
+environment separately."""
 import base64
 import functools
 import json
@@ -20,11 +21,11 @@ if paths.REAL_MODELS:
                      "normal tangent": lambda: whole.real("glb/playcanvas/NormalTangentTest.glb"),
                      "toy car": lambda: whole.real("gltf-tests/khronos/ToyCar/glTF/ToyCar.gltf")})
     UNDER_ENVIRONMENT += ["knight", "toy car"]
-BESIDES_DECODING = 8  # F3D's CPU time, at least so many times ours without that of decoding the pictures
+BESIDES_DECODING = 8  # the minimum ratio of F3D's CPU time to Lambent's, excluding the decoding of pictures
 
 
 def environment():
-    """A Radiance picture of a sky with a sun over a dark ground, made once. Its rows are not compressed."""
+    """A generated Radiance picture of a sky with a sun over a dark ground. Its rows are not compressed."""
     made, width, height = os.path.join(paths.MODELS, "sky.hdr"), 1024, 512
     if os.path.exists(made):
         return made
@@ -87,7 +88,7 @@ def glb(triangles):
 
 
 def chunks(path):
-    """The document of a .gltf or .glb, and the bytes behind it."""
+    """The JSON document of a .gltf or .glb, and the binary data that follows it."""
     with open(path, "rb") as file:
         data = file.read()
     if data[:4] != b"glTF":
@@ -97,7 +98,7 @@ def chunks(path):
 
 
 def pictures(path):
-    """The files of a model's pictures; those inside of it are written to files of their own."""
+    """The files of a model's pictures; embedded pictures are written to files."""
     document, binary = chunks(path)
     files = []
     for number, image in enumerate(document.get("images", [])):
@@ -115,8 +116,9 @@ def pictures(path):
 
 
 def pair(label, path, isas, display, seconds, environment=None, decoding=False):
-    """One file by both programs, which the function `path` finds, as `environment` does; the result as of whole.whole. One sample for equal work, since F3D smooths no edges.
-    `decoding`: that of its pictures is measured by itself too."""
+    """Measures one file with both programs; `path` returns the file and `environment` the environment. The result is the same as from whole.whole.
+    One sample makes the work equal, because F3D does not smooth edges.
+    With `decoding`, the decoding of its pictures is also measured separately."""
     display.require()
     path, environment = path(), environment and environment()
     file_name = label.replace(" ", "-").replace(",", "")
@@ -159,7 +161,8 @@ def rows(isas, display):
 
 
 def prefilter():
-    """What an environment of 1024x512 adds to a process's first frame of a square: prefiltering it, all levels since its roughness varies."""
+    """The additional time of a process's first frame of a square with an environment of 1024x512: prefiltering all levels, because the roughness
+    varies."""
     folder = paths.MODELS
     os.makedirs(folder, exist_ok=True)
     files = {"rough.ppm": "P6 2 1 255\n" + 3 * "\x14" + 3 * "\x7a", "rough.mtl": "newmtl rough\nKd 1 0.8 0.3\nPm 1\nPr 1\nmap_Pr rough.ppm\n",

@@ -20,7 +20,8 @@ def label(axis, value):
 def svg(series):
     x, ours, peer = series["x"], series["ours_ms"], series.get("peer_ms")
     low_x, high_x = min(x), max(max(x), 1.01 * min(x))
-    # In proportion (with threads: in inverse proportion), from lambent's last point (its first).
+    # A proportional line (with threads: inversely proportional) from Lambent's last point (or its
+    # first).
     guide = [ours[0] * x[0] / v for v in x] if series["axis"] == "threads" else [ours[-1] * v / x[-1] for v in x]
     every = ours + (peer or []) + (guide if series["axis"] == "threads" else [])
     low_y, high_y = 10 ** math.floor(math.log10(min(every))), 10 ** math.ceil(math.log10(max(every)))

@@ -1,5 +1,5 @@
-"""measure.py: measures contestants in turn, round after round, so that drift of the machine's speed does not matter; computes
-medians, and ratios within a round with their spread."""
+"""measure.py: measures programs alternately, round after round, so that drift of the machine's speed has no effect; computes medians, and ratios
+within a round with their spread."""
 import contextlib
 import json
 import os
@@ -23,7 +23,7 @@ class Failed(Exception):
 
 
 class Absent(Failed):
-    """A row's peer is not installed: the row says so, and the bench succeeds without it."""
+    """The row's peer is not installed. The row reports this, and the bench succeeds without it."""
 
 
 def output(command, **more):
@@ -37,14 +37,14 @@ def output(command, **more):
 
 
 class Taken(NamedTuple):
-    """What a process took."""
+    """The resources that a process used."""
     wall_ms: float
-    cpu_ms: float  # of all its threads, in the program and in the system
+    cpu_ms: float  # of all its threads, in user and system mode
 
 
 def process(command, errors=os.devnull):
-    """Runs a whole process, from the call that starts it to its end. posix_spawn starts it: a fork of Python copies its page
-    tables first, a millisecond that belongs to neither contestant. Its standard error goes to the file `errors`."""
+    """Runs a whole process, from its start to its end. posix_spawn starts it. A fork of Python would first copy its page tables, which takes a
+    millisecond that belongs to neither program. Its standard error goes to the file `errors`."""
     actions = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0),
                (os.POSIX_SPAWN_OPEN, 2, errors, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)]
     start = time.perf_counter()
@@ -67,15 +67,15 @@ def process(command, errors=os.devnull):
 
 
 def peak_bytes(command):
-    """The most memory that a process had. A fresh interpreter starts it: Linux counts what the process that calls posix_spawn has as
-    memory of the one that it starts."""
+    """The peak memory use of a process. A fresh interpreter starts it, because Linux counts the memory of the process that calls posix_spawn as
+    memory of the started process."""
     script = "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL)\n" \
              "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
     return int(output([sys.executable, "-c", script, *map(str, command)])) * 1024
 
 
 def whole_process(command, written):
-    """A process that writes the file `written`, which must not exist: replacing one takes the file system longer, sometimes by
+    """A process that writes the file `written`, which must not exist, because replacing a file takes the file system longer, sometimes by
     milliseconds."""
     with contextlib.suppress(FileNotFoundError):
         os.remove(written)
@@ -105,10 +105,10 @@ hurry_from = float("inf")
 
 
 def in_turn(contestants, seconds, least_rounds=3, most_rounds=15):
-    """Runs every contestant once to warm up, then all of them in turn until the time is used, at least `least_rounds` times; each
-    second round backwards. So no contestant always follows the same one, whose gigabytes the system may still be reclaiming: after
-    F3D with 10 million triangles a process spent up to half a second more in the system. `contestants` is
-    {name: function that measures once}. Returns {name: [what it returned, in each round]}."""
+    """Runs every program once to warm up, and then all of them alternately until the time is used, at least `least_rounds` times; every second round
+    runs backwards. No program therefore always follows the same one, whose gigabytes the system may still be reclaiming. After F3D with 10 million
+    triangles, a process spent up to half a second more in the system. `contestants` maps each name to a function that measures once. Returns {name:
+    [the result of each round]}."""
     for run in reversed(contestants.values()):
         run()
     begun = time.monotonic()

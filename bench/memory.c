@@ -1,7 +1,7 @@
 // memory.c: prints the speed of this machine's memory as JSON, in GB/s: the limits of reading and writing. read:
 // summing 256 MB; copy: memcpy of 256 MB to mapped memory (bytes copied, not bytes moved); first_touch: writing one
-// byte into every page of fresh memory, counted in bytes of the pages, with pages of 4 KiB and of 2 MiB. One thread
-// and two.
+// byte into every page of fresh memory, counted in bytes of the pages, with pages of 4 KiB and of 2 MiB. It measures
+// one thread and two threads.
 #include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 #include <time.h>
 
 enum { THREADS_MOST = 2, ROUNDS = 7 };
-static const size_t block = (size_t)128 << 20; // of each thread
+static const size_t block = (size_t)128 << 20; // for each thread
 
 enum work { READ, COPY, TOUCH_SMALL, TOUCH_HUGE, WORKS };
 static const char *const names[WORKS] = {"read", "copy", "first_touch_4k", "first_touch_2m"};

@@ -1,8 +1,8 @@
-// model.c: makes the benchmark's models: `model sphere|terrain TRIANGLES FILE.ply|.stl|.obj`.
+// model.c: generates the benchmark's models: `model sphere|terrain TRIANGLES FILE.ply|.stl|.obj`.
 //
-// The sphere is bumpy, so that all rows differ and every part of it is lit; the terrain is a height field over
-// [-1, 1] x [-1, 1] that fills a picture seen from above. Both have about TRIANGLES triangles. PLY is binary with shared
-// positions and no normals, STL binary, OBJ has six decimals, like the files of scanners and slicers.
+// The sphere is bumpy, so that all rows differ and every part of it is lit; the terrain is a height field over [-1, 1]
+// x [-1, 1] that fills a picture seen from above. Both have about TRIANGLES triangles. PLY is binary with shared
+// positions and no normals, STL is binary, and OBJ has six decimals, like the files of scanners and slicers.
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -12,7 +12,7 @@
 
 struct model {
     float *positions;  // x, y, z of each vertex
-    uint32_t *indices; // three of each triangle
+    uint32_t *indices; // three for each triangle
     size_t vertices, triangles;
 };
 
@@ -110,7 +110,7 @@ static void write_stl(FILE *file, const struct model *model)
     fwrite(header, 1, sizeof header, file);
     fwrite(&count, 4, 1, file);
     for (size_t t = 0; t < model->triangles; t++) {
-        unsigned char facet[50] = {0}; // a zero normal, as many programs write it
+        unsigned char facet[50] = {0}; // a zero normal, as in files of many programs
         for (size_t k = 0; k < 3; k++)
             memcpy(facet + 12 + 12 * k, model->positions + 3 * (size_t)model->indices[3 * t + k], 12);
         fwrite(facet, 1, sizeof facet, file);

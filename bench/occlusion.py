@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""occlusion.py: how far ambient occlusion from the screen is from that by rays.
+"""occlusion.py: measures the difference between screen-space ambient occlusion and ray-traced occlusion.
 
     occlusion.py LAMBENT [MODEL…]       a line for each model, by default all of the folder LAMBENT_MODELS, and for all together
     occlusion.py LAMBENT --write        writes the table of docs/lighting/occlusion.md
 
 Differences (screen − rays) of `--show ao` at the covered pixels of the fitted view, one sample a pixel, at two sizes, since pictures of more than 512² pixels have
-cells of two by two pixels. Bytes are the same everywhere, and so are these numbers."""
+cells of two by two pixels. Pictures are the same on every machine, so these numbers are too."""
 import array
 import concurrent.futures
 import os
@@ -22,7 +22,7 @@ KINDS = ("obj", "stl", "ply", "glb")
 
 
 def models():
-    """The first of each folder of each format; broken files and those that only test a reader are too small to count."""
+    """The first file of each format in each folder; broken files and files that only test a reader are too small to count."""
     if not paths.REAL_MODELS:
         sys.exit("occlusion.py: no model given, expected some or LAMBENT_MODELS=FOLDER")
     for kind in KINDS:
@@ -32,7 +32,7 @@ def models():
 
 
 def channel(lambent, model, folder, size, *words):
-    """The first channel of a picture of numbers, one for each pixel; None: the model cannot be drawn."""
+    """The first channel of a picture of numbers, one number for each pixel; None if the model cannot be drawn."""
     path = os.path.join(folder, "a.pfm")
     done = subprocess.run([lambent, model, "-q", "-s", str(size), "--samples", "1", "--threads", "1", *words, "-o", path], stderr=subprocess.DEVNULL)
     if done.returncode:
@@ -52,7 +52,7 @@ def differences(lambent, model, size):
 
 
 def summary(values):
-    """Mean of the sizes, 50th, 90th and 99th percentile of them, mean with the sign."""
+    """The mean, the 50th, 90th and 99th percentile of the absolute values, and the signed mean."""
     sizes, count = sorted(map(abs, values)), len(values)
     return (sum(sizes) / count, sizes[count // 2], sizes[count * 9 // 10], sizes[count * 99 // 100], sum(values) / count)
 
@@ -62,7 +62,7 @@ def row(name, s):
 
 
 def table(lambent, given):
-    """Each model counts the same: the figures of all are means over the models."""
+    """Each model has the same weight: the figures for all models are means over the models."""
     yield "| | mean | p50 | p90 | p99 | bias |"
     yield "|---|---|---|---|---|---|"
     for size in SIZES:

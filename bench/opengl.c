@@ -2,10 +2,10 @@
 //     opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--cull] [--frames N] [--seconds S]
 //            [--picture FILE.ppm]
 //
-// It has no window but an EGL context without a surface, and a framebuffer of its own (8 bits a channel, 24 bits of
-// depth, multisampled on request and resolved in each frame). Buffers are uploaded once; a frame is a clear, one draw
-// call (two with --depth-first: the first writes depth alone, so that only visible fragments are lit; --cull: back
-// faces are not drawn) and glFinish,
+// It has no window, but an EGL context without a surface, and its own framebuffer (8 bits per channel, 24 bits of
+// depth, multisampled on request and resolved in each frame). Buffers are uploaded once. A frame is a clear, one draw
+// call (two with --depth-first: the first writes only depth, so that only visible fragments are lit; --cull: back faces
+// are not drawn) and glFinish,
 // without reading pixels back. After one frame to warm up it draws N frames, or for S seconds; the report is a line
 // of JSON. The exit code is 3 if this OpenGL is not available.
 #define GL_GLEXT_PROTOTYPES
@@ -136,7 +136,7 @@ static GLuint make_program(const struct gl_scene *scene, char *vertex, char *fra
 }
 
 struct programs {
-    GLuint lit, depth; // depth: 0 without --depth-first
+    GLuint lit, depth; // 0 for `depth` without --depth-first
 };
 
 static struct programs make_programs(const struct gl_scene *scene, struct form form, int depth_first)
@@ -172,8 +172,7 @@ static void put_vertex(float *to, const struct gl_scene *scene, size_t vertex, c
     memcpy(to + 3, normal, 12);
 }
 
-// Shared vertices and indices; or, for flat shading in the vertex shader, three vertices a triangle with its
-// own normal.
+// Shared vertices and indices; for flat shading in the vertex shader, three vertices per triangle with its normal.
 static void upload(const struct gl_scene *scene, int shared)
 {
     size_t count = shared ? scene->vertices : 3 * scene->triangles;

@@ -1,4 +1,4 @@
-// opengl_scene.c: reads the OpenGL program's scene: lines of a keyword and its numbers, and the PLY named there.
+// opengl_scene.c: reads the OpenGL program's scene: lines of a keyword and its numbers, and the PLY that it names.
 #include "opengl_scene.h"
 
 #include <math.h>
@@ -61,14 +61,13 @@ static void subtract(const float *a, const float *b, double *result)
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Face normals weighted by the angle at the corner, like Lambent's where no edge is sharper than the
-// crease angle.
+// Face normals weighted by the angle at the corner, like Lambent's if no edge is sharper than the crease angle.
 static void make_normals(struct gl_scene *scene)
 {
     double *sums = room(scene->vertices * 3 * sizeof(double));
     for (size_t t = 0; t < scene->triangles; t++) {
         const uint32_t *corner = scene->indices + 3 * t;
-        double edge[3][3]; // edge k leaves corner k
+        double edge[3][3]; // edge k starts at corner k
         for (int k = 0; k < 3; k++)
             subtract(scene->positions + 3 * (size_t)corner[(k + 1) % 3], scene->positions + 3 * (size_t)corner[k],
                      edge[k]);

@@ -28,7 +28,7 @@ struct gl_scene {
     size_t vertices, triangles;
 };
 
-// Reads the scene and its model (a PLY that model.c wrote). On failure it prints a sentence and exits.
+// Reads the scene and its model (a PLY that model.c wrote). On failure it prints an error message and exits.
 struct gl_scene gl_scene_read(const char *path);
 
 #endif

@@ -1,5 +1,5 @@
-// opengl_shader.c: Blinn-Phong by point lights with attenuation, as a plain OpenGL 3.3 program writes it.
-// Lighting is evaluated in world space, so that lights need no transform.
+// opengl_shader.c: Blinn-Phong with point lights and attenuation, as in a plain OpenGL 3.3 program. Lighting is
+// evaluated in world space, so that lights need no transform.
 #include "opengl_shader.h"
 
 #include <stdio.h>
@@ -37,7 +37,7 @@ static void loop_of_lights(FILE *text, const struct gl_scene *scene)
             scene->light_count, scene->light_count);
 }
 
-// x to the power of the shininess by repeated squaring, with a multiplication for each set bit.
+// Computes x to the power of the shininess by repeated squaring, with a multiplication for each set bit.
 static void power_by_squarings(FILE *text, int exponent)
 {
     fprintf(text, "float highlight_of(float x)\n{\n    float y = 1.0;\n");

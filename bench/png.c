@@ -1,10 +1,9 @@
-// png.c: encodes one picture as PNG with Lambent, libpng and libdeflate in turn: `png PICTURE.png ROUNDS`.
-// Prints a line of JSON with the median milliseconds and the bytes of each; every result is first decoded and
-// compared.
+// png.c: encodes one picture as PNG with Lambent, libpng and libdeflate alternately: `png PICTURE.png ROUNDS`. It
+// prints a line of JSON with the median milliseconds and the bytes of each; every result is first decoded and compared.
 //
-// libpng writes with its default filters (all five, chosen for each row by their sums) at levels 1 and 6.
-// libdeflate has no PNG of its own: the picture is filtered by Up and compressed at level 1, its
-// fastest way to a PNG.
+// libpng writes with its default filters (all five, chosen for each row by their sums) at levels 1 and 6. libdeflate
+// has no PNG encoder: the program filters the picture by Up and compresses it at level 1, the fastest way to a PNG with
+// it.
 #include <lambent/image.h>
 
 #include <libdeflate.h>
@@ -140,7 +139,7 @@ static void encode(int encoder, const lam_image *image, struct growing *out)
     }
 }
 
-// Decodes with libpng, whichever encoder wrote the file.
+// Decodes with libpng, for each encoder.
 static void verify(const char *name, const struct growing *out, const lam_image *image)
 {
     png_image reader = {.version = PNG_IMAGE_VERSION};

@@ -1,10 +1,11 @@
-// rays.c: shadow rays against the library's hierarchy, and against Embree where it is installed.
+// rays.c: measures shadow rays in the library's hierarchy, and in Embree if it is installed.
 //
 //   bench-rays [TRIANGLES]      a torus knot of about so many triangles over a floor (100000)
 //
-// Processor time of one thread, the least of several rounds. Rays go from the points that an orthographic camera sees, row by row, to a
-// point light ("coherent"), and from those points in random directions ("scattered"), eight side by side. Embree has its
-// packets of eight, robust, in floats; ours decides in double. It knows the inside of the library, unlike its neighbours here.
+// It reports the processor time of one thread, the minimum of several rounds. Rays start at the points that an
+// orthographic camera sees, row by row. They lead to a point light ("coherent") or in random directions ("scattered"),
+// eight at a time. Embree uses its packets of eight (robust, in floats); Lambent decides in double. Unlike the other
+// programs in this folder, it uses internal headers of the library.
 #define LANES 8
 #include "ray_lanes.h"
 
@@ -24,7 +25,7 @@ enum { SIDE = 512, RAYS = SIDE * SIDE, ROUNDS = 7 };
 
 static struct ray_lanes packets[2][RAYS / LANES];
 
-// Processor time of this thread, which other programs do not change much.
+// Processor time of this thread, which other programs hardly affect.
 static double seconds(void)
 {
     struct timespec t;
@@ -38,7 +39,7 @@ static double uniform(uint64_t *seed)
     return (double)(*seed >> 11) / 9007199254740992.0;
 }
 
-// The points that are seen from above at a slant, and their rays.
+// The points seen from above at an angle, and their rays.
 static void make_rays(const struct hierarchy *h, const double light[3])
 {
     uint64_t seed = 1;
@@ -50,7 +51,7 @@ static void make_rays(const struct hierarchy *h, const double light[3])
         double origin[3] = {(x + 0.5) / SIDE * 1.6 - 0.8, 2, (y + 0.5) / SIDE * 1.6 - 0.8}, d[3] = {0.2, -1, 0.1};
         double nearest = 1e9;
         uint32_t own = 0;
-        // The nearest triangle, by walking every node (not measured).
+        // The nearest triangle, found by visiting every node (not measured).
         uint32_t stack[NODE_CHILDREN * HIERARCHY_DEPTH][2] = {{0, 0}};
         for (int waiting = 1; waiting;) {
             uint32_t child = stack[--waiting][0], count = stack[waiting][1];

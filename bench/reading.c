@@ -1,7 +1,8 @@
 // reading.c: prints the milliseconds that other programs need to read a model file once from the page cache:
-//     reading assimp FILE   Assimp, no post-processing: its own positions and indices
-//     reading touch FILE    mapped, one thread reads every cache line: the limit of any reader with one thread
-//     reading copy FILE     read() into fresh memory, two threads: the limit of any reader that keeps a copy
+//     reading assimp FILE   Assimp without post-processing: its own positions and indices
+//     reading touch FILE    the file is mapped and one thread reads every cache line: the limit of any reader with
+//     one thread
+//     reading copy FILE     read() into new memory with two threads: the limit of any reader that keeps a copy
 // A process reads once, like a program that draws one picture.
 #include <assimp/cimport.h>
 #include <assimp/scene.h>

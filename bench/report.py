@@ -21,7 +21,7 @@ def times(value):
 
 
 def contestant(key):
-    """The name of a contestant: avx2, culled -> AVX2, culled."""
+    """Returns the display name of a program: avx2, culled -> AVX2, culled."""
     isa, comma, rest = key.partition(",")
     return ISA_NAMES.get(isa, isa) + comma + rest
 
@@ -70,7 +70,7 @@ def spread_of(row):
 
 
 def beside(row):
-    """Milliseconds of both, and what is reported beside the target."""
+    """The milliseconds of both programs, and further results."""
     if "not_measured" in row:
         return ""
     if "bytes" in row:
@@ -182,7 +182,7 @@ def growth_section(result):
 
 
 def readme_section(result):
-    """The README's table of speed, each line from a row; nothing unmeasured is claimed."""
+    """Returns the README's table of speed, each line from a row; unmeasured values are omitted."""
     rows = {row["name"]: row for row in result["rows"] if "not_measured" not in row}
     isa, lines, numbers = result["isas"][0], [], []
     for kind in ("ply", "stl", "obj"):

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """run.py: the whole bench: `make bench` (the named rows, a quarter of an hour) or `BENCH=full make bench` (the whole product).
 
-Writes bench/results/DATE.json, the tables and plots of docs/speed.md (report.py), and pictures to build-bench/pictures; the whole
-product DATE-full.json, row after row, and no page. `run.py WORD…` measures only the rows whose names have one of the words
-(`limits` and `growth` too), and writes build-bench/part.json instead; with BENCH=again it puts them into the newest result and its page:
-for rows that something disturbed."""
+Writes bench/results/DATE.json, the tables and plots of docs/speed.md (report.py), and pictures to build-bench/pictures. The full bench writes
+DATE-full.json, row after row, and no page. `run.py WORD…` measures only the rows whose names contain one of the words (also `limits` and `growth`),
+and writes build-bench/part.json instead. With BENCH=again, it puts them into the newest result and its page; use this for disturbed rows."""
 import datetime
 import json
 import math
@@ -25,7 +24,7 @@ import turning_rows
 import whole
 
 NO_TARGET = "none"
-HURRY_S = 330  # after this time one round per row, so that the named rows also end on a busy machine
+HURRY_S = 330  # after this time, one round per row, so that the named rows also finish on a busy machine
 
 
 def judged_ratio(result, target, isas, at_least=True):
@@ -105,7 +104,7 @@ def row_list(isas, gl_device, display, full):
 
     def judge_memory():
         result = steps.memory_of_10m(isas)
-        result["reached"] = all(share["median"] <= 1.6 for share in result["ratio"].values())  # the 4 samples of the default too
+        result["reached"] = all(share["median"] <= 1.6 for share in result["ratio"].values())  # also with the default of 4 samples
         return result
     yield "memory 10M ply", "≤ 1.6 ×", judge_memory
 
@@ -120,7 +119,7 @@ def row_list(isas, gl_device, display, full):
 
 
 def geometric_mean(rows, isas):
-    """Of the frames' ratios, with each instruction set; and the smallest."""
+    """Ratios of the frames with each instruction set, and the smallest ratio."""
     found = {}
     for isa in isas:
         ratios = [row["ratio"][isa]["median"] for row in rows if row["name"].startswith("frame ") and "ratio" in row]
@@ -147,7 +146,7 @@ def attempt(what, run, problems):
     try:
         return run()
     except measure.Absent:
-        return None  # its rows say so
+        return None  # its rows report this
     except Exception as problem:
         problems.append("%s: %s" % (what, problem))
         print("    not measured: %s: %s" % (what, problem), flush=True)

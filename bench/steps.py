@@ -43,20 +43,21 @@ def png():
     return {"encoders": json.loads(measure.output([paths.program("png"), picture, "25"])), "peer": "libpng level 1"}
 
 
-# Floating-point operations of one point light with attenuation at one point, Blinn-Phong, by the text of src/lighting and
-# base/math/functions.h: each + - x, comparison and choice is one, so is a division. Work that a compiler can move out of the loop
-# over the lights, and integer work on a float's bits, is not counted.
+# Floating-point operations of one point light with attenuation at one point, Blinn-Phong, counted in src/lighting and
+# base/math/functions.h. Each + - x, comparison, selection and division counts as one. Work that a compiler can move out of the
+# loop over the lights, and integer work on a float's bits, is not counted.
 OPERATIONS = {"vector to the light, its square and inverse root": 3 + 5 + 13, "direction, distance": 3 + 1, "attenuation": 7 + 2,
               "n.l, clamped, gate": 5 + 2 + 1 + 1, "l + v, n.(l + v), its length": 3 + 5 + 5 + 13 + 1,
               "logarithm": 1 + 1 + 1 + 21 + 4 + 3 + 2, "times the shininess": 4, "power of two": 1 + 2 + 2 + 11 + 1 + 2,
               "gate of the highlight": 1, "two products of colour, two sums": 2 + 6 + 6}
-# And of the point itself, independent of the lights: perspective-correct weights, position and normal, into eye space, the sum.
+# Operations of the point itself, independent of the lights: perspective-correct weights, position and normal, transformation to
+# eye space, the sum.
 POINT_OPERATIONS = {"weights": 12 + 9 + 2 + 3 + 3 + 3, "position": 12 + 18, "normal": 12 + 21, "to the eye": 24, "tint and sum": 6 + 12}
 
 
 def lighting_step(isas):
-    """The lighting step of a frame (attributes fetched and interpolated, the equations of 16 lights that reach every visible
-    point), in operations counted in the text for evaluated lights, compared with the processors' rate without fused operations."""
+    """The lighting step of a frame (fetching and interpolating attributes, and the equations of 16 lights that reach every visible point), as counted
+    operations for evaluated lights, compared with the processor's rate without fused operations."""
     count, of_point = sum(OPERATIONS.values()), sum(POINT_OPERATIONS.values())
     rates = json.loads(measure.output([paths.program("arithmetic")]))
     scene = scenes.Scene("lighting", scenes.model(100000), scenes.from_the_front(16))
@@ -69,7 +70,7 @@ def lighting_step(isas):
         counts = report["counts"]
         return (counts["lights_evaluated"] * count + counts["points_lit"] * of_point) / report["times_ms"]["steps"]["lighting"] / 1e6
     taken = measure.in_turn({isa: (lambda isa=isa: per_second(isa)) for isa in isas if isa in rates}, 4)
-    # Measures the machine's rate again between the rounds; the better one counts.
+    # The machine's rate is measured again between the rounds; the higher rate counts.
     again = json.loads(measure.output([paths.program("arithmetic")]))
     for isa, values in taken.items():
         peak = max(rates[isa]["unfused"], again[isa]["unfused"]) * threads
@@ -90,7 +91,7 @@ def memory_of_10m(isas):
 
 
 def start_up():
-    """`lambent --version` (every option table read, one line written) compared with a program that does nothing."""
+    """`lambent --version` (reads every option table and writes one line), compared with a program that does nothing."""
     taken = measure.in_turn({"lambent": lambda: measure.process([paths.LAMBENT, "--version"]).wall_ms,
                              "true": lambda: measure.process(["/bin/true"]).wall_ms}, 3, least_rounds=50, most_rounds=400)
     over = [a - b for a, b in zip(taken["lambent"], taken["true"])]
@@ -99,7 +100,7 @@ def start_up():
 
 
 def loaded_graphics():
-    """Libraries of OpenGL or windows that the program is linked with: there must be none."""
+    """Libraries of OpenGL or windows that the program is linked with; there must be none."""
     names = measure.output(["ldd", paths.LAMBENT])
     return [line.split()[0] for line in names.splitlines() if any(word in line for word in ("libGL", "libEGL", "libgtk", "libX11", "wayland"))]
 
@@ -112,14 +113,14 @@ def limits():
 
 
 def distance(isa, memory, process_ms):
-    """Each step of drawing the 1 M PLY with its minimum on this machine: [(step, ms, minimum ms, reason)]."""
+    """Each step of drawing the 1 M PLY, with its minimum on this machine: [(step, ms, minimum ms, reason)]."""
     path, width = scenes.model(1000000), 1024
     reports = [measure.lambent("-s", width, "--samples", 1, "--isa", isa, "-o", os.path.join(paths.PICTURES, "steps.png"), path)
                for _ in range(5)]
     report = sorted(reports, key=lambda r: r["times_ms"]["total"])[2]
     times, steps, vertices = report["times_ms"], report["times_ms"]["steps"], report["model"]["vertices"]
     triangles, size = report["model"]["triangles"], os.path.getsize(path)
-    read, copy, touch = (memory[name + "_2"] * 1e6 for name in ("read", "copy", "first_touch_2m"))  # bytes a millisecond
+    read, copy, touch = (memory[name + "_2"] * 1e6 for name in ("read", "copy", "first_touch_2m"))  # bytes per millisecond
     kept = 12 * vertices + 12 * triangles
     pixels = width * width
     return [

@@ -1,6 +1,6 @@
-"""three_rows.py: rows of a frame of textured glTF files beside three.js in headless Chromium, whose software GPU is SwiftShader: the same file,
-camera, size and light, one sample each. npm gets three.js and playwright-core (bench/three/package-lock.json) into build-bench/npm; without them, or
-without Chromium, the rows say so."""
+"""three_rows.py: rows that compare a frame of textured glTF files with three.js in headless Chromium (software GPU SwiftShader): the same file,
+camera, size and light, one sample each. npm installs three.js and playwright-core (bench/three/package-lock.json) in build-bench/npm; if they or
+Chromium are missing, the rows report this."""
 import functools
 import json
 import math
@@ -20,12 +20,13 @@ import build  # noqa: E402
 
 SIZE = 1024
 LIGHT = {"direction": (-0.5, -0.6, -0.62), "intensity": 1.5}
-# The pictures differ where the two programs' equations do: multiple scattering, prefiltered environments, the order of blended surfaces.
+# The pictures differ because the equations of the two programs differ: multiple scattering, prefiltered environments, the order of
+# blended surfaces.
 MOST_DIFFERENT = 0.04
 
 
 class Browser:
-    """three.mjs, as a context: tasks in, answers out. `folder` has the files of the tasks."""
+    """A context manager for three.mjs: sends tasks and returns answers. `folder` contains the files of the tasks."""
 
     name = "three.js"
 
@@ -65,13 +66,13 @@ class Browser:
 
 
 def tree_cpu_ms(root):
-    """Processor time so far of a process and all that descend from it."""
+    """The processor time so far of a process and all its descendants."""
     parents, used = {}, {}
     for entry in filter(str.isdigit, os.listdir("/proc")):
         try:
             with open("/proc/%s/stat" % entry) as file:
                 words = file.read().rpartition(")")[2].split()
-        except OSError:  # it has ended meanwhile
+        except OSError:  # it has ended in the meantime
             continue
         parents[int(entry)], used[int(entry)] = int(words[1]), int(words[11]) + int(words[12])
 
@@ -101,7 +102,7 @@ def row(label, path, isas, gl_device, environment):
     report = measure.lambent(path, *options, "-o", ours)
 
     def ours_taken(*more):
-        """The median frame of a process; its processor time is that of the frames after the first."""
+        """The median frame of a process; the processor time covers the frames after the first."""
         command = [paths.LAMBENT, "-q", *map(str, options), *more, "-o", frames.picture(name, "ppm"), path]
         wall = measure.lambent("--repeat", count, *options, *more, "-o", frames.picture(name, "ppm"), path)["times_ms"]["frame"]
         first, all_of_them = (measure.process([*command, "--repeat", str(n)]).cpu_ms for n in (1, 1 + count))

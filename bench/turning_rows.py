@@ -1,9 +1,11 @@
-"""turning_rows.py: how quickly the page follows a hand that turns a model, with one thread for each processor, in headless Chromium: the teapot at 928 × 656,
-and a ball of 100,000 triangles beside three.js on the software GPU of the same browser, in turn. `python3 bench/run.py turning` measures these rows alone, in two
-minutes. They need the page (make web); without it, three.js or Chromium they say so.
+"""turning_rows.py: measures how quickly the page follows a user who turns a model, with one thread for each processor, in headless Chromium: the
+teapot at 928 × 656, and a ball of 100,000 triangles, alternating with three.js on the software GPU of the same browser. `python3 bench/run.py
+turning` measures only these rows, in two minutes. They need the page (make web); if the page, three.js or Chromium is missing, they report this.
 
-`as shown`: what each program shows while the model turns. The page draws one sample for each pixel, and at least half of the width and height (web/page/pace.js);
-three.js draws all pixels, with 4 samples (antialias). `equal`: both draw all pixels with 1 sample; the page then draws whole pictures as after any change."""
+`as shown`: each program with its own settings while the model turns. The page draws one sample for each pixel, and at least half of the width and
+height (web/page/pace.js);
+three.js draws all pixels, with 4 samples (antialias). `equal`: both draw all pixels with 1 sample; the page then draws complete pictures, as after
+any change."""
 import functools
 import json
 import math
@@ -23,11 +25,11 @@ WIDTH, HEIGHT = 928, 656
 TEAPOT = ["teapot", "--material=ambient=#12657a,diffuse=#1688a5,specular=0.7,shininess=80", "--light=point:position=0.3r/0.5r/1r", "--ambient=0.3"]
 FRAMES_PER_S, SHARP_MS, TIMES = 30, 150, 3
 PAGE = os.path.join(paths.ROOT, "build-web")
-ROWS, COLUMNS = 200, 250  # two triangles each
+ROWS, COLUMNS = 200, 250  # two triangles per cell
 
 
 def make_ball(path):
-    """A GLB file of a ball with waves: 100,000 triangles with normals."""
+    """Writes a GLB file of a ball with waves: 100,000 triangles with normals."""
     points, normals = [], []
     for i in range(ROWS + 1):
         for j in range(COLUMNS + 1):
@@ -61,7 +63,7 @@ def make_ball(path):
 
 
 class Page(three_rows.Browser):
-    """lab.mjs, as a context: tasks in, answers out."""
+    """A context manager for lab.mjs: sends tasks and returns answers."""
 
     name = "the page"
 

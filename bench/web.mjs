@@ -1,5 +1,5 @@
-// web.mjs MODULE FOLDER: reads {"words": [...], "frames": N} from standard input, one on a line, and draws each N times; writes the times of
-// the frames in milliseconds as a JSON list on a line. Files are those of FOLDER by their names.
+// web.mjs MODULE FOLDER: reads one {"words": [...], "frames": N} per line from standard input, and draws each N times; writes the times of
+// the frames in milliseconds as a JSON list per line. File names refer to files in FOLDER.
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""web.py PROGRAM [MODULE]: the module of the page in node beside PROGRAM with SSE4, both on one thread: the shortest frame of each, and their
-ratio. Rounds alternate, so that a busy machine disturbs both alike. MODULE: build-web/wasm/web/lambent.wasm (make web)."""
+"""web.py PROGRAM [MODULE]: compares the module of the page in node with PROGRAM with SSE4, both with one thread: the shortest frame of each, and
+their ratio. Rounds alternate, so a busy machine affects both equally. MODULE: build-web/wasm/web/lambent.wasm (make web)."""
 import json
 import os
 import subprocess

@@ -1,9 +1,9 @@
-"""whole.py: compares a whole lambent process, model file to PNG, with F3D drawing the same file with the same camera. Each file is
-a row twice: the same work as F3D (the file's own normals or facets, one sample: F3D as Debian has it smooths neither faces nor
-edges unless asked), and the pictures that lambent draws by default (smooth normals, several samples).
+"""whole.py: compares a whole lambent process, model file to PNG, with F3D drawing the same file with the same camera. Each file has two rows: one
+with the same work as F3D (the file's own normals or facets, one sample; Debian's F3D smooths neither faces nor edges by default), and one with
+Lambent's default pictures (smooth normals, several samples).
 
-Each uses its own studio lights (F3D: VTK's light kit), both write 1024x1024 PNG. F3D runs on a running display: neither starting
-the X server nor its CPU time is counted. The pictures stay in build-bench/pictures for inspection."""
+Each uses its own studio lights (F3D: VTK's light kit), both write 1024x1024 PNG. F3D uses a running display: starting the X server and its CPU time
+are not counted. The pictures stay in build-bench/pictures for inspection."""
 import functools
 import os
 import shutil
@@ -34,7 +34,7 @@ class Display:
         measure.output(["f3d", scenes.model(1000), "--dry-run", "--quiet", "--output=" + picture("try-f3d")])
 
     def f3d(self, command, written):
-        """What F3D took. If it crashes on a display used before, it runs once more on a new one."""
+        """The time that F3D used. If it crashes on a display that was used before, it runs once more on a new one."""
         try:
             return measure.whole_process(command, written)
         except measure.Failed:
@@ -62,7 +62,7 @@ class Display:
 
 
 def f3d_command(path, report, picture, size):
-    """F3D with lambent's fitted camera."""
+    """F3D with Lambent's fitted camera."""
     def numbers(vector):
         return ",".join("%.9g" % x for x in vector)
     camera = report["camera"]
@@ -84,7 +84,8 @@ def carries_normals(path):
 
 
 def whole(name, path, isas, display, seconds, size=SIZE):
-    """One file, which the function `path` makes or finds: lambent with each instruction set, for F3D's work and by default, and F3D. Returns the results of the two rows:
+    """Measures one file, which the function `path` generates or finds: Lambent with each instruction set, for F3D's work and with its defaults, and
+    F3D. Returns the results of the two rows:
     {same_work: result}."""
     display.require()
     path = path()
@@ -94,7 +95,8 @@ def whole(name, path, isas, display, seconds, size=SIZE):
 
     def command(same_work, isa):
         return [paths.LAMBENT, "-q", path, "-s", str(size), *options[same_work], "--isa", isa, "-o", ours]
-    # Apart from the rounds, for the steps and for the time without the encoder: a report costs time.
+    # Runs outside the rounds, to get the steps and the time without the encoder, because a report
+    # takes time.
     reports = {same_work: [measure.lambent(path, "-s", size, *work, "-o", ours) for _ in range(3)] for same_work, work in options.items()}
     contestants = {(same_work, isa): (lambda same_work=same_work, isa=isa: measure.whole_process(command(same_work, isa), ours))
                    for same_work in options for isa in isas}
@@ -118,7 +120,7 @@ def whole(name, path, isas, display, seconds, size=SIZE):
 
 
 def real(path):
-    """A file of the folder LAMBENT_MODELS."""
+    """A file in the folder LAMBENT_MODELS."""
     found = os.path.normpath(os.path.join(paths.REAL_MODELS, path))
     if not os.path.exists(found):
         raise measure.Failed("%s is not in the folder that LAMBENT_MODELS names" % found)
@@ -129,7 +131,7 @@ REAL = {"koala": "obj/koala/koala.obj", "koala.stl": "stl/derived/koala.stl", "g
 
 
 def small_model(name):
-    """A model that lambent and F3D read: the repository's, made here, or of LAMBENT_MODELS."""
+    """A model that Lambent and F3D read: from the repository, generated, or from LAMBENT_MODELS."""
     if name == "spot":
         return os.path.join(paths.EXAMPLES, "spot.obj")
     if name == "teapot":
@@ -142,7 +144,7 @@ def small_model(name):
 
 
 def both(label, target, path, isas, display, seconds, size=SIZE):
-    """The two rows of a file, measured side by side when the first is asked for; `path` is a function. Targets are for equal work."""
+    """The two rows of a file, measured together when the first one is needed; `path` is a function. Targets apply to equal work."""
     measured = functools.cache(lambda: whole(label, path, isas, display, seconds, size))
     yield label, target, lambda: measured()[True]
     yield label + ", default", None, lambda: measured()[False]

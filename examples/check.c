@@ -15,7 +15,7 @@ int main(int argc, char **argv)
     }
     lam_check_params params = {.fragment = text, .fragment_name = argv[1]};
     lam_check_report report = {0};
-    // The picture: the first scene as the shader drew it.
+    // The picture: the first scene, drawn by the shader.
     bool ok = file && lam_check_run(&params, &report, &error) &&
               (!report.scene_count || lam_image_save(&report.scenes[0].theirs, argv[2], NULL, &error));
     if (ok)

@@ -1,5 +1,5 @@
-// materials.c: draws every named material on a sphere, in one picture, with the library alone.
-// cc materials.c $(pkg-config --cflags --libs lambent) -o materials
+// materials.c: draws every named material on a sphere, in one picture, with only the library. cc materials.c
+// $(pkg-config --cflags --libs lambent) -o materials
 #include <lambent/lambent.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
-// opengl.c: draws with OpenGL in the program's own context. This one has no window; for a window, SDL, GLFW or GTK
-// make the context and provide the function that loads OpenGL's functions.
+// opengl.c: draws with OpenGL in the program's own context. It has no window; for a window, SDL, GLFW or GTK create the
+// context and provide the function that loads OpenGL's functions.
 // cc opengl.c $(pkg-config --cflags --libs lambent egl) -o opengl
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -49,7 +49,7 @@ int main(int argc, char **argv)
     lam_image image = {0};
     lam_draw_params params = {.shading = LAM_SHADING_GOURAUD, .stage = LAM_STAGE_VERTEX};
     bool ok = device && lam_image_make(&image, 512, 512, LAM_RGBA8, &error);
-    for (int frame = 0; ok && frame < 8; frame++) { // around the model, which is uploaded with the first frame only
+    for (int frame = 0; ok && frame < 8; frame++) { // moves around the model, which is uploaded only in the first frame
         lam_view view = {.from_angles = true, .azimuth_rad = frame * 0.1, .elevation_rad = 0.3};
         lam_camera camera = lam_camera_fit(scene, image.width, image.height, &view);
         lam_frame_report report;

@@ -1,8 +1,8 @@
-// widget.c: a model in a window, drawn by the CPU device into the program's own buffer.
+// widget.c: shows a model in a window, drawn by the CPU device into the program's own buffer.
 // cc widget.c $(pkg-config --cflags --libs lambent sdl2) -o widget
 //
-// widget MODEL                  turns it at 30 pictures a second; drag to turn, drag right to move, wheel to zoom, click to pick
-// widget MODEL FRAMES FILE.bmp  ends after FRAMES pictures and saves the last one
+// widget MODEL                  turns it at 30 pictures a second; drag to turn, drag right to move, wheel to zoom,
+// click to pick widget MODEL FRAMES FILE.bmp  ends after FRAMES pictures and saves the last one
 #include <SDL.h>
 #include <lambent/lambent.h>
 #include <stdio.h>
@@ -17,10 +17,10 @@ struct widget {
     lam_device *device;
     lam_orbit orbit;
     lam_draw_params params;
-    bool held, ended; // the user has taken over; the window is closed
+    bool held, ended; // the user has moved the model; the window is closed
 };
 
-// Makes a buffer of the window's size. False: SDL_GetError says why.
+// Makes a buffer of the window's size. Returns false if this fails; SDL_GetError states the reason.
 static bool resize(struct widget *w)
 {
     int width, height;
@@ -45,7 +45,7 @@ static bool draw(struct widget *w, lam_error *error)
     return true;
 }
 
-// Shows what lies under the mouse in the window's title.
+// Shows the picked object in the window's title.
 static void pick(struct widget *w, int x, int y)
 {
     lam_pick_pixel pixel = {.width = w->buffer->w, .height = w->buffer->h, .x = x, .y = y};

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// worker.mjs: draws thumbnails with one `lambent batch --jobs -`, which stays running for all of them.  worker.mjs MODEL ...
+// worker.mjs: draws thumbnails with one running `lambent batch --jobs -`. worker.mjs MODEL ...
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { writeFileSync } from 'node:fs';
@@ -10,7 +10,8 @@ const models = process.argv.slice(2);
 const worker = spawn(process.env.LAMBENT ?? 'lambent', ['batch', '--jobs', '-', '--quiet', '--isolate', '--allow-path', '.'],
   { stdio: ['pipe', 'pipe', 'inherit'] });
 
-// The worker stops reading while many jobs wait: then a write waits too, and answers are read meanwhile.
+// The worker stops reading while many jobs wait. A write then waits too, so answers are read at the same
+// time.
 async function send() {
   for (const [id, model] of models.entries()) {
     const job = { id, model, options: { size: 256 }, timeout_s: 20 };
@@ -20,7 +21,7 @@ async function send() {
 }
 
 send();
-for await (const line of createInterface({ input: worker.stdout })) { // in the order in which they are done
+for await (const line of createInterface({ input: worker.stdout })) { // in the order in which they finish
   const answer = JSON.parse(line);
   if (answer.outcome === 'written') {
     const picture = basename(models[answer.id]) + '.png';

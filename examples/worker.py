@@ -14,7 +14,7 @@ worker = subprocess.Popen([os.environ.get("LAMBENT", "lambent"), "batch", "--job
 
 
 def send():
-    """In a thread of its own: the worker stops reading while many jobs wait, and answers meanwhile."""
+    """Writes in a separate thread, because the worker stops reading while many jobs wait, and sends answers meanwhile."""
     with worker.stdin as jobs:
         for number, model in enumerate(models):
             print(json.dumps({"id": number, "model": model, "options": {"size": 256}, "timeout_s": 20}), file=jobs, flush=True)
@@ -22,7 +22,7 @@ def send():
 
 threading.Thread(target=send).start()
 failed = 0
-for line in worker.stdout:  # in the order in which they are done
+for line in worker.stdout:  # in the order in which they finish
     answer = json.loads(line)
     if answer["outcome"] == "written":
         picture = pathlib.Path(models[answer["id"]]).name + ".png"

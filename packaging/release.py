@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""release.py [FOLDER]: everything of a release in FOLDER (dist): the source, the Debian packages, the static programs, the changes, and checksums
-(make release). It releases the committed tree, whose version is meson.build's.
+"""release.py [FOLDER]: builds a complete release in FOLDER (dist): the source, the Debian packages, the static programs, the changes, and checksums
+(make release). It releases the committed tree, with the version in meson.build.
 
 release.py --notes prints the changes: the section of CHANGELOG.md, and the pictures of tests/images that differ from the last release (the newest tag
 vX.Y.Z), by name."""
@@ -14,7 +14,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MACHINES = ("x86_64", "aarch64")  # of the static programs
-EXPECTED = "tests/images/expected/hashes.txt"  # a line for each picture: its name, and the hash of its bytes
+EXPECTED = "tests/images/expected/hashes.txt"  # one line for each picture: its name, and the hash of its bytes
 
 
 def git(*words, root=ROOT):

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """static.py [FOLDER [MACHINE]]: one program without shared libraries in FOLDER (build-static), FOLDER/lambent, for this machine or for MACHINE
-(make static, make static machine=aarch64). FOLDER/LICENCES has the notices of what it contains.
+(make static, make static machine=aarch64). FOLDER/LICENCES contains the licence notices of its components.
 
-Debian's packages have most of the libraries as archives. libspng and the decoders of meshoptimizer are compiled here from Debian's source packages, which
-are fetched by name and held to a checksum. For another machine Debian's packages for it are unpacked in FOLDER/debian: the system stays as it is."""
+Debian's packages have most of the libraries as archives. libspng and the decoders of meshoptimizer are compiled from Debian's source packages, which
+are downloaded by name and verified by checksum. For another machine, Debian's packages for that machine are unpacked in FOLDER/debian; the system
+does not change."""
 import hashlib
 import os
 import pathlib
@@ -26,13 +27,14 @@ SUMS = {
     "libspng_0.7.3.orig.tar.gz": "a50cadbe808ffda1a7fab17d145f52a23b163f34b3eb3696c7ecb5a52340fc1d",
     "meshoptimizer_0.18+dfsg.orig.tar.xz": "881ea2cc687f1fef5ce70484e0ca6504e13856dd856677749f3763bc685956d3",
 }
-# The packages of the archives, and of the notices of what is inside.
+# The packages of the archives, and the packages that contain the licence notices.
 PACKAGES = ["libbrotli-dev", "libdeflate-dev", "libfreetype-dev", "libjansson-dev", "libjpeg62-turbo-dev", "libpng-dev", "libwebp-dev", "zlib1g-dev"]
 INSIDE = [*PACKAGES, "fonts-dejavu-core", "libc6-dev", "libgcc-*-dev"]
 DEBIAN_NAMES = {"x86_64": "amd64", "aarch64": "arm64"}
 
 
-# For size: the linker omits functions that nothing calls, and there are no tables for unwinding the stack, which only C++ needs.
+# To reduce the size, the linker omits functions that nothing calls, and the program contains no tables for stack unwinding,
+# which only C++ needs.
 SECTIONS, UNUSED = "-ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables", "-Wl,--gc-sections"
 
 
@@ -70,7 +72,7 @@ def compile_library(row, folder, prefix):
 
 
 def unpack_packages(folder, machine):
-    """Debian's archives for another machine, in FOLDER/debian, where the files of pkg-config are told to find them."""
+    """Unpacks Debian's archives for another machine in FOLDER/debian, and adjusts the paths in the files of pkg-config."""
     debs, debian = folder / "debs", folder / "debian"
     (debs / "lists" / "partial").mkdir(parents=True, exist_ok=True)
     (debs / "status").write_text("")
@@ -95,7 +97,7 @@ def cross_file(folder, machine, prefix):
 
 
 def write_licences(folder):
-    """The notices of what the program contains: what Debian's packages say of their source."""
+    """The licence notices of the program's components, from Debian's packages."""
     texts = ["The program lambent contains the following software. What Debian's packages say of each:\n", (ROOT / "LICENSE").read_text()]
     for row in SOURCES:
         texts.append("==== %s\n\n%s" % (row["source"], (pathlib.Path(libraries.unpacked(str(folder), row["source"])) / "debian" / "copyright").read_text()))

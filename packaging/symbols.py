@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""symbols.py BUILD [--check]: the symbols files of the Debian packages (packaging/debian/*.symbols), from the shared libraries of a build folder: what is new
-gets the present version, what is gone is left out. With --check nothing is written, and a difference ends with exit code 1."""
+"""symbols.py BUILD [--check]: writes the symbols files of the Debian packages (packaging/debian/*.symbols) from the shared libraries of a build folder.
+New symbols get the present version, and removed symbols are deleted. With --check it writes nothing, and exits with code 1 if there is a difference."""
 import pathlib
 import re
 import subprocess
@@ -13,7 +13,8 @@ LIBRARIES = {"liblambent0": "liblambent.so", "liblambent-check0": "liblambent-ch
 def exported(library):
     """The symbols with their versions, as dpkg-gensymbols writes them: "lam_draw@LAMBENT_0"."""
     text = subprocess.run(["nm", "-D", "--defined-only", "--format=posix", library], stdout=subprocess.PIPE, text=True, check=True).stdout
-    # "lam_draw@@LAMBENT_0 T ..."; "LAMBENT_0 A" is the version itself, whose version is itself.
+    # In "lam_draw@@LAMBENT_0 T ...", LAMBENT_0 is the version; "LAMBENT_0 A" is the version symbol
+    # itself.
     names = [line.split()[0].replace("@@", "@") for line in text.splitlines()]
     return sorted(name if "@" in name else name + "@" + name for name in names)
 

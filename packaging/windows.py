@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""windows.py [FOLDER]: Lambent for Windows on x86-64 in FOLDER (build-windows): the program lambent.exe, which is a static one, the library lambent.dll
-and its lambent.dll.a for linkers, by mingw-w64 (make windows). The libraries inside are the same as in the module for the web (web/libraries.py) and in the
+"""windows.py [FOLDER]: builds Lambent for Windows on x86-64 in FOLDER (build-windows) with mingw-w64 (make windows): the static program lambent.exe,
+and the library lambent.dll with lambent.dll.a for linkers. The libraries inside are the same as in the module for the web (web/libraries.py) and in
+the
 static program (packaging/static.py), compiled from Debian's source packages."""
 import pathlib
 import shutil
@@ -13,10 +14,10 @@ import libraries  # noqa: E402
 
 PREFIX = "x86_64-w64-mingw32-"
 COMPILER = PREFIX + "gcc-posix"
-INSIDE = ["fonts-dejavu-core", "gcc-mingw-w64-base", "mingw-w64-common"] # the font, the compiler's library, and Windows' with threads
+INSIDE = ["fonts-dejavu-core", "gcc-mingw-w64-base", "mingw-w64-common"] # the font, the compiler's library, and Windows' libraries with threads
 PROGRAMS = {COMPILER: "gcc-mingw-w64-x86-64-posix", PREFIX + "g++-posix": "g++-mingw-w64-x86-64-posix", "dpkg-source": "dpkg-dev", "meson": "meson", "ninja": "ninja-build"}
 
-# Of FreeType the modules in its list ftmodule.h.
+# The modules of FreeType that are listed in its ftmodule.h.
 FREETYPE = """autofit bdf cff cid/type1cid lzw/ftlzw gzip/ftgzip pcf pfr psaux pshinter psnames raster sdf sfnt smooth svg truetype type1/type1 type42/type42 winfonts/winfnt
 base/ftbase base/ftbitmap base/ftdebug base/ftglyph base/ftinit base/ftmm base/ftsystem""".split()
 # Rows like libraries.LIBRARIES.
@@ -45,7 +46,7 @@ def call(*command):
 
 
 def build(folder):
-    """Builds what is not up to date, and returns the folder of the build."""
+    """Builds outdated parts, and returns the build folder."""
     folder.mkdir(parents=True, exist_ok=True)
     libraries.CLANG, libraries.ARCHIVER, libraries.SIZE_T = COMPILER, PREFIX + "ar", "8"
     libraries.FLAGS = ["-DNDEBUG", "-D__USE_MINGW_ANSI_STDIO=1", "-DSPNG_STATIC", "-ffp-contract=off", "-w"]
@@ -64,7 +65,7 @@ def build(folder):
 
 
 def write_licences(folder):
-    """The notices of what the program contains: what Debian's packages say of their source."""
+    """The licence notices of the program's components, from Debian's packages."""
     sources = {row["source"]: pathlib.Path(libraries.unpacked(str(folder), row["source"])) / "debian" for row in libraries.LIBRARIES + MORE}
     packages = {name: pathlib.Path("/usr/share/doc") / name for name in INSIDE}
     texts = ["The program lambent.exe and the library lambent.dll contain the following software. What Debian's packages say of each:\n", (ROOT / "LICENSE").read_text()]

@@ -1,4 +1,4 @@
-"""binding.py: the module lambent._native, made by cffi (API mode, stable ABI). Its declarations are read from the public headers."""
+"""binding.py: builds the module lambent._native with cffi (API mode, stable ABI). Its declarations are read from the public headers."""
 import pathlib
 import re
 
@@ -19,7 +19,8 @@ def header_names(name="lambent.h", seen=None):
 
 
 def declarations():
-    """The public headers as cffi reads C: without comments, directives and attributes. Constants keep the value that the compiler finds."""
+    """The public headers in a form that cffi can read: without comments, directives and attributes. Constants get the value that the compiler
+    computes."""
     text = ""
     for name in header_names():
         code = re.sub(r"//[^\n]*", "", (HEADERS / name).read_text())
@@ -31,7 +32,7 @@ def declarations():
 
 
 def library_hash():
-    """The declaration of the hash that the program's journals and reports have, from its header."""
+    """The declaration of the hash function of the program's journals and reports, from its header."""
     return re.search(r"^uint64_t xxh64_of\(.*\);", (ROOT / "tools/base/xxh64.h").read_text(), re.M)[0]
 
 

@@ -1,4 +1,4 @@
-"""describe.py: what the package says of itself: the members of parameter structs with their comments, and type stubs, both generated."""
+"""describe.py: generates the package's own documentation: the members of parameter structs with their comments, and type stubs."""
 import os
 import pathlib
 import re
@@ -31,7 +31,7 @@ def write_members(path):
 
 
 def write_stubs(folder):
-    """The stubs, by the package itself (lambent/_stubs.py), which knows its tables."""
+    """The stubs, printed by the package itself (lambent/_stubs.py), which knows its tables."""
     text = subprocess.check_output([sys.executable, "-m", "lambent._stubs"], text=True, cwd=folder.parent,
                                    env={**os.environ, "PYTHONPATH": str(folder.parent.resolve()), "PYTHONDONTWRITEBYTECODE": "1"})
     (folder / "__init__.pyi").write_text(text, encoding="utf-8")

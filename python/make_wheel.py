@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""make_wheel.py BUILD FOLDER: builds the wheel from the library in Meson's build folder BUILD, and leaves it and what it was made from in FOLDER (make python)."""
+"""make_wheel.py BUILD FOLDER: builds the wheel from the library in Meson's build folder BUILD, and leaves the wheel and its inputs in FOLDER (make
+python)."""
 import os
 import pathlib
 import subprocess
@@ -9,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def build(library, folder):
-    """The path of the new wheel. The same sources give the same bytes: the time in it is the commit's."""
+    """The path of the new wheel. The same sources give the same bytes, because it uses the commit's time."""
     folder = pathlib.Path(folder).resolve()
     folder.mkdir(exist_ok=True)
     for old in folder.glob("*.whl"):

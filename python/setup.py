@@ -1,5 +1,5 @@
-"""setup.py: builds the package `lambent` (docs/python.md). LAMBENT_BUILD names a build folder of Meson: its library becomes part of the extension, and
-the libraries that it needs lie beside it, with their licences. Without it the extension uses the installed liblambent (pkg-config)."""
+"""setup.py: builds the package `lambent` (docs/python.md). LAMBENT_BUILD is a build folder of Meson. Its library becomes part of the extension, and
+the required libraries are stored next to it, with their licences. Without LAMBENT_BUILD, the extension uses the installed liblambent (pkg-config)."""
 import os
 import pathlib
 import re
@@ -14,7 +14,7 @@ from setuptools.command.build_ext import build_ext
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 os.chdir(ROOT / "python")
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scripts")]
-INSIDE = {"spng": "libspng0", "jansson": "libjansson4", "jpeg": "libjpeg62-turbo"}  # library, and the Debian package that has its licence
+INSIDE = {"spng": "libspng0", "jansson": "libjansson4", "jpeg": "libjpeg62-turbo"}  # a library, and the Debian package that contains its licence
 
 
 class Build(build_ext):
@@ -41,7 +41,7 @@ class Build(build_ext):
         describe.write_stubs(folder)
 
     def add_libraries(self, folder):
-        """Copies the libraries that the extension loads, by the names by which it loads them, and their licences."""
+        """Copies the libraries that the extension loads, under the names by which it loads them, and their licences."""
         folder.mkdir(parents=True, exist_ok=True)
         linked = subprocess.check_output(["ldd", self.get_ext_fullpath("lambent._native")], text=True)
         for library, package in INSIDE.items():

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""stragglers.py [--check]: how many shards a batch should have (docs/scale.md). Simulates 100 machines of 4 cores that take shards one after the
-other, as a job array does, and writes docs/pictures/scale-shards.svg and the tables of docs/scale.md; --check compares instead.
+"""stragglers.py [--check]: computes how many shards a batch should have (docs/scale.md). Simulates 100 machines of 4 cores that take one shard after
+another, as in a job array, and writes docs/pictures/scale-shards.svg and the tables of docs/scale.md; --check compares instead.
 
-The time of each model is drawn from those measured over 437 models (times-256.txt and times-1024.txt beside this file: milliseconds on one
-core, the journals of `lambent batch -j 1`). Models belong to shards at random, as a hash deals them. Every shard costs a start and its plan: of all
-models (`--shard-by name`), or of its own (`--shard-by list`); five machines in a hundred have half the speed. Nothing depends on the machine that runs this: the same numbers, and the same picture, everywhere."""
+The time of each model is drawn from the measured times of 437 models (times-256.txt and times-1024.txt in this folder: milliseconds on one core, from
+journals of `lambent batch -j 1`). Models are assigned to shards at random, like by a hash. Every shard has a start-up time and a planning time, for
+all models (`--shard-by name`) or for its own (`--shard-by list`); five machines in a hundred have half the speed. The numbers and the picture are the
+same on every machine."""
 import heapq
 import pathlib
 import random
@@ -14,13 +15,13 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 DOCS = HERE.parents[1] / "docs"
 MACHINES, CORES, SLOW, START_S = 100, 4, 5, 5.0
-PLAN_S = 1.4e-6  # of a model, measured with a list of a million in random order
+PLAN_S = 1.4e-6  # per model, measured with a list of a million in random order
 WAYS = ("name", "list")
 SHARDS = (1, 2, 4, 8, 16, 32, 64)  # for each machine
-COUNTS = {10 ** 4: 20, 10 ** 5: 5, 10 ** 6: 1, 10 ** 7: 20, 10 ** 8: 20}  # models: simulations whose mean is taken
-MANY = 10 ** 7  # from here on the work of a shard is drawn from the normal distribution that it is near to
-CORE_HOUR, GIB = 0.05, 2.0 ** 30  # dollars: about a virtual core of a large cloud, 2026
-PICTURE_BYTES, LINE_BYTES = {256: 27300, 1024: 262000}, 885  # means of the same runs
+COUNTS = {10 ** 4: 20, 10 ** 5: 5, 10 ** 6: 1, 10 ** 7: 20, 10 ** 8: 20}  # number of models: number of simulations to average
+MANY = 10 ** 7  # from here on, the work of a shard is drawn from its approximate normal distribution
+CORE_HOUR, GIB = 0.05, 2.0 ** 30  # dollars: typical price of a virtual core of a large cloud, 2026
+PICTURE_BYTES, LINE_BYTES = {256: 27300, 1024: 262000}, 885  # means over the same runs
 
 
 def times_s(size):
@@ -51,14 +52,14 @@ def deal(count, shard_count, measured, rng):
 
 
 def simulate(count, per_machine, seed, measured):
-    """For each way of parting the models, the time until the last shard is done, by the time of all work evenly shared."""
+    """For each way of dividing the models: the time until the last shard is done, relative to evenly divided work."""
     shards, total = deal(count, MACHINES * per_machine, measured, random.Random(seed))
     even = total / CORES / (MACHINES - SLOW / 2)
     return [last_end(shards, PLAN_S * planned) / even for planned in (count, count / len(shards))]
 
 
 def last_end(shards, plan_s):
-    machines = [(0.0, i) for i in range(MACHINES)]  # slow ones: the first, which is as good as any
+    machines = [(0.0, i) for i in range(MACHINES)]  # the first machines are slow, without loss of generality
     heapq.heapify(machines)
     last = 0.0
     for seconds in shards:
@@ -111,7 +112,7 @@ def svg(found):
         parts.append('<polyline points="%s" fill="none" stroke="%s" stroke-width="2"%s/>' % (
             " ".join("%.1f,%.1f" % point for point in points), COLORS[count], ' stroke-dasharray="6 4"' if way == "list" else ""))
         parts += ['<circle cx="%.1f" cy="%.1f" r="3.5" fill="%s"/>' % (*point, COLORS[count]) for point in points]
-        if count >= MANY or way == "name":  # of fewer models both curves are nearly one
+        if count >= MANY or way == "name":  # with fewer models, both curves nearly coincide
             label = power(count) + " models" + (", by list" if way == "list" else "")
             parts.append(text(points[-1][0] + 10, points[-1][1] + 4, label, "start", COLORS[count]))
     parts.append(text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 14, "shards for each of 100 machines"))

@@ -1,4 +1,5 @@
-// lab.mjs MODULES CHROMIUM BUILD_WEB FOLDER: the page of build-web in Chromium, cross-origin isolated, and turned by a hand.
+// lab.mjs MODULES CHROMIUM BUILD_WEB FOLDER: runs the page of build-web in Chromium, cross-origin isolated, and simulates a
+// user who turns the model.
 //
 // Reads a task on each line of standard input, and answers with a line of JSON, {"error": …} where it failed:
 //     {"load": ["/a.glb", "--size=928x656", …]}  draws it; a model whose name begins with "/" is a file of FOLDER  -> {"threads", "version"}
@@ -29,7 +30,7 @@ const browser = await chromium.launch({ executablePath, headless: true, args: ['
 
 const fragment = (words) => '#' + words.map(encodeURIComponent).join('&');
 
-// In the page, before its scripts: the time and the size of each picture that it shows.
+// Runs in the page before its scripts: records the time and the size of each picture that it shows.
 function watch() {
   const { putImageData } = CanvasRenderingContext2D.prototype, test = (globalThis.test = { shown: [], next: () => {}, whole: 0 });
   CanvasRenderingContext2D.prototype.putImageData = function (...given) {
@@ -39,7 +40,7 @@ function watch() {
   };
   const observed = new MutationObserver(() => document.body.dataset.drawn && (test.whole = performance.now()));
   addEventListener('DOMContentLoaded', () => observed.observe(document.body, { attributes: true, attributeFilter: ['data-drawn'] }));
-  // Steps of the mouse whose button is down: to and fro, a degree each.
+  // Mouse steps with the button down: back and forth, one degree each.
   test.turn = async (ms, paced) => {
     const canvas = document.getElementById('canvas'), box = canvas.getBoundingClientRect(), [, width] = /--size=(\d+)x/.exec(decodeURIComponent(location.hash));
     const middle = [box.x + box.width / 2, box.y + box.height / 2];
@@ -89,7 +90,7 @@ const commands = {
     const box = await page.locator('#canvas').boundingBox();
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await page.mouse.down();
-    await page.evaluate(() => globalThis.test.turn(2000, false)); // the engine compiles what is used much
+    await page.evaluate(() => globalThis.test.turn(2000, false)); // the engine compiles frequently used code
     return { threads: Number(await page.evaluate(() => document.body.dataset.threads)) };
   },
   turn: ({ turn, paced = false }) => page.evaluate(([ms, by]) => globalThis.test.turn(ms, by), [turn, paced]),

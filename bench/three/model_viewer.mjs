@@ -1,7 +1,9 @@
-// model_viewer.mjs MODULES CHROMIUM FOLDER OUT: pictures of glTF models by <model-viewer> in Chromium, with its defaults, from Lambent's side.
+// model_viewer.mjs MODULES CHROMIUM FOLDER OUT: draws glTF models with <model-viewer> in Chromium, with its defaults, from the same side as
+// Lambent.
 //
 // Reads "NAME PATH" on each line of standard input, PATH below FOLDER, and writes OUT/NAME.png, 512 pixels, on white. MODULES is a node_modules
-// with @google/model-viewer and three (for Draco's decoder), in a folder of their own: model-viewer needs an older three than ours.
+// folder with @google/model-viewer and three (for Draco's decoder). It is a separate folder, because model-viewer needs an older three than the
+// bench.
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';

@@ -1,4 +1,4 @@
-// three.mjs MODULES CHROMIUM FOLDER: draws models with three.js in Chromium, whose software GPU (SwiftShader) does the work.
+// three.mjs MODULES CHROMIUM FOLDER: draws models with three.js in Chromium, which uses the software GPU SwiftShader.
 //
 // Reads a task on each line of standard input, and answers with a line of JSON, {"error": …} where it failed:
 //     {"load": "glb/a.glb", "size": [w, h], "camera": {eye, target, up, fovy_deg, near, far}, "light": {direction, intensity},
@@ -26,7 +26,7 @@ window.load = async (task) => {
   renderer.setPixelRatio(1);
   renderer.setSize(width, height);
   renderer.setClearColor(0, 0);
-  renderer.toneMapping = THREE.NeutralToneMapping; // as lambent's
+  renderer.toneMapping = THREE.NeutralToneMapping; // the same as lambent's
   document.body.append(renderer.domElement);
   scene = new THREE.Scene();
   const { eye, up, fovy_deg, near, far } = task.camera;
@@ -36,7 +36,7 @@ window.load = async (task) => {
   camera.lookAt(target.set(...task.camera.target));
   scene.add((await new GLTFLoader().loadAsync('/models/' + task.load)).scene);
   if (task.light) {
-    // Lambert's term here is the base colour, three's is divided by pi.
+    // Lambert's term in Lambent is the base colour; three.js divides it by pi.
     const light = new THREE.DirectionalLight(0xffffff, task.light.intensity * Math.PI);
     light.position.set(...task.light.direction.map((x) => -x));
     scene.add(light);
@@ -98,7 +98,7 @@ const commands = {
     await page.goto(`http://127.0.0.1:${server.address().port}/`);
     await page.waitForFunction(() => window.ready, undefined, { timeout: 30000 });
     const told = await page.evaluate((given) => window.load(given), task);
-    await page.evaluate(() => window.frames_of(2)); // compiles shaders, sends textures
+    await page.evaluate(() => window.frames_of(2)); // compiles shaders and uploads textures
     if (failed.length) throw new Error(failed.join('; '));
     return told;
   },

@@ -16,5 +16,5 @@ from ._scene import Scene, load, render
 __version__ = text_of(_lib.lam_version())
 __all__ = ["render", "load", "Scene", "Mesh", "Material", "Light", "Camera", "Picture", "Error", "BadValue", "CannotRead", "FileNotFound", "BadModel",
            "Unsupported", "LimitReached", "OutOfMemory", "TimeLimit", "CannotWrite", "Cancelled"]
-for _name in __all__:  # errors and help name the classes as they are imported
+for _name in __all__:  # so that error messages and help show the public names of the classes
     getattr(__import__(__name__), _name).__module__ = __name__

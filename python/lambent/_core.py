@@ -1,4 +1,4 @@
-"""_core.py: calls of the library: errors as exceptions, and work that Ctrl-C stops."""
+"""_core.py: calls of the library, errors as exceptions, and work that Ctrl-C stops."""
 import contextlib
 import os
 import queue
@@ -15,7 +15,7 @@ class Error(Exception):
 
 
 class BadValue(Error, ValueError):
-    """An argument is out of its range, or does not go with another one."""
+    """An argument is out of range, or cannot be combined with another one."""
 
 
 class CannotRead(Error, OSError):
@@ -27,7 +27,7 @@ class FileNotFound(CannotRead, FileNotFoundError):
 
 
 class BadModel(CannotRead):
-    """A file is cut short, or not of the format that it claims."""
+    """A file is truncated, or is not in the format that it claims."""
 
 
 class Unsupported(Error, NotImplementedError):
@@ -39,7 +39,7 @@ class LimitReached(Error):
 
 
 class OutOfMemory(LimitReached, MemoryError):
-    """The machine's memory, or `memory_limit`, does not suffice."""
+    """The machine's memory, or `memory_limit`, is not sufficient."""
 
 
 class TimeLimit(LimitReached, TimeoutError):
@@ -59,13 +59,13 @@ CLASSES = {lib.LAM_BAD_ARGUMENT: BadValue, lib.LAM_CANNOT_READ: BadModel, lib.LA
 
 
 def shown(value):
-    """A value in a sentence: its repr on one short line."""
+    """A value for an error message: its repr on one short line."""
     text = " ".join(repr(value).split())
     return text if len(text) <= 60 else text[:57] + "..."
 
 
 def path_bytes(path):
-    """The bytes of a path. C ends a text at a zero character: such a path would name another file."""
+    """The bytes of a path. C ends strings at a zero character, so such a path would name another file."""
     try:
         data = os.fsencode(path)
     except (TypeError, UnicodeEncodeError):
@@ -79,7 +79,7 @@ def text_bytes(what, value):
     """The UTF-8 of a text."""
     try:
         data = value.encode() if isinstance(value, str) else b"\0"
-    except UnicodeEncodeError: # halves of characters
+    except UnicodeEncodeError: # unpaired surrogates
         data = b"\0"
     if b"\0" in data:
         raise BadValue("%s: found %s, expected a text" % (what, shown(value)))
@@ -98,12 +98,12 @@ def matrix_of(what, values):
 
 
 def text_of(pointer):
-    """A string of the library; NULL is None."""
+    """A string of the library; NULL gives None."""
     return None if pointer == ffi.NULL else ffi.string(pointer).decode(errors="replace")
 
 
 def every(function, *args):
-    """What a function of the library returns for 0, 1, … until NULL: strings and rows of tables."""
+    """The results of a library function for 0, 1, … until NULL: strings and rows of tables."""
     index = 0
     while (item := function(*args, index)) != ffi.NULL:
         yield text_of(item) if ffi.typeof(item) is ffi.typeof("char *") else item
@@ -111,7 +111,7 @@ def every(function, *args):
 
 
 def exception(error, path=None):
-    """The exception of a lam_error."""
+    """The exception for a lam_error."""
     sentence, kind = text_of(error.text), CLASSES.get(error.code, Error)
     if kind is BadModel and path and path != "-" and not os.path.exists(path):
         kind = FileNotFound
@@ -121,7 +121,7 @@ def exception(error, path=None):
 
 
 def call(function, *args, path=None):
-    """Calls a function of the library whose last parameter is the error; it fails with false, NULL or a number below 0."""
+    """Calls a library function whose last parameter is the error; the function fails if it returns false, NULL or a negative number."""
     error = ffi.new("lam_error *")
     result = function(*args, error)
     if result is False or (isinstance(result, int) and result < 0) or (isinstance(result, ffi.CData) and result == ffi.NULL):
@@ -135,7 +135,7 @@ def tell_progress(user, share, step):
 
 
 class Access:
-    """Many threads read a scene at a time, or one changes it."""
+    """Many threads may read a scene at the same time, or one thread may change it."""
 
     def __init__(self):
         self.free, self.readers = threading.Condition(), 0
@@ -167,7 +167,7 @@ class Run:
 
     @property
     def control(self):
-        """A lam_control for the next call, with the time that is left."""
+        """A lam_control for the next call, with the remaining time."""
         control = ffi.new("lam_control *", self.limits[0] if self.limits else {})
         control.cancel = self.flag
         if control.time_limit_s > 0:
@@ -178,8 +178,8 @@ class Run:
 
 
 def run(work, limits=None, progress=None):
-    """Returns work(run). It is done in a thread of its own while this one waits, so that Ctrl-C is seen at once; the library's calls
-    release the GIL. `progress(share, step)` is called in this thread. An exception here, Ctrl-C's too, stops the work and is raised then."""
+    """Returns work(run). It runs in a separate thread while this thread waits, so that Ctrl-C takes effect immediately; the library's calls release
+    the GIL. `progress(share, step)` is called in this thread. An exception here, including Ctrl-C, first stops the work and is then raised."""
     if progress is not None and not callable(progress):
         raise BadValue("progress: found %s, expected a function" % shown(progress))
     told, result, stopped = queue.SimpleQueue(), {}, None

@@ -1,4 +1,5 @@
-"""_fields.py: values as people write them, and the classes Material, Light and Camera, whose attributes are the rows of the library's tables."""
+"""_fields.py: converts values given by users, and defines the classes Material, Light and Camera, whose attributes are the rows of the library's
+tables."""
 import math
 import os
 
@@ -10,7 +11,7 @@ from ._native import ffi, lib
 
 
 def words_of(kind):
-    """The words of an enumeration and their values, by the library or by the enumerators' names: LAM_RIG_THREE_POINT is "three-point"."""
+    """The words of an enumeration and their values, from the library or from the enumerators' names: LAM_RIG_THREE_POINT is "three-point"."""
     names = sorted(item for item in ffi.typeof(kind).elements.items() if not item[1].endswith("_COUNT"))
     name_of, common = getattr(lib, kind + "_name", None), os.path.commonprefix([name for _, name in names]).rfind("_") + 1
     return {text_of(name_of(number)) if name_of else name[common:].lower().replace("_", "-"): number for number, name in names}
@@ -35,7 +36,7 @@ def color(what, value, mode=lib.LAM_COLOR_SRGB):
 
 
 def written(value):
-    """A value as the program's options have it: 1/2/3, yes, 0.5."""
+    """A value in the form of the program's options: 1/2/3, yes, 0.5."""
     if isinstance(value, (bool, str)):
         return ("no", "yes")[value] if isinstance(value, bool) else value
     try:
@@ -55,7 +56,7 @@ def plain(numbers):
 
 
 class Field:
-    """An attribute: the rows of a table of fields that have its key."""
+    """An attribute: the rows with its key in a table of fields."""
 
     TYPES = {lib.LAM_FIELD_FLAG: ("bool", 1), lib.LAM_FIELD_RGB: ("Color", 3), lib.LAM_FIELD_RGBA: ("Color", 4),
              lib.LAM_FIELD_POINT: ("Numbers", 3), lib.LAM_FIELD_DIRECTION: ("Numbers", 3), lib.LAM_FIELD_TRIPLE: ("Numbers", 3)}
@@ -90,7 +91,7 @@ class Field:
 
 
 def fields_of(table):
-    """The attributes that a table of fields makes."""
+    """The attributes for a table of fields."""
     rows = {}
     for row in every(table):
         rows.setdefault(text_of(row.key), []).append(row)
@@ -116,7 +117,7 @@ class Described:
             try:
                 if not getattr(type(self), key)._is_standard(self):
                     values[key] = getattr(self, key)
-            except AttributeError: # a light of another type has it
+            except AttributeError: # a light of another type has this attribute
                 pass
         return "%s(%s)" % (type(self).__name__, ", ".join([repr(self.type) for _ in [0] if isinstance(self, Light)] + ["%s=%r" % item for item in values.items()]))
 
@@ -124,8 +125,8 @@ class Described:
 class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
     """A material: `Material("ruby")`, `Material("gold,opacity=0.5")`, `Material(diffuse="#ff8800", shininess=80)`.
 
-    The words follow the program's option --material: a name of the classic table, then keys with values. Colours are linear
-    reflectances as three or four numbers, one number, or a text, which is decoded from sRGB: "#ff8800", "orange"."""
+    The words follow the program's option --material: a name of the classic table, then keys with values. Colours are linear reflectances as three or
+    four numbers or one number, or a string such as "#ff8800" or "orange", which is decoded from sRGB."""
 
     def __init__(self, words="", **fields):
         self.kept = []
@@ -139,8 +140,8 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
         return field.rows[0]
 
     def set_map(self, name: str, image: "Array | object") -> None:
-        """Lays a picture over the surface: `name` is a map such as "diffuse", "normal" or "roughness"; the picture is an array height × width × 3 or 4 of
-        uint8, or an object of Pillow. Texture coordinates have (0, 0) at its lower left corner."""
+        """Applies a picture to the surface: `name` is a map such as "diffuse", "normal" or "roughness"; the picture is an array height × width × 3 or
+        4 of uint8, or an object of Pillow. Texture coordinates have (0, 0) at its lower left corner."""
         maps = {text: number for number, text in enumerate(every(lib.lam_map_name))}
         try:
             number, pixels = choose("map", maps, name), np.asarray(image.convert("RGBA") if hasattr(image, "convert") else image)
@@ -161,12 +162,12 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
 
     @property
     def name(self) -> "str | None":
-        """The name that the model's file gives it; None: it has none."""
+        """The name in the model's file, or None."""
         return text_of(self.struct.name)
 
 
 def as_material(what, value):
-    """A Material or its words as a Material; None stays."""
+    """Converts a Material or its words to a Material; None stays None."""
     if value is None or isinstance(value, Material):
         return value
     return Material(text_bytes(what, value).decode())
@@ -176,7 +177,7 @@ class Light(type("Fields", (Described,), fields_of(lib.lam_light_field))):
     """A light: `Light("point", position=(2, 3, 1), color="orange", intensity=2)`, `Light("spot:position=2r/3r/1r,cutoff=20")`.
 
     `type` is ambient, hemisphere, point, directional or spot; keywords follow the program's option --light, so also color, intensity,
-    target, frame and name. Without a position a point or spot light stands at 1r/2r/3r, where r is the radius of the scene."""
+    target, frame and name. Without a position, a point light or spot is at 1r/2r/3r, where r is the radius of the scene."""
 
     def __init__(self, type="point", **fields):
         self.values, self.struct, self.kept = None, ffi.new("lam_light *"), []
@@ -194,7 +195,7 @@ class Light(type("Fields", (Described,), fields_of(lib.lam_light_field))):
             self.values = before
             raise
         self.struct[0] = lib.lam_scene_light(scene, 0)[0]
-        self.struct.name = self.struct.object = ffi.NULL # they go with the scene, and the text names them again
+        self.struct.name = self.struct.object = ffi.NULL # these depend on the scene, so the text contains them again
 
     def _add_to(self, scene, params):
         """Adds the light to a lam_scene."""
@@ -253,7 +254,8 @@ class Part:
 
 
 class Camera(type("Parts", (Described,), {key: Part(key) for key in every(lib.lam_camera_key)})):
-    """A camera: `Camera(eye=(2, 1, 4), fovy=40)`. Without a target it looks at the middle of the scene; `Picture.camera` is the one that was used."""
+    """A camera: `Camera(eye=(2, 1, 4), fovy=40)`. Without a target it looks at the middle of the scene; `Picture.camera` is the camera of a
+    picture."""
 
     def __init__(self, eye=(0, 0, 4), **parts):
         self.struct, self.values = ffi.new("lam_camera *"), None

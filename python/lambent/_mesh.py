@@ -7,7 +7,7 @@ from ._native import ffi, lib
 
 
 def array_of(what, values, columns, kind=np.float32):
-    """An array of rows of so many columns."""
+    """An array of rows with this number of columns."""
     expected = "n x %s numbers" % (" or ".join(map(str, columns)) if isinstance(columns, tuple) else "2 or more")
     try:
         found = np.asarray(values)
@@ -38,7 +38,7 @@ class Mesh:
         self.origin = np.zeros(3)
         if vertices.dtype == np.float64 and vertices.ndim == 2 and vertices.size:
             low, high = vertices.min(axis=0), vertices.max(axis=0)
-            if np.abs(vertices).max() > 16 * (high - low).max() > 0: # floats would lose the detail
+            if np.abs(vertices).max() > 16 * (high - low).max() > 0: # floats would lose precision
                 self.origin = (low + high) / 2
                 vertices = vertices - self.origin
         self.vertices = array_of("vertices", vertices, (3,))
@@ -48,7 +48,7 @@ class Mesh:
             columns = faces.shape[1]
             polygons, per_face = array_of("faces", faces, (max(columns, 2),), np.uint32), len(faces)
             self.faces = polygons
-            if columns > 3: # fans, whose inner edges wireframes leave out
+            if columns > 3: # fans; wireframes omit their inner edges
                 self.faces = np.concatenate([polygons[:, [0, k, k + 1]] for k in range(1, columns - 1)], axis=1).reshape(-1, 3)
                 edges = [(1 if k > 1 else 0) | (4 if k < columns - 2 else 0) for k in range(1, columns - 1)]
                 self.inner = np.tile(np.array(edges, np.uint8), per_face)
@@ -66,7 +66,7 @@ class Mesh:
         self.material, self.name = as_material("material", material), None if name is None else text_bytes("name", name).decode()
 
     def _add_to(self, scene):
-        """Adds the mesh to a lam_scene; its number there."""
+        """Adds the mesh to a lam_scene and returns its number."""
         kept = [ffi.new("char[]", self.name.encode())] if self.name else []
         mesh = ffi.new("lam_mesh *", {"name": kept[0] if kept else ffi.NULL, "origin": list(self.origin)})
         rows = (("positions", "vertex_count", self.vertices, "float *"), ("normals", "normal_count", self.normals, "float *"),
@@ -88,7 +88,7 @@ class Mesh:
 
 
 def material_of(visual):
-    """The material of a textured object of trimesh."""
+    """The material of a textured trimesh object."""
     source = getattr(visual, "material", None)
     image = getattr(source, "baseColorTexture", None)
     image = getattr(source, "image", None) if image is None else image
@@ -105,13 +105,13 @@ def material_of(visual):
 
 
 def meshes_of(model):
-    """The meshes of an object, each with a 4×4 transform or None; None: it is no object with vertices that is known here."""
+    """The meshes of an object, each with a 4×4 transform or None; None if the object has no known kind of vertices."""
     def found(name, *others):
         return next((value for value in (getattr(model, each, None) for each in (name, *others)) if value is not None), None)
 
     if isinstance(model, Mesh):
         return [(model, None)]
-    if hasattr(model, "graph") and hasattr(model, "geometry"): # a scene of trimesh
+    if hasattr(model, "graph") and hasattr(model, "geometry"): # a trimesh scene
         nodes = [model.graph[node] for node in model.graph.nodes_geometry]
         return [(mesh, transform) for transform, name in nodes for mesh, _ in meshes_of(model.geometry[name])]
     if hasattr(model, "points") and hasattr(model, "cells"): # meshio
@@ -127,7 +127,7 @@ def meshes_of(model):
         elif kind == "texture":
             uv = visual.uv
         colors = None if colors is None or not len(colors) else np.asarray(colors)
-        if colors is not None and colors.dtype.kind == "f": # Open3D: encoded for a screen
+        if colors is not None and colors.dtype.kind == "f": # Open3D: sRGB-encoded
             colors = np.rint(colors * 255).astype(np.uint8)
         return [(Mesh(np.asarray(vertices), None if faces is None else np.asarray(faces), texcoords=uv, colors=colors,
                       material=material_of(visual) if kind == "texture" else None), None)]
@@ -140,6 +140,6 @@ def meshes_of(model):
 
 
 def points3(points):
-    """Points with a third coordinate of 0 if they lie in a plane."""
+    """Adds a third coordinate of 0 to points in a plane."""
     points = np.asarray(points)
     return np.pad(points, ((0, 0), (0, 1))) if points.ndim == 2 and points.shape[1] == 2 else points

@@ -10,12 +10,13 @@ from ._fields import choose, color, range_of, words_of
 from ._members import MEMBERS
 from ._native import ffi, lib
 
-# Members that are no keywords, and those whose option of the program has another name.
+# Members that are not keywords, and members whose program option has another name.
 LEFT_OUT = {"reserved", "user", "open", "release", "cancel", "progress", "override_color", "from_angles", "normals_when_drawn", "allowed_path_count", "threads"}
 OTHER_NAMES = {"color": "color_mode", "fovy": "fov", "output": "show"}
 UNITS = ("_rad", "_s", "_bytes")
 
-# Numbers that the library takes for "the default" outside of their ranges; nan is outside of each.
+# Numbers outside the valid range that mean "the default" in the library; nan is outside every
+# range.
 RANGES = {"zoom": (0, math.inf), "fov": (0, 180), "time_limit": (0, math.inf)}
 
 
@@ -62,7 +63,7 @@ class Member:
 
 
 class Setting:
-    """A keyword that is a row of the table of settings."""
+    """A keyword that sets a row of the table of settings."""
 
     def __init__(self, row):
         self.row, self.name, self.member, self.struct = row, text_of(row.key), text_of(row.member), "lam_draw_params"
@@ -125,7 +126,7 @@ def find_keywords():
 
 
 KEYWORDS = find_keywords()
-STRUCTS = {"lam_draw_params", "lam_view", "lam_control"} # of a scene that exists
+STRUCTS = {"lam_draw_params", "lam_view", "lam_control"} # of an existing scene
 # Keywords outside the tables, with type and meaning.
 OTHERS = {
     "view": ("Literal", "The side to look from: a name; azimuth and elevation replace its angles."),
@@ -133,7 +134,7 @@ OTHERS = {
     "floats": ("bool", "Linear floats, premultiplied by alpha, in place of 8 bits."),
     "threads": ("int", "Threads that load and draw; 0: one for each processor."),
 }
-# Keywords that change the scene: only for models that the call loads.
+# Keywords that change the scene; allowed only for models that the call loads.
 CHANGES = {
     "material": ("Material | str", "For all surfaces: a material, or words such as \"ruby\" and \"roughness=0.3\", which change the file's."),
     "light": ("Light | str | Sequence[Light | str]", "Lights in place of the file's and the studio's, which `rig` names."),
@@ -144,12 +145,12 @@ CHANGES = {
 
 
 def keywords_of(structs=None):
-    """The keywords that are members of these structs; None: all."""
+    """The keywords that are members of these structs; None means all."""
     return {name: keyword for name, keyword in KEYWORDS.items() if structs is None or keyword.struct in structs}
 
 
 class Options:
-    """The keyword arguments of a call, checked."""
+    """The checked keyword arguments of a call."""
 
     def __init__(self, given, structs=None, others=()):
         names = [*keywords_of(structs), *others, "threads"]
@@ -159,7 +160,7 @@ class Options:
                 known = "; it is for lambent.render with a model" if name in {*KEYWORDS, *OTHERS, *CHANGES} else ""
                 raise TypeError("unexpected keyword argument %r%s" % (name, "; did you mean %r?" % close[0] if close and not known else known))
         self.given, self.kept = {name: value for name, value in given.items() if value is not None}, []
-        # The program's words for lights: "file" are the scene's alone; with "none" and "default" the call takes them away.
+        # The program's words for lights: with "file", only the scene's lights are used; "none" and "default" remove them.
         self.no_lights = str(self.given.get("rig")) in ("none", "default")
         if self.no_lights:
             self.given["rig"] = "file" if self.given["rig"] == "none" else "auto"
@@ -181,7 +182,7 @@ class Options:
         return self.given.get(name, otherwise)
 
     def filled(self, struct, start=None):
-        """A struct with the keywords that are its members."""
+        """A struct whose members are set from the keywords."""
         made = ffi.new(struct + " *", *([start] if start is not None else []))
         for name, value in self.given.items():
             if name in KEYWORDS and (KEYWORDS[name].struct == struct or KEYWORDS[name].name == "color_mode" and struct == "lam_load_params"):
@@ -190,7 +191,7 @@ class Options:
 
 
 def describe_keywords(groups, structs=None):
-    """The keywords in words, for docstrings."""
+    """The description of the keywords for docstrings."""
     rows = [(name, doc) for group in groups for name, (_, doc) in group.items()]
     rows += [(name, keyword.doc + (" [%s]" % ", ".join(keyword.words) if keyword.words else "")) for name, keyword in keywords_of(structs).items()]
     return "".join("    %-18s %s\n" % row for row in rows)

@@ -1,4 +1,4 @@
-"""_picture.py: pictures as NumPy arrays that know how to be shown and saved."""
+"""_picture.py: pictures as NumPy arrays with methods to show and save them."""
 import os
 import sys
 import tempfile
@@ -12,25 +12,25 @@ from ._native import ffi, lib
 
 
 class Picture(np.ndarray):
-    """A picture: a read-only NumPy array, height × width × 4 (red, green, blue, alpha; row 0 is the top one).
+    """A picture: a read-only NumPy array, height × width × 4 (red, green, blue, alpha; row 0 is the top).
 
-    8 bits are sRGB-encoded and not premultiplied; floats (`floats=True`) are linear and premultiplied. A part of a picture, such as
-    picture[100:200, 50:150], is a picture too. Other arrays become one by `array.view(lambent.Picture)`."""
+    8-bit pictures are sRGB-encoded and not premultiplied; float pictures (`floats=True`) are linear and premultiplied. A part of a picture, such as
+    picture[100:200, 50:150], is also a picture. `array.view(lambent.Picture)` turns another array into a picture."""
 
-    raw = False  # the numbers are no sRGB colours
-    camera = None  # the Camera that was used
-    warnings = ()  # sentences about problems of the model that did not stop it
+    raw = False  # the numbers are not sRGB colours
+    camera = None  # the Camera of the picture
+    warnings = ()  # warnings about problems of the model
 
     def __array_finalize__(self, other):
         for name in ("raw", "camera", "warnings"):
             setattr(self, name, getattr(other, name, getattr(Picture, name)))
 
     def __array_wrap__(self, array, context=None, return_scalar=False):
-        """What is computed from pictures are plain numbers and arrays."""
+        """The results of calculations with pictures are plain numbers and arrays."""
         return np.asarray(array)[()]
 
     def _image(self):
-        """A lam_image of the pixels, and the array that holds them."""
+        """A lam_image of the pixels, and the array that owns them."""
         formats = {np.dtype(np.uint8): lib.LAM_RGBA8, np.dtype(np.float32): lib.LAM_RGBA32F}
         if self.ndim != 3 or self.shape[2] != 4 or self.dtype not in formats:
             raise BadValue("Picture: found an array of %s numbers of the type %s, expected height x width x 4 of uint8 or float32" % (
@@ -45,7 +45,7 @@ class Picture(np.ndarray):
         return ffi.new("lam_save_params *", {"raw": self.raw, "compress": choose("compress", words_of("lam_compress"), compress), "quality": quality})
 
     def encode(self, format: str = "png", *, compress: str = "fast", quality: int = 0) -> bytes:
-        """The bytes of a file: png, ppm, jpg or webp of 8 bits, pfm or exr of floats. `quality` of jpg and webp is 1 to 100."""
+        """Returns the bytes of a file: png, ppm, jpg or webp with 8 bits, pfm or exr with floats. `quality` of jpg and webp is 1 to 100."""
         out, (image, _pixels) = ffi.new("lam_bytes *"), self._image()
         call(lib.lam_image_encode, image, text_bytes("format", format), self._params(compress, quality), out)
         try:
@@ -54,23 +54,23 @@ class Picture(np.ndarray):
             lib.lam_bytes_free(out)
 
     def png(self) -> bytes:
-        """The bytes of a PNG file: the same as the program's for the same picture."""
+        """Returns the bytes of a PNG file, which are the same as the program's for the same picture."""
         return self.encode("png")
 
     def save(self, path: "str | os.PathLike[str]", *, compress: str = "fast", quality: int = 0) -> None:
-        """Writes a file whose ending names the format; it appears whole or not at all."""
+        """Writes a file in the format of its extension; the file is complete or is not written."""
         image, _pixels = self._image()
         call(lib.lam_image_save, image, path_bytes(path), self._params(compress, quality))
 
     @property
     def hash(self) -> str:
-        """The hash of the PNG file, as journals and reports of the program have it: "xxh64:…"."""
+        """The hash of the PNG file, as in the program's journals and reports: "xxh64:…"."""
         png = self.png()
         return "xxh64:%016x" % lib.xxh64_of(png, len(png))
 
     @property
     def pixel_hash(self) -> str:
-        """The hash of the pixels, as `lambent hash` writes it: "pixels:…". For pictures of 8 bits with red, green, blue and alpha."""
+        """The hash of the pixels, as `lambent hash` writes it: "pixels:…". Only for 8-bit pictures with red, green, blue and alpha."""
         if self.dtype != np.uint8 or self.ndim != 3 or self.shape[2] != 4:
             raise BadValue("pixel_hash: found a picture of %s with the shape %s, expected 8 bits, red, green, blue and alpha" % (self.dtype, self.shape))
         pixels = self.tobytes()

@@ -37,7 +37,7 @@ def angle_of(what, degrees):
 
 
 class Scene:
-    """Meshes, materials, objects and lights together: `Scene()` is empty, `lambent.load(path)` reads a file.
+    """Meshes, materials, objects and lights together; `Scene()` is empty, and `lambent.load(path)` reads a file.
 
     While no thread changes it, any number of threads may draw it."""
 
@@ -71,13 +71,14 @@ class Scene:
         return [self._copy(Material, lib.lam_scene_material, index) for index in range(lib.lam_scene_material_count(self._handle))]
 
     def _copy(self, cls, item, index):
-        """A copy of an item; its names and maps are the scene's, which lives as long."""
+        """A copy of an item; its names and maps belong to the scene, which is kept alive."""
         made = cls(item(self._handle, index)[0])
         made.kept.append(self._handle)
         return made
 
     def set_material(self, material: "Material | str", index: "int | None" = None, _mode=lib.LAM_COLOR_SRGB) -> None:
-        """Replaces the material with this number. None: all materials, and the default one of surfaces without a material; words such as "shininess=9" change them."""
+        """Replaces the material with this number. None means all materials, and the default material of surfaces without one; a string such as
+        "shininess=9" changes them."""
         count = lib.lam_scene_material_count(self._handle)
         if index is not None and not (isinstance(index, (int, np.integer)) and 0 <= index < count):
             raise BadValue("set_material: found the number %s, expected 0 to %d" % (shown(index), count - 1))
@@ -90,7 +91,7 @@ class Scene:
 
     @property
     def lights(self) -> "list[Light]":
-        """Copies of the lights. Assign a list to replace them: of Light or of the words of the program's option --light."""
+        """Copies of the lights. Assign a list to replace them: a list of Light objects or of strings as for the program's option --light."""
         return [self._copy(Light, lib.lam_scene_light, index) for index in range(lib.lam_scene_light_count(self._handle))]
 
     @lights.setter
@@ -116,7 +117,7 @@ class Scene:
 
     @property
     def up(self) -> str:
-        """The up axis: "x", "y", "z", "-x", "-y" or "-z". It turns the view, not the coordinates."""
+        """The up axis: "x", "y", "z", "-x", "-y" or "-z". It rotates the view, not the coordinates."""
         return text_of(lib.lam_up_name(lib.lam_scene_up(self._handle)))
 
     @up.setter
@@ -149,11 +150,12 @@ class Scene:
 
     @property
     def warnings(self) -> "tuple[str, ...]":
-        """Sentences about problems of the model that did not stop it."""
+        """Warnings about problems of the model."""
         return tuple(every(lib.lam_scene_warning, self._handle))
 
     def render(self, size=None, *, progress=None, **options):
-        """Draws the scene, which stays as it is. `rig` adds lights to the scene's own; "none" and "default" omit the scene's own. `size` and `progress` work as in `lambent.render`.
+        """Draws the scene without changing it. `rig` adds lights to the scene's own; "none" and "default" omit the scene's own. `size` and `progress`
+        work as in `lambent.render`.
 
     Keyword arguments:
 """
@@ -161,8 +163,9 @@ class Scene:
         return run(lambda task: draw(self, chosen, wanted, task), chosen.control, progress)
 
     def page(self) -> str:
-        """The interactive page with the model in it: one HTML file, as a text. `make web` builds the page and `make install` installs it; LAMBENT_PAGE names
-        it elsewhere. Unsupported: there is none, or the scene was not loaded from a file, or reads files of other folders."""
+        """Returns the interactive page with the model: one HTML file, as a string. `make web` builds the page and `make install` installs it;
+        LAMBENT_PAGE sets its path. Raises Unsupported if the page is missing, if the scene was not loaded from a file, or if the scene uses files of
+        other folders."""
         places = [os.environ.get("LAMBENT_PAGE"), *(prefix + "/share/lambent/lambent.html" for prefix in (sys.prefix, "/usr/local", "/usr"))]
         place = next((place for place in places if place and os.path.exists(place)), None)
         if not place or not self._path:
@@ -179,7 +182,7 @@ class Scene:
         return '%s%s<script type="application/json" id="inside-words">%s</script>\n%s%s' % (before, inside, words, end, after)
 
     def _repr_html_(self):
-        """The page in a frame of a notebook. If the page is not installed, or the scene was not loaded from a file: a picture."""
+        """The page in a frame of a notebook. Shows a picture if the page is not installed, or if the scene was not loaded from a file."""
         try:
             return '<iframe style="width: 100%%; height: 600px; border: 0" srcdoc="%s"></iframe>' % html.escape(self.page())
         except Unsupported:
@@ -187,7 +190,7 @@ class Scene:
 
 
 def changed(old, material, mode):
-    """A lam_material: another one, or the old one changed by words."""
+    """A lam_material: another one, or the old one changed by a string."""
     if isinstance(material, Material):
         return material.struct
     made = ffi.new("lam_material *", old[0])
@@ -196,7 +199,7 @@ def changed(old, material, mode):
 
 
 def load_scene(model, options, name, task, once=False):
-    """A Scene of whatever a model may be."""
+    """Returns a Scene for any kind of model."""
     path = os.fspath(model) if isinstance(model, (str, os.PathLike)) else None
     params = ffi.new("lam_load_params *", options.load[0])
     params.threads = options.get("threads", 0)
@@ -214,7 +217,7 @@ def load_scene(model, options, name, task, once=False):
         scene = Scene(call(lib.lam_scene_load_memory, data, len(data), path_bytes(name) if name is not None else ffi.NULL, params, task.control))
     else:
         scene = Scene().add(model)
-    if scene._path is None and not isinstance(model, (bytes, bytearray, memoryview)): # the loader has done it for files
+    if scene._path is None and not isinstance(model, (bytes, bytearray, memoryview)): # the loader has already done this for files
         lib.lam_scene_set_up(scene._handle, options.load.up)
         if "normals" in options or "crease_angle" in options:
             call(lib.lam_scene_make_normals, scene._handle, params.normals, params.crease_angle_rad, params.threads, task.control)
@@ -228,7 +231,7 @@ def tangents_of(params):
 
 
 def settings_of(scene, options):
-    """The scene file's settings (zero for others), and how the picture is drawn: by them and by the keywords."""
+    """The settings of the scene file (zero for other models), and the drawing parameters from these settings and the keywords."""
     settings, params = ffi.new("lam_picture_settings *"), ffi.new("lam_draw_params *")
     lib.lam_scene_picture_settings(scene._handle, settings)
     params[0] = settings.draw
@@ -262,13 +265,13 @@ def camera_of(scene, options, settings, params, size):
 
 
 def lit_by_file(scene, settings):
-    """Whether lights of a glTF file, in candela and lux, light the scene."""
+    """Whether the scene is lit by lights of a glTF file, in candela and lux."""
     kind = text_of(lib.lam_scene_format(scene._handle))
     return lib.lam_scene_light_count(scene._handle) > 0 and (kind == "gltf" or kind == "scene" and not settings.present & lib.LAM_SETTING_LIGHTS)
 
 
 def change(scene, options, task, params):
-    """What keywords change of a scene that this call has loaded, before the camera is placed."""
+    """Applies the keywords that change a scene loaded by this call, before the camera is placed."""
     if "material" in options:
         scene.set_material(options.get("material"), _mode=params.color)
     if "rig" in options and (params.rig > lib.LAM_RIG_NONE or options.no_lights) or "light" in options:
@@ -283,7 +286,7 @@ def draw(scene, options, size, task, changes=False):
     """The picture of a scene, as `lambent MODEL` draws it."""
     if changes or not options.no_lights:
         return draw_lit(scene, options, size, task, changes)
-    with scene._access.alone(): # the lights leave the scene for this picture
+    with scene._access.alone(): # this picture does not use the scene's own lights
         kept = [ffi.new("lam_light *", lib.lam_scene_light(scene._handle, index)[0]) for index in range(lib.lam_scene_light_count(scene._handle))]
         lib.lam_scene_clear_lights(scene._handle)
         try:
@@ -294,7 +297,7 @@ def draw(scene, options, size, task, changes=False):
 
 
 def draw_lit(scene, options, size, task, changes):
-    """The picture of a scene with the lights that it has now."""
+    """Draws the picture of a scene with its current lights."""
     handle = scene._handle
     settings, params = settings_of(scene, options)
     by_file = lit_by_file(scene, settings) and "light" not in options
@@ -316,12 +319,12 @@ def draw_lit(scene, options, size, task, changes):
         lib.lam_scene_set_ambient(handle, color("ambient", options.get("ambient"), params.color)[:3])
     fitted = by_file and "exposure" not in options and not options.fit_exposure and not settings.present & lib.LAM_SETTING_EXPOSURE
     fitted = fitted and lib.lam_output_is_light(params.output)
-    with scene._access.alone() if fitted else scene._access.shared(): # a file's lights may get a dim studio, for this picture
+    with scene._access.alone() if fitted else scene._access.shared(): # a dim studio may be added to a file's lights for this picture
         return paint(scene, options, camera, params, size, task, fitted)
 
 
 def paint(scene, options, camera, params, size, task, fitted):
-    """Draws what `draw` has prepared. `fitted`: the lights are a file's, in its units."""
+    """Draws the picture that `draw` has prepared. `fitted` means that the lights come from a file, in its units."""
     handle, light, lights = scene._handle, lib.lam_output_is_light(params.output), []
     device = ffi.gc(call(lib.lam_device_cpu, ffi.new("lam_cpu_params *", {"threads": options.get("threads", 0)})), lib.lam_device_free)
     floats = options.get("floats", False)
@@ -342,7 +345,7 @@ def paint(scene, options, camera, params, size, task, fitted):
             lights = before if number[0] > 0 else []
         call(lib.lam_draw, device, handle, camera, params, image, task.control)
     finally:
-        if lights: # as it was before the fill
+        if lights: # as before the fill light
             call(lib.lam_scene_set_environment, handle, ffi.NULL, 0)
         for index, old in enumerate(lights):
             call(lib.lam_scene_set_light, handle, index, old)

@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
-"""albedo_tables.py [--check]: computes the tables of GGX's lobe that src/lighting/lobes.h reads, and that of the sheen's lobe
-for layers.h.
+"""albedo_tables.py [--check]: computes the tables of GGX's lobe for src/lighting/lobes.h, and the table of the sheen's lobe for layers.h.
 
 For 32 roughnesses (rows, ROUGHNESS_MIN ... 1, evenly) and 32 cosines n.v (columns, their roots evenly from 0 to 1):
     albedo.table   E = the integral over all l of D V n.l: what mirrors of f0 = 1 return at once
     bias.table     B = the same with Schlick's weight (1 - v.h)^5
     sheen.table    the integral of Conty and Kulla's D V n.l (layers.h, sheen_lobe)
 so that the integral with Schlick's Fresnel factor is f0 (E - B) + B: the scale and bias of the split sum (Karis 2013).
-The integral is taken over half vectors h that are drawn as Heitz (2018) draws those that v sees, on a grid: what is left to
-average is G2 / G1, at most 1 and smooth for every roughness. n.v = 0 stands for 1e-4.
+The integral is taken over half vectors h, drawn like Heitz's (2018) distribution of normals visible from v, on a grid. The remaining average is of G2
+/ G1, which is at most 1 and smooth for every roughness. 1e-4 replaces n.v = 0.
 
---check writes nothing and reports how far the files are off. Needs python3-numpy.
+--check writes nothing and reports the deviation of the files. Needs python3-numpy.
 """
 import os
 import sys
@@ -25,13 +24,13 @@ FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "src", "
 def integrals(n_dot_v, roughness):
     alpha = roughness * roughness
     v = np.array([np.sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v])
-    # Heitz: the hemisphere that v sees, stretched by alpha, as a disc of which the part below is moved up
+    # Heitz: the hemisphere visible from v, stretched by alpha, as a disc whose lower part is moved up
     s = np.array([alpha * v[0], 0, v[2]])
     s /= np.linalg.norm(s)
-    # Rings crowd to the disc's edge, where the mirrors lie whose slopes are far beyond alpha: evenly spaced ones are up to 5e-4 off
+    # Rings are denser near the disc's edge, where mirrors have slopes far beyond alpha; evenly spaced rings have errors up to 5e-4
     rest = 1 - (np.arange(RINGS) + 0.5) / RINGS
     u, weight = 1 - rest**4, 4 * rest**3
-    p = np.pi * (np.arange(SECTORS) + 0.5) / SECTORS  # half of the circle: the other is its mirror image
+    p = np.pi * (np.arange(SECTORS) + 0.5) / SECTORS  # half of the circle; the other half is its mirror image
     r, phi = np.meshgrid(np.sqrt(u), p)
     # `across` lies in the plane of v and the normal, `along` is perpendicular to it
     across, along = r * np.cos(phi), r * np.sin(phi)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""contracts.py LAMBENT [--check]: writes docs/check/contracts.md: for each contract that is built in, its names, a correct program
-(tests/check), and what `lambent check` says of the course's own (tests/check/lectures). Without OpenGL the page stays as it is.
+"""contracts.py LAMBENT [--check]: writes docs/check/contracts.md: for each built-in contract, its names, a correct program (tests/check), and the
+reports of `lambent check` for the course's own programs (tests/check/lectures). Without OpenGL the page does not change.
 
---check: compares the page with what would be written, the reports apart, and fails on a difference."""
+--check compares the page with the generated page, except for the reports, and fails if they differ."""
 import json
 import os
 import re
@@ -15,7 +15,8 @@ SHADERS = os.path.join("tests", "check")
 sys.path.insert(0, os.path.join(ROOT, SHADERS))
 from lectures import LECTURES  # noqa: E402
 
-# The correct program of each contract that the page shows. Lambent's own is printed by `lambent shader`.
+# The correct program that the page shows for each contract. `lambent shader` prints the program for
+# Lambent's own contract.
 CORRECT = {"pittsburgh": "pittsburgh", "oregon": "oregon", "nyu": "nyu", "learnopengl": "learnopengl", "learnopengl-pbr": "learnopengl-pbr", "gltf": "gltf", "angel": "angel", "mdn": "mdn",
            "threejs": "threejs", **{name: name for name in ("webglfundamentals", "feup", "stthomas", "chile", "glsl120")}}
 SPACES = {"eye": "eye space", "world": "world space", "object": "the model's space"}
@@ -50,7 +51,7 @@ def meanings(program):
 
 
 def names_table(contract, meaning):
-    """A row for each name; the members of structs of lights that repeat an earlier one's are told with it."""
+    """Returns a row for each name; members of light structs that repeat an earlier struct share its row."""
     yield "| | name | type | meaning |"
     yield "|---|---|---|---|"
     groups = {}
@@ -136,7 +137,8 @@ def section(program, contract, meaning):
         yield "Its fragment shader:"
         yield ""
         yield indented(read(SHADERS, correct + ".frag"))
-        # The use of the inputs decides where strengths are any; the name prescribes the contract.
+        # If the names leave strengths open, the use of the inputs decides; the name selects the
+        # contract.
         yield from reported(program, correct, " --contract " + name if contract.get("strengths") == "any" else "")
     if contract.get("printed"):
         yield ""
@@ -160,7 +162,8 @@ def glance():
     yield "| contract | the course's own program | `lambent check` |"
     yield "|---|---|---|"
     for _, course, title, verdict, found in LECTURES:
-        # What is found in a program that compiles are names of mistakes; else it is parts of the messages and hints.
+        # For programs that compile, the expected findings are names of mistakes; otherwise they are parts of the
+        # messages and hints.
         text = ", ".join("`%s`" % x for x in found) if verdict == "differs" else "; ".join(x.replace("|", "\\|") for x in found)
         yield "| [`%s`](#%s) | %s | %s: %s |" % (course, course, title, verdict, text)
     yield ""
@@ -183,7 +186,7 @@ files](contract-file.md) how to write your own contract.
 
 
 def without_reports(text):
-    """The page without the indented blocks that follow a report's mark."""
+    """The page without the indented blocks after each report's mark."""
     return re.sub(r"(?m)(^`lambent check .*` reports:\n)(?:(?:    .*)?\n)*", r"\1", text)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """count_lines.py [REVISION]: counts the code lines of the product by folder: C, C++, headers, .inc, GLSL, JavaScript and Python, without
-blank lines and comments. Reads the files that git knows in the working tree, or in a revision."""
+blank lines and comments. Reads git's files in the working tree or in a revision."""
 import collections
 import re
 import subprocess
@@ -9,7 +9,7 @@ import sys
 PRODUCT = ["src", "include", "tools", "web", "scenes", "classroom"]
 DRAWING = ("src/cpu/", "src/gl/", "src/glsl/", "src/lighting/")
 C_LIKE = ("c", "h", "cpp", "inc", "glsl", "js", "mjs", "ts")
-# A string, a template literal or a regular expression's slashes are not comments; what is matched first wins.
+# Strings, template literals and the slashes of regular expressions are not comments; the first match wins.
 C_TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|`(?:\\.|[^`\\])*`|//[^\n]*|/\*.*?\*/', re.S)
 PYTHON_TOKEN = re.compile(r'(?m)^[ \t]*("""|\'\'\')(?:.*?)\1[ \t]*$|("""|\'\'\')(?:\\.|.)*?\2|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|#[^\n]*', re.S)
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """docs.py LAMBENT [--text]: regenerates the generated parts of the documentation: the manual of the command line, the tables that are
 made from the program's own numbers, and (not with --text) every picture drawn by a command in a Markdown file of the project. Such a
-command is a line of a code block that begins with `lambent ` and names its picture with `-o docs/pictures/…`. A made table stands
-between `<!-- NAME: made by scripts/docs.py -->` and `<!-- end of NAME -->`."""
+command is a line of a code block that begins with `lambent ` and names its picture with `-o docs/pictures/…`. A generated table is between `<!--
+NAME: made by scripts/docs.py -->` and `<!-- end of NAME -->`."""
 import glob
 import json
 import math
@@ -26,7 +26,7 @@ def commands():
                 yield shlex.split(line, comments=True)
 
 
-os.environ["CI"] = "docs"  # pages do not show the settings of the user who makes them
+os.environ["CI"] = "docs"  # the pages must not depend on the user's settings
 
 
 def output(program, *words):
@@ -34,7 +34,7 @@ def output(program, *words):
 
 
 def grey(color):
-    """A colour of equal channels as one number, another as three."""
+    """A colour with equal channels as one number, any other colour as three."""
     return "%g" % color[0] if len(set(color)) == 1 else ", ".join("%g" % c for c in color)
 
 
@@ -43,7 +43,7 @@ def light_row(rig, light):
     if light["type"] == "directional":
         place = ", ".join("%g" % (0.0 - x) for x in light["direction"]).replace("-", "−")
     if "position" in light:
-        # of a ball, half the diagonal of whose box is the root of 3
+        # of a ball: half the diagonal of its box is the root of 3
         unit, size = ("d", math.sqrt(3)) if light.get("frame") == "view" else ("r", 1)
         place = ", ".join("%g%s" % (round(x / size, 4), unit) for x in light["position"]).replace("-", "−")
     if light["type"] in ("ambient", "hemisphere"):
@@ -60,7 +60,7 @@ def light_row(rig, light):
 
 
 def rigs(program, _):
-    """The rigs' lights, from `lambent lights`: of a sphere, whose radius is 1 and whose centre is the origin."""
+    """The rigs' lights, from `lambent lights` for a sphere with radius 1 around the origin."""
     yield "| rig | light | from | diffuse | specular | others |"
     yield "|---|---|---|---|---|---|"
     manual = output(program, "generate", "markdown")
@@ -72,7 +72,7 @@ def rigs(program, _):
 
 
 def explained(program, before):
-    """What the last command before the section prints, as a code block."""
+    """The output of the last command before the section, as a code block."""
     command = re.findall(r"`lambent (explain [^`]*)`", before)[-1]
     yield ""
     for line in output(program, *shlex.split(command)).splitlines():
@@ -81,7 +81,7 @@ def explained(program, before):
 
 
 def roles(program, _):
-    """What a contract of `lambent check` can say of a name, from its schema."""
+    """The keys of a name in a contract of `lambent check`, from its schema."""
     kinds = json.loads(output(program, "generate", "contract-schema"))["$defs"]
     found = {}
     for kind, word in (("attribute", "attribute"), ("uniform", "uniform"), ("constant", "number")):
@@ -94,7 +94,7 @@ def roles(program, _):
 
 
 def settings(program, _):
-    """The keys of scene files that are options too, from the schema: those with a default and an option of the same name."""
+    """The keys of scene files that are also options, from the schema: keys with a default and an option of the same name."""
     schema = json.loads(output(program, "generate", "scene-schema"))["properties"]
     manual = output(program, "generate", "markdown")
     yield "| key | default | values | meaning |"
@@ -138,7 +138,7 @@ SECTIONS = {"formats": formats, "rigs": rigs, "explained": explained, "roles": r
 
 
 def pages_with_sections(program):
-    """The pages that have made sections, by their path in the project, as they should be."""
+    """The pages with generated sections, up to date, by their path in the project."""
     made = {}
     for path in pages():
         with open(path, encoding="utf-8") as file:

@@ -1,6 +1,6 @@
-#!/bin/sh
-# fresh_root.sh RELEASE FOLDER COMMAND: runs COMMAND on a fresh machine of a Debian release: a root made by mmdebstrap in FOLDER, with the
-# committed tree in /lambent, where COMMAND starts. Remove FOLDER for a new machine. Needs root. Exit code 77: no root can be made here.
+# !/bin/sh fresh_root.sh RELEASE FOLDER COMMAND: runs COMMAND on a fresh Debian release: in a root file system made by mmdebstrap in
+# FOLDER, with the committed tree in /lambent as the current folder. Remove FOLDER to get a new root file system. It needs root. Exit
+# code 77 means that the root file system cannot be made on this machine.
 set -eu
 tree=$(cd "$(dirname "$0")/.." && pwd)
 release=$1 folder=$2 command=$3
@@ -19,12 +19,12 @@ fi
 $as_root rm -rf "$root/lambent"
 $as_root mkdir "$root/lambent"
 git -C "$tree" archive HEAD | $as_root tar -x -C "$root/lambent"
-# The mounts live in a namespace of their own and are gone with it.
+# The mounts are in a separate namespace and disappear with it.
 $as_root unshare --mount --pid --fork sh -eu -c '
     root=$1
     mount -t proc proc "$root/proc"
     mount --rbind /dev "$root/dev"
-    if [ -d "$2" ]; then # real models, where they lie beside the tree
+    if [ -d "$2" ]; then # the folder of real models next to the tree
         mkdir -p "$root/shared"
         mount --bind -o ro "$2" "$root/shared"
     fi

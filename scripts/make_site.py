@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""make_site.py LAMBENT [FOLDER]: README and docs/ as pages that a browser reads from a folder or a server, in build-site: no script, no network. The
-pictures that a command of `lambent` drew have links to the Lab (lab.html: the page of `make web` in one file, with the example models in it), one
-for each picture of a sheet; `lambent compare --json` says the words of each. Markdown is converted by cmark-gfm (packages.txt, group web)."""
+"""make_site.py LAMBENT [FOLDER]: converts README and docs/ to HTML pages in build-site, which a browser reads from a folder or a server, without
+scripts and without a network. Pictures drawn by a `lambent` command have links to the Lab (lab.html: the page of `make web` in one file, with the
+example models), one for each picture of a sheet; `lambent compare --json` lists the options of each picture. Markdown is converted by cmark-gfm
+(packages.txt, group web)."""
 import concurrent.futures
 import html
 import json
@@ -19,7 +20,7 @@ from docs import ROOT, pages
 sys.path.insert(0, os.path.join(ROOT, "web"))
 import build  # noqa: E402
 
-# Commands of figures that are no picture of a model: diagrams, and sheets of several models.
+# Commands whose figures are not pictures of a model: diagrams, and sheets of several models.
 NO_PICTURE = ("plot", "materials", "check")
 # Short names of options in the commands of the pages.
 SHORT = {"-s": "--size", "-b": "--background", "-o": "--output", "-r": "--reflection"}
@@ -28,7 +29,7 @@ NAVIGATION = [("README.md", "Lambent"), ("docs/lighting.md", "Lighting"), ("docs
 
 
 def target_of(path):
-    """Where a file of the project is in the site."""
+    """Returns the place of a project file in the site."""
     if path == "README.md":
         return "index.html"
     if path.endswith(".md"):
@@ -43,7 +44,7 @@ def relative(target, page):
 # --- commands and the Lab
 
 def option_words(words):
-    """Words of a command line as the page has them: --name=value, --name. A word that begins with a dash and a letter is an option."""
+    """Splits a command line of a page into words: --name=value, --name. A word that begins with a dash and a letter is an option."""
     found, i = [], 0
     while i < len(words):
         word = SHORT.get(words[i], words[i])
@@ -60,7 +61,7 @@ def option_words(words):
 
 
 def larger(words):
-    """The size of a figure's picture, doubled: a figure is small, and the Lab has room."""
+    """The size of a figure's picture, doubled, because a figure is small and the Lab has room."""
     return [re.sub(r"\d+", lambda m: str(2 * int(m[0])), word) if word.startswith("--size=") else word for word in words]
 
 
@@ -73,9 +74,9 @@ def model_of(word):
 
 
 def pictures_of(program, command):
-    """[caption, words of the Lab] of each picture that a figure's command draws. None are of a diagram."""
+    """Returns [caption, options for the Lab] for each picture that a figure's command draws. A diagram has no such pictures."""
     words = shlex.split(command, comments=True)[1:]
-    if words[0] in NO_PICTURE or any("mistake=" in word for word in words):  # the Lab draws no mistakes
+    if words[0] in NO_PICTURE or any("mistake=" in word for word in words):  # the Lab does not draw mistakes
         return []
     if words[0] != "compare":
         own = option_words(words[1:])
@@ -103,7 +104,7 @@ def lab_links(program, command, page):
 # --- one page
 
 def heading_id(text, seen):
-    """GitHub's: the words of a heading in small letters, joined by dashes."""
+    """GitHub's anchors: the words of a heading in small letters, joined by dashes."""
     plain = html.unescape(re.sub(r"<[^>]*>", "", text)).lower()
     name = re.sub(r"[^\w\- ]", "", plain).strip().replace(" ", "-")
     seen[name] = seen.get(name, -1) + 1
@@ -111,7 +112,7 @@ def heading_id(text, seen):
 
 
 def body_of(program, path, text):
-    """A Markdown file as HTML, and the files of the project that it links."""
+    """Returns a Markdown file as HTML, and the project files that it links to."""
     page, linked, seen = target_of(path), set(), {}
     done = subprocess.run(["cmark-gfm", "-e", "table", "-e", "strikethrough", "-e", "autolink", "--unsafe"], input=text, stdout=subprocess.PIPE, text=True, check=True)
     body = re.sub(r"<h([1-6])>(.*?)</h\1>", lambda m: '<h%s id="%s">%s</h%s>' % (m[1], heading_id(m[2], seen), m[2], m[1]), done.stdout, flags=re.S)
@@ -179,7 +180,7 @@ def write(folder, target, text):
 
 
 def source_page(path):
-    """A file of the project as a page; of a folder, its list."""
+    """Converts a project file to a page; a folder becomes a list of its files."""
     full = os.path.join(ROOT, path)
     if os.path.isdir(full):
         items = ["<li><a href=\"%s\">%s</a></li>" % (os.path.basename(path) + "/" + name + ".html", name) for name in sorted(os.listdir(full))]
@@ -188,7 +189,7 @@ def source_page(path):
 
 
 def make(program, folder, lab):
-    """Writes the site; `lab`: the page in one file."""
+    """Writes the site; `lab` is the single-file page."""
     shutil.rmtree(folder, ignore_errors=True)
     texts, linked, waiting = {}, set(), {os.path.relpath(path, ROOT) for path in pages()}
     while waiting:

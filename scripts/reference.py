@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """reference.py FOLDER OUT [DEPFILE]: writes the reference of the public interface, one Markdown page, from the headers of FOLDER
-(include/lambent). A comment is above the declaration that it documents, or behind it on the same line. A comment above functions
-or enumerators documents all of them up to an empty line or the next comment; a comment above a field documents that field. Text
+(include/lambent). A comment is above the declaration that it documents, or behind it on the same line. A comment above functions or enumerators
+documents all of them up to an empty line or the next comment; a comment above a field documents that field. Text
 indented by two or more spaces within a comment (formulas, tables, code) keeps its lines."""
 import os
 import re
@@ -32,7 +32,7 @@ SKIPPED = re.compile(r'#if|#else|#endif|#include|#define LAM_API|#define LAMBENT
 
 
 def split_line(line):
-    """The code of a line and its comment; None: it has none."""
+    """Splits a line into its code and its comment; the comment is None if there is none."""
     code, mark, comment = line.partition("//")
     return code.rstrip(), comment.removeprefix(" ").rstrip() if mark else None
 
@@ -75,7 +75,7 @@ def members_of(lines, kind):
 
 
 def declared(text, doc, behind, body):
-    """The item that a whole declaration at the top level of a header is."""
+    """Returns the item for a whole declaration at the top level of a header."""
     flat = re.sub(r"\s+", " ", text)
     compound = re.match(r"(?:typedef )?(struct|enum)(?: (\w+))? \{", flat)
     if compound:
@@ -126,7 +126,7 @@ def parse(path):
                 behind.append(comment)
             text += "\n" + code
             at += 1
-        if compound and not body:  # all on one line
+        if compound and not body:  # on one line
             body = [re.sub(r"^[^{]*\{|\}[^}]*$", "", text)]
         item = declared(text, doc + behind, " ".join(behind), body)
         header.items.append(item)
@@ -143,7 +143,7 @@ def headers(folder):
 
 
 def paragraphs(doc, link):
-    """A comment's lines as Markdown; lines that it indents become a block of code."""
+    """Converts a comment's lines to Markdown; indented lines become a code block."""
     out = [["", ""]]
     for line in doc:
         kind = "code" if line.startswith("  ") else "text" if line else ""
@@ -228,7 +228,7 @@ def write(all_headers, out):
 
 
 def complaints(all_headers):
-    """The faults of the headers' documentation: undocumented declarations, and comments behind code that are too long."""
+    """Problems of the headers' documentation: undocumented declarations, and comments behind code that are too long."""
     for header in all_headers:
         for item in header.items:
             where = "%s: %s" % (header.name, item.name or "enum")

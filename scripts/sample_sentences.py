@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""sample_sentences.py [SEED]: 200 sentences for a reader who judges their English: 40 of the README, 40 of the help, 60 of ten pages and 60 of the
-comments of twenty files, chosen by the seed (1). Fewer where a text has fewer. Each line: number, file, sentence."""
+"""sample_sentences.py [SEED]: prints 200 sentences for a reader who judges their English: 40 from the README, 40 from the help, 60 from ten pages and
+60 from the comments of twenty files, chosen by the seed (1). If a text contains fewer sentences, it prints fewer. Each line contains a number, the
+file and the sentence."""
 import os
 import random
 import re
@@ -18,7 +19,7 @@ def read(path):
 
 
 def sentences_of(path):
-    """The sentences of a page or of a file's comments, with at least four words, as they stand in the file."""
+    """The sentences of a page or of a file's comments that have at least four words, unchanged."""
     texts = english.paragraphs(read(path)) if path.endswith(".md") else [text for text in english.c_texts(read(path)) if not re.search(r"%[-.0-9]*[a-z]", text[1])]
     for _, text in texts:
         if not text.startswith("#"):
@@ -31,8 +32,8 @@ def cells(path):
     """The descriptions of the tables of a page."""
     for line in read(path).split("\n"):
         if line.startswith("| `"):
-            text = line.rstrip(" |").rsplit(" | ", 1)[-1].replace("<br>", " ")
-            yield from ((path, sentence) for sentence in re.split(r"(?<=[.!?])\s+", text) if len(sentence.split()) >= 4)
+            text = line.rstrip(" |").rsplit(" | ", 1)[-1]
+            yield from ((path, sentence) for sentence in re.split(r"<br>|(?<=[.!?])\s+", text) if len(sentence.split()) >= 4)
 
 
 def main():

@@ -1,6 +1,5 @@
-#!/bin/sh
-# setup.sh GROUP…: installs the Debian packages of the named groups (packages.txt) that are missing, and lists them. Quick if
-# nothing is missing. Uses sudo unless it runs as root.
+# !/bin/sh setup.sh GROUP…: installs the Debian packages of the named groups (packages.txt) that are missing, and lists them.
+# It is quick if nothing is missing. It uses sudo unless it runs as root.
 set -eu
 list="$(dirname "$0")/../packages.txt"
 wanted=""
@@ -12,7 +11,8 @@ if ! command -v dpkg-query >/dev/null 2>&1; then
     exit 0
 fi
 
-# `missing` gets the packages that are not installed; of alternatives (A|B) the first that this release of Debian has.
+# `missing` gets the packages that are not installed; for alternatives (A|B), it gets the first one that this Debian
+# release provides.
 find_missing() {
     missing=""
     installed=" $(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $(echo "$wanted" | tr '|' ' ') 2>/dev/null |
@@ -44,7 +44,7 @@ trap 'rm -f "$log"' EXIT
 install() {
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing >"$log" 2>&1
 }
-# The package lists may be old or absent: refresh them when the first try fails, and choose among alternatives again.
+# The package lists may be old or missing: if the first try fails, update them and choose among alternatives again.
 if ! install; then
     echo "setup: refreshing the package lists"
     $as_root apt-get update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }

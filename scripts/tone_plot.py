@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""tone_plot.py BUILD: draws the tone curves of docs/lighting/tone.md, by the library itself: docs/pictures/lighting/tone.svg and
-tone-colors.svg.
+"""tone_plot.py BUILD: draws the tone curves for docs/lighting/tone.md with the library: docs/pictures/lighting/tone.svg and tone-colors.svg.
 
-Grey light against the encoded value that the screen shows, and what the curves make of saturated light that grows stronger. BUILD is the
-folder of a build, whose liblambent is called (lam_tone_apply)."""
+The first plots grey light against the encoded value; the second shows the effect of the curves on saturated light of increasing brightness. BUILD is
+a build folder, whose liblambent is called (lam_tone_apply)."""
 import ctypes
 import pathlib
 import sys
@@ -11,7 +10,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 420, 58, 24, 20, 54
 COLORS = {"none": "#777777", "reinhard": "#1a56a0", "aces": "#c05020", "agx": "#2f8f4e", "khronos-neutral": "#7a3fa0"}
-LOW, HIGH = -7, 5  # stops about 0.18
+LOW, HIGH = -7, 5  # stops relative to 0.18
 
 
 class Rgb(ctypes.Structure):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""uninstall.py DESTDIR PREFIX: removes the files that `meson introspect --installed` lists on standard input, below DESTDIR, and the
-folders that are empty then. The folders that every system has in PREFIX (bin, share, share/man …) stay."""
+"""uninstall.py DESTDIR PREFIX: removes the files that `meson introspect --installed` lists on standard input, below DESTDIR, and the folders that are
+then empty. It keeps the standard folders in PREFIX (bin, share, share/man …)."""
 import json
 import os
 import sys
@@ -26,7 +26,7 @@ for source, target in json.load(sys.stdin).items():
             remove(os.path.join(target, name))
     else:
         remove(target)
-        # A shared library's links are not listed.
+        # The links of a shared library are not listed.
         folder, name = os.path.split(target)
         stem = name.split(".so")[0] + ".so"
         if ".so." in name and os.path.isdir(folder):

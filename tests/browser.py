@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""browser.py PROGRAM [--long|--firefox]: the page of `make web` in Debian's chromium, or firefox-esr, driven by playwright-core (web/browser.mjs): gestures and the command
-lines that they make, controls, links, drops, explanations, the page in one file, without its server, names and roles, texts. After random
-sequences of gestures, 3 or with --long 30, PROGRAM draws the copied command, and the canvas has the same pixels. Shaders are checked with the
-browser's WebGL 2 (web/shaders.mjs): correct ones pass, known mistakes have their names, with --long all. `lambent view` (web/view.mjs): a model is turned,
-its file changes; with --long a gallery, and a model that is too large for the page. The page as people meet it (web/people.mjs): the bytes before the
-first picture, drawings that take long, missing and compressed files, small screens.
+"""browser.py PROGRAM [--long|--firefox]: tests the page of `make web` in Debian's chromium, or firefox-esr, driven by playwright-core
+(web/browser.mjs): gestures and the resulting command lines, controls, links, drops, explanations, the single-file page, the page without its server,
+names and roles, and texts. After random sequences of gestures, 3 or with --long 30, PROGRAM draws the copied command, and the pixels must equal the
+canvas. Shaders are checked with the browser's WebGL 2 (web/shaders.mjs): correct shaders pass, and known mistakes get their names; --long checks all
+of them. For `lambent view` (web/view.mjs), a model is turned and its file changes; --long adds a gallery, and a model that is too large for the page.
+web/people.mjs tests typical situations: the bytes before the first picture, slow drawings, missing and compressed files, small screens.
 
-With --firefox these tests run in Firefox, by WebDriver BiDi (web/input.mjs has the little that differs). Skipped where the browser, a package of the group `web`, or playwright-core is missing; npm installs that in build-web/npm, as web/package-lock.json
-has it."""
+With --firefox these tests run in Firefox, by WebDriver BiDi (web/input.mjs contains the few differences). The tests are skipped if the browser, a
+package of the group `web`, or playwright-core is missing; npm installs playwright-core in build-web/npm, as specified in web/package-lock.json."""
 import hashlib
 import json
 import os
@@ -47,10 +47,11 @@ def check_picture(results, program, folder, kind, said):
     os.remove(path)
 
 
-# What the browser's pictures say of a mistake where native OpenGL says something else: it is named without certainty, and a browser hides
-# colours that are no numbers.
+# Mistakes for which the browser's pictures give another result than native OpenGL: the name is uncertain, and a browser hides colours
+# that are not numbers.
 IN_BROWSER = {("learnopengl-pbr", "no-masking"): "no-masking?", ("learnopengl-pbr", "no-clamp"): ""}
-# What is tried without --long: correct programs, one of each kind of names; mistakes of a highlight, of a gate, of a vertex shader.
+# The cases without --long: correct programs, one for each kind of names, and mistakes of a highlight, of a gate and of a vertex
+# shader.
 SOME_CORRECT = ["pittsburgh", "oregon", "nyu", "learnopengl-lights", "mdn", "threejs-pbr"]
 SOME_MISTAKES = [("pittsburgh", "phong-lobe"), ("oregon", "no-gate"), ("pittsburgh", "normal-by-model-view")]
 
@@ -84,7 +85,7 @@ def check_shaders(results, modules, browser, folder, long):
     tasks = shader_tasks(long)
     json.dump(tasks, open(path, "w"))
     display, with_display = [], {}
-    if "firefox" in browser: # it has WebGL with a display alone
+    if "firefox" in browser: # it supports WebGL only with a display
         if not shutil.which("xvfb-run"):
             print("# no xvfb: shaders are not checked in Firefox")
             return
@@ -100,7 +101,7 @@ def check_shaders(results, modules, browser, folder, long):
 
 
 def start_viewer(program, *words):
-    """A viewer with the page that was built, and its address; None: libmicrohttpd is missing."""
+    """Starts a viewer with the built page and returns its address; None if libmicrohttpd is missing."""
     viewer = subprocess.Popen([program, "view", "--no-open", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env={**os.environ, "LAMBENT_PAGE": os.path.join(OUT, "lambent.html")})
     address = viewer.stdout.readline().strip()
@@ -113,7 +114,7 @@ def start_viewer(program, *words):
 
 
 def make_points(path):
-    """A model of more points than the page draws (tools/view): 100 layers of one square, all of which are seen."""
+    """A model with more points than the page draws (tools/view): 100 visible layers of one square."""
     columns, layers = 145, 100
     square = [(x / columns, y / columns) for x in range(columns) for y in range(columns)][:21000]
     body = b"".join(struct.pack("<63000f", *(number for x, y in square for number in (x, y, z / layers))) for z in range(layers))
@@ -163,7 +164,7 @@ def check_barriers(results, program, modules, browser, folder):
 
 
 def report(results, program, lines, folder_of):
-    """Takes the lines of a script: results, and pictures that the program draws too. Returns the number of those that have a label."""
+    """Processes the output lines of a script: results, and pictures that the program must also draw. Returns the number of pictures with a label."""
     drawn = 0
     for line in lines.splitlines():
         kind, _, text = line.partition(" ")

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""emulated.py BUILD [NAME …]: the image table on processors that this machine is not, under qemu's user mode: 64-bit Arm (plain C and
-NEON) and x86-64 without SSE4 (core2duo) and without AVX (Nehalem). The same pictures, byte for byte.
+"""emulated.py BUILD [NAME …]: tests the image table on other processors, under qemu's user mode: 64-bit Arm (plain C and NEON) and x86-64 without
+SSE4 (core2duo) and without AVX (Nehalem). The pictures must be identical, byte for byte.
 
-Part of the long tests (packages: group `long` of packages.txt). The Arm libraries that the test program links are fetched as Debian
-packages and unpacked in build-long/, not installed; the x86-64 program is BUILD/tests/test-images. What is missing is reported as
-skipped."""
+The test is part of the long tests (group `long` of packages.txt). The Arm libraries that the test program needs are downloaded as Debian packages and
+unpacked in build-long/, not installed; the x86-64 program is BUILD/tests/test-images. Missing components are reported as skipped."""
 import glob
 import os
 import platform
@@ -21,7 +20,7 @@ TRIPLE = "aarch64-linux-gnu"
 PACKAGES = ["libspng-dev", "libspng0", "zlib1g-dev", "zlib1g", "libjpeg62-turbo-dev", "libjpeg62-turbo", "libjansson-dev",
             "libjansson4", "libcmocka-dev", "libcmocka0"]
 
-# A qemu and its processor, the build, and the instruction sets that must be there: a run that leaves one out proves nothing.
+# A qemu and its processor, the build, and the required instruction sets; a run without one of them proves nothing.
 MACHINES = {
     "arm64": {"qemu": "qemu-aarch64", "cpu": "cortex-a72", "build": "arm64", "isas": "scalar neon"},
     "x86-64 core2duo": {"qemu": "qemu-x86_64", "cpu": "core2duo", "build": "x86_64", "isas": "scalar"},
@@ -30,7 +29,7 @@ MACHINES = {
 
 
 def fetch_libraries():
-    """Unpacks the Arm packages below SYSROOT; returns a reason why not, or None. apt's own lists stay as they are."""
+    """Unpacks the Arm packages below SYSROOT; returns the reason if this fails, or None. apt's own lists do not change."""
     if os.path.exists(os.path.join(SYSROOT, "complete")):
         return None
     lists, packages = os.path.join(OUT, "apt"), os.path.join(OUT, "packages")
@@ -52,7 +51,7 @@ def arm_libraries():
 
 
 def build_arm():
-    """Builds the test program for Arm; returns a reason why not, or None."""
+    """Builds the test program for Arm; returns the reason if this fails, or None."""
     folder = os.path.join(OUT, "arm64")
     if not shutil.which(TRIPLE + "-gcc"):
         return "gcc-aarch64-linux-gnu is not installed"
@@ -76,7 +75,7 @@ def build_arm():
 
 
 def run(name, machine, number, build):
-    """Prints the machine's line; returns whether all is well."""
+    """Prints the machine's line; returns whether all tests passed."""
     reason = None if shutil.which(machine["qemu"]) else "qemu-user is not installed"
     reason = reason if platform.machine() == "x86_64" else "it is known how to do this from x86-64 alone"
     if not reason and machine["build"] == "arm64":

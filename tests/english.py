@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""english.py [FILE…]: finds phrases and sentences that readers found hard, in pages, help, messages and comments; without names, in the whole
-project, as tests/style.py does. Names are relative to the project's folder.
+"""english.py [FILE…]: finds phrases and sentences that readers found hard, in pages, help, messages and comments; without names, it checks the whole
+project, like tests/style.py. Names are relative to the project's folder.
 
-Sentences of pages contain at most 35 words, and at most 18 in the mean of a page. A phrase that must stay is in ALLOWED, with the reason."""
+Sentences of pages contain at most 35 words, and at most 18 in the mean of a page. ALLOWED contains phrases that must stay, with the reason."""
 import os
 import re
 import sys
@@ -30,7 +30,8 @@ PHRASES = [
     (r"\bworked out\b", "computed"),
     (r"(?:^|[.!?] )What (?!is |are |does |do )[^.?!]*(?:[.!]|$)", "begin with the thing itself"),
 ]
-# Phrases of pages alone, the advice, and a text that the phrase finds. Comments still have some.
+# Phrases of pages alone, the advice, and a text that the phrase finds. Comments still contain some
+# of them.
 PAGE_PHRASES = [
     (r"\b(?:is|are) left out\b", "omits; 'Lambent omits it'", "shadows are left out"),
     (r"\bhas none\b", "'does not support them', 'contains none'", "the format has none"),
@@ -43,7 +44,7 @@ PAGE_PHRASES = [
 HEADING = re.compile(r"^#+ (?:The|A|An|In) \w+$")
 
 
-# A text that each phrase finds, in their order: a pattern that finds nothing any more is a mistake.
+# A text that contains each phrase, in the same order: a pattern without a match is a mistake.
 EXAMPLES = ["the run goes on", "what became of it", "it is told the size", "a cut line counts for nothing", "it takes away light", "it stands for a number",
             "those of the file", "of levels only those that are read", "the house", "what is written", "no picture that is not drawn", "where it is missing",
             "it waits for ever", "the face is turned round", "it hangs over a surface", "it is worked out", "Errors are values. What remains is drawn."]
@@ -64,7 +65,7 @@ def words_of(sentence):
 
 
 def paragraphs(page):
-    """(number of the first line, text) of each paragraph, list item and heading of a page, without tables, code and made sections."""
+    """Returns (number of the first line, text) of each paragraph, list item and heading of a page, without tables, code and generated sections."""
     found, fence, made, before = [], False, False, ""
     for number, line in enumerate(page.split("\n"), 1):
         if line.startswith("```"):
@@ -104,7 +105,7 @@ def check_page(path, text):
 
 # Sentences that keep a phrase: (path, text, reason).
 ALLOWED = []
-# Comments of these folders are checked once the work on them is done.
+# Comments of these folders will be checked when the work on them is done.
 LATER = re.compile(r"tools/commands/diff")
 MADE = ("docs/check/contracts.md",)  # from programs of courses, in their own words
 
@@ -139,7 +140,7 @@ def check_phrases(path, text):
 
 
 def files():
-    """The files that are checked, by group."""
+    """The checked files, by group."""
     def below(folder, endings):
         for path, _, names in sorted(os.walk(os.path.join(ROOT, folder))):
             yield from (os.path.relpath(os.path.join(path, name), ROOT) for name in sorted(names) if name.endswith(endings))
@@ -153,7 +154,7 @@ def complaints(path):
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         text = file.read()
     found = list(check_phrases(path, text))
-    if path.endswith(".md") and path != "docs/command-line.md":  # whose sentences are those of the help
+    if path.endswith(".md") and path != "docs/command-line.md":  # whose sentences come from the help
         found += check_page(path, text)
     return ["%s:%d: %s" % (path, number, complaint) for number, complaint in sorted(found)]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """hardening.py FILE…: checks that the program and the libraries of a release build are hardened: position-independent, all
 relocations read-only before main (full RELRO), no executable stack, stack protector, FORTIFY, and on x86-64 a landing pad at each
-exported function and the marks of control-flow protection (CET). The compiler's flags are in meson.build."""
+exported function and the marks of control-flow protection (CET). The compiler flags are in meson.build."""
 import os
 import platform
 import re
@@ -14,7 +14,7 @@ def output(*command):
 
 
 def landing_pads(path):
-    """Exported functions that do not begin with endbr64; None where the machine has no such instruction."""
+    """Exported functions that do not begin with endbr64; None if the machine has no such instruction."""
     if platform.machine() != "x86_64":
         return None
     exported = {line.split()[-1].split("@")[0] for line in output("readelf", "-Ws", "--dyn-syms", path).splitlines()
@@ -28,7 +28,7 @@ def landing_pads(path):
             if "endbr64" not in line:
                 without.append(name)
             name = None
-    return [name for name in without if name != "_start"]  # the C library's own
+    return [name for name in without if name != "_start"]  # from the C library
 
 
 def marks(path):
@@ -38,7 +38,8 @@ def marks(path):
 
 
 def wanted_marks(path):
-    """Of a library of objects both; else IBT only if the C library's start files, which are linked into every file, have it too."""
+    """The objects of a static library need both marks; other files need IBT only if the C library's start files, which are linked into every file,
+    have it."""
     if platform.machine() != "x86_64":
         return set()
     start_files = [output("cc", "-print-file-name=" + name).strip() for name in ("Scrt1.o", "crti.o", "crtn.o")]

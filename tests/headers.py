@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""headers.py BUILD: the library as its users get it: each public header compiles alone as C11 and as C++17; the library installs;
-the examples compile with pkg-config, run, and write a picture; the exported symbols of the shared library are checked."""
+"""headers.py BUILD: tests the library as users get it: each public header compiles alone as C11 and as C++17; the library installs; the examples
+compile with pkg-config, run, and write a picture; the exported symbols of the shared library are checked."""
 import glob
 import json
 import os
@@ -48,7 +48,7 @@ def installed(folder):
 
 
 def uninstalled(stage):
-    """Nothing is left but the folders that every system has; and `make` names Debian's folder of libraries itself."""
+    """Only the standard folders remain; `make` itself sets Debian's folder of libraries."""
     files = run(["meson", "introspect", "--installed", BUILD])
     prefix = next(option["value"] for option in json.loads(run(["meson", "introspect", "--buildoptions", BUILD]).stdout)
                   if option["name"] == "prefix")
@@ -56,7 +56,7 @@ def uninstalled(stage):
     left = [os.path.relpath(os.path.join(path, name), stage + prefix) for path, folders, names in os.walk(stage + prefix) for name in folders + names]
     check("uninstall leaves nothing", done.returncode == 0 and set(left) <= {"bin", "include", "lib", "lib64", "share", "share/man"},
           done.stdout + str(left))
-    for name in ("meson", "ninja"):  # only what they are asked for is wanted
+    for name in ("meson", "ninja"):  # only the requested ones are needed
         with open(os.path.join(stage, name), "w") as program:
             program.write("#!/bin/sh\necho %s \"$@\"\n" % name)
         os.chmod(program.name, 0o755)
@@ -73,7 +73,7 @@ def installed_example(environment, name):
 
 
 def static(folder, environment):
-    """The static library alone, by `pkg-config --static`: it is complete, and defines no symbol that could collide with a program's."""
+    """The static library alone, with `pkg-config --static`: it is complete, and defines no symbol that could collide with a program's symbols."""
     libraries = os.path.dirname(environment["PKG_CONFIG_PATH"])
     library, alone = os.path.join(libraries, "liblambent.a"), os.path.join(folder, "alone")
     if not check("the static library is installed", os.path.exists(library)):
@@ -87,7 +87,7 @@ def static(folder, environment):
     flags = run(["pkg-config", "--static", "--cflags", "--libs", "lambent"], env=environment)
     check("pkg-config --static names what the library needs", flags.returncode == 0 and "-lspng" in flags.stdout, flags.stdout)
     own = os.path.join(folder, "own.c")
-    open(own, "w").write("int fail(void); int fail(void) { return 1; }\n") # the library has a function of that name within
+    open(own, "w").write("int fail(void); int fail(void) { return 1; }\n") # the library contains an internal function of that name
     program, picture = os.path.join(folder, "static"), os.path.join(folder, "static.png")
     words = [word for word in flags.stdout.split() if word != "-L" + libraries]
     built = run(["cc", "-std=c11", installed_example(environment, "render"), own, "-o", program, "-L" + alone] + words, env=environment)
@@ -127,7 +127,7 @@ def examples(folder, environment):
 
 
 def pixels_of(path):
-    """The size and the bytes of a BMP with 32 bits a pixel; None: it is not there."""
+    """The size and the bytes of a BMP with 32 bits per pixel; None if it does not exist."""
     data = open(path, "rb").read() if os.path.exists(path) else b""
     if data[:2] != b"BM":
         return None
@@ -136,7 +136,7 @@ def pixels_of(path):
 
 
 def widget(folder, environment):
-    """The example with a window (SDL2) turns a model in its own buffer, 30 times a second, on SDL's driver without a display."""
+    """The example with a window (SDL2) turns a model in its own buffer, 30 times a second, with SDL's driver without a display."""
     sdl = run(["pkg-config", "--cflags", "--libs", "sdl2"])
     if sdl.returncode:
         print("ok %d - example widget # SKIP SDL2 is not installed: apt install libsdl2-dev" % (len(results) + 1))
@@ -163,7 +163,7 @@ def widget(folder, environment):
 
 
 def check_library(folder, environment):
-    """liblambent-check: a program built with its pkg-config file alone checks a shader, and saves a picture with liblambent."""
+    """liblambent-check: a program built with only its pkg-config file checks a shader, and saves a picture with liblambent."""
     flags = run(["pkg-config", "--cflags", "--libs", "lambent-check"], env=environment)
     check("pkg-config knows lambent-check", flags.returncode == 0, flags.stdout)
     program, picture = os.path.join(folder, "check"), os.path.join(folder, "check.pfm")
@@ -205,7 +205,7 @@ def symbols():
 
 
 def documentation(folder):
-    """Every public declaration has a comment, and the reference (scripts/reference.py) has every function of the libraries."""
+    """Every public declaration has a comment, and the reference (scripts/reference.py) contains every function of the libraries."""
     sys.path.insert(0, os.path.join(ROOT, "scripts"))
     import reference
     all_headers = reference.headers(os.path.join(ROOT, "include", "lambent"))

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""machines.py [--long]: the library compiles for another machine: 64-bit Arm with NEON kernels. (tests/web.py builds for WebAssembly.)
-
-Clang's cross compiler with Debian's C library looks at every source file of the folders that a picture needs, without the
-importers and codecs that depend on a packaged library: their types, intrinsics and warnings. Without --long only those that name a processor or
-include what does. No code is generated, which takes minutes; tests/emulated.py builds for other processors and draws there, in `make test-long`."""
+"""machines.py [--long]: tests that the library compiles for another machine: 64-bit Arm with NEON kernels. (tests/web.py builds for WebAssembly.)
+Clang's cross compiler with Debian's C library checks the types, intrinsics and warnings of every source file in the folders that a picture needs,
+except the importers and codecs that depend on a packaged library. Without --long, it checks only files that mention a processor or include such a
+file. It generates no code, because this takes minutes; tests/emulated.py builds for other processors and draws there, in `make test-long`."""
 import glob
 import os
 import re
@@ -21,10 +20,10 @@ MACHINES = {
               "needs": "/usr/aarch64-linux-gnu/include/stdio.h", "package": "libc6-dev-arm64-cross",
               "kernels": [("scalar", 1), ("neon", 4)], "without": ["file_write_web.c"]},
 }
-LEFT_OUT = ["png_read.c", "jpeg.c", "jpeg_write.c"]  # libspng's and libjpeg's own headers are the host's
+LEFT_OUT = ["png_read.c", "jpeg.c", "jpeg_write.c"]  # libspng's and libjpeg's headers come from the host
 
 
-# What differs between processors: intrinsics, and the headers that have them or choose among them.
+# Text that depends on the processor: intrinsics, and headers that contain or select them.
 PROCESSOR = re.compile(r'__ARM|__aarch64__|__x86_64__|immintrin|#include "(lanes|double_lanes|eights|cpu_features|float_state|byte_masks|isa|kernels)[.]h"')
 
 

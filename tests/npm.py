@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""npm.py PROGRAM: the npm package (docs/npm.md), packed and installed as its users have it: in node, whose pictures have PROGRAM's bytes, bundled by esbuild, with
-TypeScript, and in Debian's chromium, in a page without a bundler and in a bundled one.
+"""npm.py PROGRAM: tests the npm package (docs/npm.md), packed and installed: in node, where the pictures equal PROGRAM's bytes, bundled by esbuild,
+with TypeScript, and in Debian's chromium, on a page without a bundler and on a bundled page.
 
-Skipped where a package of the group `web` or npm is missing; the parts that need what npm downloads (TypeScript, playwright-core), or chromium, likewise."""
+The test is skipped if a package of the group `web` or npm is missing; parts that need downloads of npm (TypeScript, playwright-core) or chromium are
+skipped likewise."""
 import base64
 import hashlib
 import json
@@ -31,7 +32,7 @@ def run(*words, **more):
 
 
 def make_inputs(program, folder):
-    """Models, and what the program draws of them."""
+    """Models, and the program's pictures of them."""
     def drawn(*words):
         subprocess.run([program, "-q", *words, "-o", "drawn.png"], cwd=folder, check=True)
         return hashlib.sha256((folder / "drawn.png").read_bytes()).hexdigest()
@@ -45,7 +46,7 @@ def make_inputs(program, folder):
 
 
 def tap(results, code, text):
-    """The lines of a script of tests/web, as results of this one."""
+    """The output lines of a script in tests/web, as results of this script."""
     lines = text.splitlines()
     for i, line in enumerate(lines):
         if line.startswith(("ok ", "not ok ")):

@@ -4,7 +4,7 @@
 
 #include <lambent/lambent.h>
 
-// Four corners around; the mesh points to what it is made of.
+// Four corners in order; the mesh points to its data.
 static inline lam_mesh quad_mesh(const float positions[12], const float normals[12], const float texcoords[8],
                                  const float second[8], const lam_part *part)
 {

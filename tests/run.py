@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""run.py [more|long|gl] [VARIANT …]: builds Lambent, runs its tests and counts them. Without a word these are the tests of every
-change: the suite without a name in tests/meson.build. `more` runs the suite "more", `long` both "more" and "long", `gl` what needs OpenGL,
-and names the drivers that it ran on.
+"""run.py [more|long|gl] [VARIANT …]: builds Lambent, runs its tests and counts them. Without a word, it runs the tests for every change: the suite
+without a name in tests/meson.build. `more` runs the suite "more", `long` both "more" and "long", and `gl` the tests that need OpenGL; it also prints
+the drivers.
 
-Everything is built in build-test/, and only what the tests need. The tests of all variants share one pool of as many processes as
-there are processors; those that Meson knows as not parallel run alone, at the end. What a test printed is in
-build-test/VARIANT/tests/NAME.txt, and what each took in build-test/tests.json. The last line is `N passed, N failed`, counted from the
-test programs' own output; before it stand the durations. Tests that take more than 5 s of processor time are listed.
+It builds everything in build-test/, and only what the tests need. The tests of all variants share one pool with one process per processor; tests that
+Meson marks as not parallel run alone, at the end. The output of a test is in build-test/VARIANT/tests/NAME.txt, and the time of each test is in
+build-test/tests.json. The last line is `N passed, N failed`, counted from the output of the test programs; the durations precede it. It lists tests
+that take more than 5 s of processor time.
 """
 import concurrent.futures
 import json
@@ -22,7 +22,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT = os.path.join(ROOT, "build-test")
 
-# Each variant is another build of the same tree. "only" names the tests for which it matters, "suites" the words with which it runs.
+# Each variant is another build of the same tree. "only" lists the tests to which it applies, "suites" the words with which it runs.
 VARIANTS = [
     {"name": "gcc-release", "cc": "gcc", "options": ["--buildtype=release"], "suites": ["now", "more", "long"]},
     {"name": "clang-sanitized", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Doptimization=1", "-Dc_args=-g1",
@@ -32,27 +32,29 @@ VARIANTS = [
      "suites": ["more", "long"], "only": ["device", "large-files", "obj", "obj-large", "ply", "stl"]},
     {"name": "gcc-debug", "cc": "gcc", "options": ["--buildtype=debug"], "suites": ["long"], "only": ["images", "lighting-widths", "shapes"]},
 ]
-SUITES = {"now": [""], "more": ["more"], "long": ["more", "long"]} # which suites of tests/meson.build a word runs
+SUITES = {"now": [""], "more": ["more"], "long": ["more", "long"]} # the suites of tests/meson.build for each word
 
-# Not part of the whole suite: the same tests alone. Lines that match "tell" are printed.
+# This variant is not part of the whole suite; it runs the same tests alone. Lines that match "tell"
+# are printed.
 GL = {**VARIANTS[0], "env": {"LAMBENT_LONG": "1"}, "tell": r"^gl .*OpenGL.*|.*farthest off.*|^the mask: .*",
       "only": ["gl-context", "gl-classic", "gl-device", "gl-caller", "gl-state", "gl-parity", "glsl"]}
 
 ENVIRONMENT = {
-    "XDG_CONFIG_HOME": "/nonexistent",  # not the settings of the user who runs the tests
-    # A sanitizer's report fails its test. Following the storage that OpenGL's libraries have for each
-    # thread, clang 14's search for leaks takes them for glibc 2.19's and may read where nothing is ("Tracer caught signal 11").
+    "XDG_CONFIG_HOME": "/nonexistent",  # ignore the settings of the user who runs the tests
+    # A sanitizer's report fails its test. When clang 14's leak detector follows the thread storage of OpenGL's libraries, it
+    # mistakes it for glibc 2.19's and may read unmapped memory ("Tracer caught signal 11").
     "ASAN_OPTIONS": "detect_leaks=1:abort_on_error=0:allocator_may_return_null=1:intercept_tls_get_addr=0",
-    # Mesa 25 (Debian 13) keeps 2352 bytes of its own to the end.
+    # Mesa 25 (Debian 13) keeps 2352 bytes of its own until the end.
     "LSAN_OPTIONS": "suppressions=%s:print_suppressions=0" % os.path.join(ROOT, "tests", "leaks.supp"),
     "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1",
     "TSAN_OPTIONS": "halt_on_error=1",
     "CMOCKA_MESSAGE_OUTPUT": "TAP",
-    # glibc fills memory with it: what reads memory that nobody wrote finds the same in each run.
+    # glibc fills new memory with this value, so code that reads uninitialized memory finds the same
+    # value in each run.
     "MALLOC_PERTURB_": "165",
 }
-RUNNING = set() # tests, each the leader of its group of processes
-SLOWER = 4 # Meson's limits are of a machine that does nothing else
+RUNNING = set() # tests, each the leader of its process group
+SLOWER = 4 # Meson's limits are for an idle machine
 
 
 def run(command, **more):
@@ -68,14 +70,14 @@ def configure(variant):
     """Returns an error text or None."""
     folder = os.path.join(OUT, variant["name"])
     if os.path.exists(os.path.join(folder, "build.ninja")):
-        done = run(["ninja", "-C", folder, "build.ninja"]) # what Meson says of tests is of its last look at meson.build
+        done = run(["ninja", "-C", folder, "build.ninja"]) # Meson's list of tests is from its last look at meson.build
         return done.stdout if done.returncode else None
     done = run(["meson", "setup", folder, ROOT, "-Dtests=true"] + variant["options"], env={**os.environ, "CC": variant["cc"]})
     return done.stdout if done.returncode else None
 
 
 def build(variant, tests):
-    """Builds what the tests run, and all that is installed if they install it; returns an error text or None."""
+    """Builds the programs that the tests run, and all installed files if the tests install them; returns an error text or None."""
     folder = os.path.join(OUT, variant["name"])
     wanted = {test["cmd"][0] for test in tests}.union(*(test["depends"] for test in tests))
     installs = any(test["name"] == "headers" for test in tests)
@@ -90,9 +92,9 @@ def build(variant, tests):
 
 
 def count(output, end):
-    """Passed, failed and skipped checks of one test program, and the lines about failures. `end` says how it ended, or is empty."""
+    """The passed, failed and skipped checks of one test program, and the lines about failures. `end` describes how it ended, or is empty."""
     passed = len(re.findall(r"^ok \d+(?!.*# SKIP)", output, re.M))
-    skipped = len(re.findall(r"^(?:not )?ok \d+.*# SKIP", output, re.M))  # CMocka says "not ok" there
+    skipped = len(re.findall(r"^(?:not )?ok \d+.*# SKIP", output, re.M))  # CMocka prints "not ok" there
     failures = re.findall(r"^not ok (?!.*# SKIP).*", output, re.M)
     if not failures and (end or passed + skipped == 0):
         failures = [end or "ran no check"]
@@ -100,17 +102,17 @@ def count(output, end):
 
 
 def tests_of(variant, suites):
-    """What Meson knows of the variant's tests that are to run."""
+    """Meson's data about the variant's tests that are to run."""
     found, names = introspect(variant, "tests"), variant.get("only")
     for name in names or []:
         assert name in [test["name"] for test in found], "%s has no test '%s'" % (variant["name"], name)
-    if names: # in whichever suite: other variants run the rest
+    if names: # in any suite: other variants run the rest
         return [dict(test, variant=variant) for test in found if test["name"] in names]
     return [dict(test, variant=variant) for test in found if (test["suite"][0].partition(":")[2] if test["suite"] else "") in suites]
 
 
 def end_of(status, late):
-    """How a test ended, if not well."""
+    """Describes how a test ended, if it failed."""
     if late:
         return "ended after its time of %d s" % late
     if os.WIFSIGNALED(status):
@@ -119,7 +121,7 @@ def end_of(status, late):
 
 
 def run_test(test):
-    """Runs a test in a group of processes of its own, which ends when its time is over."""
+    """Runs a test in its own process group, which is killed when its time is over."""
     folder = os.path.join(OUT, test["variant"]["name"])
     path = os.path.join(folder, "tests", test["name"] + ".txt")
     limit, late = test["timeout"] * SLOWER, []
@@ -135,7 +137,7 @@ def run_test(test):
         timer = threading.Timer(limit, stop)
         timer.start()
         RUNNING.add(process.pid)
-        _, status, used = os.wait4(process.pid, 0) # with the processes that it waited for
+        _, status, used = os.wait4(process.pid, 0) # including the processes that it waited for
         RUNNING.discard(process.pid)
         timer.cancel()
         process.returncode = status
@@ -146,7 +148,7 @@ def run_test(test):
 
 
 def tell(test, output, counts, processor, printed):
-    """Prints a test's row, and what it says of failures."""
+    """Prints a test's row, and its messages about failures."""
     passed, failed, skipped, failures = counts
     print("  %-15s %-24s %4d passed%s%s  %5.1f s" % (test["variant"]["name"], test["name"], passed, ", %d failed" % failed if failed else "",
                                                     ", %d skipped" % skipped if skipped else "", processor))
@@ -161,7 +163,7 @@ def tell(test, output, counts, processor, printed):
 
 
 def run_tests(tests):
-    """Runs tests, those first whose row in tests/meson.build says so; returns (test, counts, processor time, time) of each, and the lines that were printed."""
+    """Runs tests, first those that tests/meson.build marks as first; returns (test, counts, processor time, time) of each, and the printed lines."""
     done, printed = [], set()
     for folder in {os.path.join(OUT, test["variant"]["name"], "tests") for test in tests}:
         os.makedirs(folder, exist_ok=True)

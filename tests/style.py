@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """style.py: checks that every C file, header and .inc file has the layout of one version of the formatter, and that pages, help, messages and
-comments are without the phrases and long sentences that english.py lists.
+comments are free of the phrases and long sentences listed in english.py.
 
 The version is fixed because clang-format's layout changes from release to release; Debian 12 and 13 both have this one.
 The formatter never changes the text of a comment (.clang-format: ReflowComments).
 
-The files whose layout was right are remembered in build-test/style.json by a hash of the formatter's version, .clang-format and their text:
-only changed ones are formatted again, which takes a tenth of a second each."""
+Files with a correct layout are remembered in build-test/style.json by a hash of the formatter's version, .clang-format and their text. Only changed
+files are formatted again, which takes a tenth of a second each."""
 import hashlib
 import json
 import os
@@ -28,7 +28,7 @@ def sources(folder):
 
 
 def right_before(version):
-    """The hashes of files that were right, and a function that gives a file's hash."""
+    """The hashes of files with a correct layout, and a function that returns a file's hash."""
     rules = hashlib.sha256(version + open(os.path.join(ROOT, ".clang-format"), "rb").read())
 
     def hash_of(path):
@@ -79,7 +79,7 @@ def main():
 
 
 def check_english(groups, number):
-    """A row for each group of files, and one for the patterns themselves. Returns the number of failures."""
+    """Prints a row for each group of files, and one for the patterns themselves. Returns the number of failures."""
     failed = 0
     for name, paths in groups:
         number += 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""test_site.py PROGRAM: `make site`: every link of every page has its target, every figure of docs/lighting its links to the Lab, and what those
-say is drawn by the module of the page. Skipped where a package of the group `web` is missing."""
+"""test_site.py PROGRAM: tests `make site`: every link has a target, every figure of docs/lighting has its links to the Lab, and the module of the
+page draws the pictures of these links. The test is skipped if a package of the group `web` is missing."""
 import html
 import json
 import os
@@ -18,13 +18,13 @@ import build  # noqa: E402
 import make_site  # noqa: E402
 from web import Results  # noqa: E402
 
-# Figures of docs/lighting that are no picture of one model by `lambent`: diagrams (lambent plot, scripts/tone_plot.py), all materials on one
-# sheet, a pixel explained, and what docs/tools draw with a mistake made on purpose.
+# Figures of docs/lighting that are not pictures of one model by `lambent`: diagrams (lambent plot, scripts/tone_plot.py), all materials on
+# one sheet, an explained pixel, and pictures drawn by docs/tools with a deliberate mistake.
 NO_LAB = r"highlight\.png|attenuation\.png|spot\.png|tone\.svg|tone-colors\.svg|materials\.png|explained\.png|mistake-.*"
 
 
 def check_links(results, folder):
-    """Every href and src is there; an anchor too. Returns the words of the links to the Lab, by page."""
+    """Every href and src exists, including anchors. Returns the options in the links to the Lab, by page."""
     texts, words = {}, {}
     for where, _, names in os.walk(folder):
         for name in names:
@@ -63,7 +63,7 @@ def check_figures(results, folder, texts):
 
 
 def check_lab(results, folder, words):
-    """The module draws what each link says, small."""
+    """The module draws a small picture for each link."""
     tasks = [(page, w) for page, all_words in sorted(words.items()) for w in all_words]
     small = [[w[0]] + [word for word in w[1:] if not word.startswith(("--size", "--samples", "--shadow-samples"))] + ["--size=24", "--samples=1", "--shadow-samples=1"] for _, w in tasks]
     with tempfile.TemporaryDirectory() as models:

@@ -1,4 +1,4 @@
-// vec.h: vectors in double, for what a test computes itself.
+// vec.h: vectors in double, for the tests' own calculations.
 #ifndef VEC_H
 #define VEC_H
 

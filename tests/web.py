@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""web.py PROGRAM RECORD_PAINTER: Lambent as WebAssembly, run by node. The image table has the recorded hashes, with and without SIMD; the module of the
-page writes the same files as PROGRAM for the same words, says the same sentences, and explains the same numbers; it is as small as promised. The
-module of checks asks its painter for what RECORD_PAINTER recorded by OpenGL, and gives the same reports for the same pictures.
+"""web.py PROGRAM RECORD_PAINTER: tests Lambent as WebAssembly in node. The image table has the recorded hashes, with and without SIMD. For the same
+arguments, the module of the page writes the same files, error messages and explanations as PROGRAM; its size is within the limits. The module of
+checks sends its painter the requests that RECORD_PAINTER recorded with OpenGL, and gives the same reports for the same pictures.
 
-Builds build-web/ as `make web` does, the first time in a minute or two; then what has changed. Skipped where a package of the group
-`web` (packages.txt) is missing, or Debian's sources of the libraries cannot be fetched."""
+It builds build-web/ like `make web`: the first time in a minute or two, then only the changes. The test is skipped if a package of the group `web`
+(packages.txt) is missing, or if Debian's sources of the libraries cannot be downloaded."""
 import concurrent.futures
 import hashlib
 import json
@@ -22,36 +22,38 @@ import build  # noqa: E402
 import module_parts  # noqa: E402
 import sizes  # noqa: E402
 
-PARTS = 2 # node's, at once
-# The folders of modules, and the threads of each part of the image table; 0: a module without.
+PARTS = 2 # node processes at the same time
+# The folders of modules, and the numbers of threads for each part of the image table; 0 means a
+# module without threads.
 TABLE = {"wasm": ["0", "0"], "threads": ["2", "4"]}
 
-# What a page loads first, and its module, without and with threads, in bytes after brotli (docs/web.md has the table).
+# The files that a page loads first, and its module, without and with threads, in bytes after brotli compression (the
+# table is in docs/web.md).
 FIRST_LOAD_MAX, MODULE_MAX = 300_000, 450_000
 
-# Pictures: words, and the ending of the file. The folder of the models is made by make_models.
+# Pictures: arguments, and the extension of the file. make_models creates the folder of the models.
 PICTURES = [
     (["teapot", "--size", "128"], "png"),
     (["teapot", "--size", "128x96"], "jpg"),
     (["cube.obj", "--size", "96", "--samples", "1"], "png"),
     (["cube.obj", "--size", "96", "--camera", "eye=3/2.5/4.25,target=0/0/0"], "png"),
     (["cube.obj", "--size", "96", "--rotate", "y:30", "--light", "position=1/2/3"], "png"),
-    (["cube.obj", "--size", "96"], "png"),  # after lights and turns: the scene is what it was
+    (["cube.obj", "--size", "96"], "png"),  # after lights and turns: the scene has not changed
     (["cube.obj", "--size", "96", "--wireframe", "--edges", "all"], "png"),
     (["cube.ply", "--size", "96", "--shading", "flat"], "ppm"),
     (["cube.stl", "--size", "96", "--shadows"], "pfm"),
     (["scene.json"], "png"),
     (["textured/quad.obj", "--size", "96"], "png"),
-    (["textured/damaged.obj", "--size", "96"], "png"),  # its JPEG ends early: the setjmp of libjpeg's errors
+    (["textured/damaged.obj", "--size", "96"], "png"),  # its JPEG ends early, which tests the setjmp of libjpeg's errors
     (["torus-knot", "--size", "96", "--material", "brass", "--ao", "screen"], "png"),
     (["sphere", "--size", "96", "--environment", "studio", "--material", "metallic=1,roughness=0.3,color=white"], "png"),
     (["sphere", "--size", "96"], "png"),  # after an environment
     (["sphere", "--size", "96", "--look", "technical"], "png"),
 ]
-# Sentences: those of the program, but for its name before them.
+# Error messages: the same as the program's, except for the program's name.
 REFUSED = [["missing.obj"], ["teapot", "--sice", "4"], ["teapot", "--view", "frint"], ["broken.obj"], ["teapot", "--size", "0"],
            ["teapot", "--camera", "eye=1/2/3", "--view", "top"]]
-# Curves of a light of the picture, and what `lambent plot` is asked for instead: kind, curve, which of its curves, farthest.
+# Curves of a light of the picture, and the equivalent `lambent plot`: kind, curve, index of the curve, farthest.
 LAMP = "spot:position=1/2/3,attenuation=0.5/0.25/0.125,range=6,inner=10,outer=25"
 CURVES = [(["sphere", "--light", LAMP], {"light": 0, "farthest": 8, "shininess": 20, "reflection": "phong"},
            [("attenuation", "attenuation", "0.5/0.25/0.125/6", 0, 8), ("spot", "spot", "inner=10,outer=25", 0, 90), ("highlight", "highlight", "20", 0, 90)]),
@@ -60,7 +62,8 @@ CURVES = [(["sphere", "--light", LAMP], {"light": 0, "farthest": 8, "shininess":
            [("attenuation", "attenuation", "1/0/0", 0, 4), ("spot", "spot", "cutoff=30,exponent=8", 0, 90), ("highlight", "highlight", "50", 1, 90)])]
 EXPLAINED = [["cube.obj", "--size", "96"], ["torus-knot", "--size", "96", "--reflection", "phong"]]
 
-# Checks: a program of tests/check, contract ("": recognised), whether its vertex shader is given, and an edit of the fragment shader.
+# Checks: a program of tests/check, a contract ("" means recognised), whether its vertex shader is given, and an edit of the fragment
+# shader.
 CHECKS = [("angel", "", True, None), ("oregon-no-gate", "", True, None), ("nyu-direction", "nyu", False, None), ("pittsburgh-vertex", "", True, None),
           ("pittsburgh", "pittsburgh", True, ("max(dot(n, h), 0.0)", "max(dot(reflect(-l, n), v), 0.0)")), ("threejs-pbr", "", True, None),
           ("gltf", "", True, None), ("gltf-maps", "", True, None), ("oregon", "", True, ("void main", "void mian")), ("learnopengl", "", True, ("normalize(Normal)", "Normal"))]
@@ -115,7 +118,7 @@ def check_threads(results):
 
 
 def make_models(folder):
-    """Models whose files name others, as a page gets them: of the tests, one with pictures, one whose picture is damaged."""
+    """Models that refer to other files, as a page gets them: from the tests, one with pictures, one with a damaged picture."""
     for name in os.listdir(os.path.join(ROOT, "tests", "models")):
         shutil.copy(os.path.join(ROOT, "tests", "models", name), folder)
     textured = os.path.join(folder, "textured")
@@ -133,7 +136,7 @@ def make_models(folder):
 
 
 def shown(sentence):
-    """An error's sentence without what stands before it, and without the folder of the module's files."""
+    """An error message without its prefix and without the folder of the module's files."""
     return re.sub(r"^lambent: ", "", sentence.strip().splitlines()[0] if sentence.strip() else "")
 
 
@@ -208,7 +211,7 @@ def check_checks(results, recorder):
 
 
 def check_sizes(results):
-    """docs/web.md has the sizes of what was built, to a tenth and 3 kB; and what a page loads first is no more than promised."""
+    """docs/web.md contains the sizes of the built files, to a tenth and 3 kB; the first load of a page is within the limits."""
     page = open(os.path.join(ROOT, "docs", "web.md")).read()
     rows = sizes.table(OUT)
     for title, *found in rows:

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""abi.py BUILD PROGRAM [--record]: programs and libraries of different versions work together (include/lambent/base.h, "Growth").
+"""abi.py BUILD PROGRAM [--record]: tests that programs and libraries of different versions work together (include/lambent/base.h, "Growth").
 
-The layout of all public structs is the recorded one (tests/abi/layout.txt) but for fields in place of reserved words. One program,
-compiled against headers whose newest fields are not there yet, against today's, and against headers with a field more, gets the same
-picture, explanation and report from today's library; a field that the library does not know is refused by every call. And lam_render
-draws what the program draws."""
+The layout of all public structs equals the recorded one (tests/abi/layout.txt), except for fields that replace reserved words. A program compiled
+with headers without the newest fields, with today's headers, and with headers with one more field, gets the same picture, explanation and report from
+today's library; every call rejects a field that the library does not know. In addition, lam_render draws the same picture as the program."""
 import glob
 import os
 import re
@@ -19,7 +18,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 BUILD, PROGRAM = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 HEADERS, RECORDED = os.path.join(ROOT, "include", "lambent"), os.path.join(HERE, "layout.txt")
-# Values, and structs that a standard or a formula fixes: they never change.
+# Values, and structs that a standard or a formula defines; these never change.
 FIXED = {"lam_error", "lam_cancel", "lam_vec3", "lam_rgb", "lam_rgba", "lam_mat4", "lam_attenuation", "lam_bytes", "lam_surface_point"}
 results = []
 
@@ -59,7 +58,7 @@ def check_layout(now):
     check("every struct is recorded", not new, "not in layout.txt (abi.py BUILD PROGRAM --record): " + " ".join(new))
     short = sorted(n for n, (_, fields) in found[0].items() if ("reserved" in fields) == (n in FIXED))
     check("every struct that may grow ends in LAM_RESERVED", not short, " ".join(short))
-    # The comparison notices what it is there for.
+    # Tests that the comparison detects differences.
     for name, change in (("a field moved", {"width": (4, 4)}), ("a field gone", {"width": None})):
         size, fields = recorded[0]["lam_image"]
         moved = {**found[0], "lam_image": (size, {k: v for k, v in {**fields, **change}.items() if v})}
@@ -85,20 +84,20 @@ def older(now):
 
 
 def newer(name, fields):
-    """Every struct that can has one field more."""
+    """Adds one field to every struct that allows it."""
     if fields[-1].name != "reserved":
         return fields
     return fields[:-1] + [layout.Field("newest", "uint64_t newest"),
                           layout.Field("reserved", "LAM_RESERVED(%d)" % (fields[-1].reserved - 1))]
 
 
-# Structs with reserved words in which a caller passes nothing of its own: a table of the library, of the painter's own results, or a result.
+# Structs with reserved words that a caller does not fill: a table of the library, the painter's own results, or a result.
 GIVEN_BY_THE_LIBRARY = {"lam_setting", "lam_field", "lam_check_report"}
 
 
 def inputs():
-    """The structs that may grow and that a caller fills: those behind a pointer to const in a parameter of a function, and those that
-    such a struct points to."""
+    """The structs that may grow and that a caller fills: structs behind a pointer to const in a function's parameter, and structs that such a struct
+    points to."""
     text = "".join(re.sub(r"//[^\n]*", "", open(path).read()) for path in sorted(glob.glob(os.path.join(HEADERS, "*.h"))))
     bodies = {name: body for body, name in re.findall(r"typedef struct lam_\w+ \{(.*?)\n\} (lam_\w+);", text, re.S) if "LAM_RESERVED" in body}
     wanted = {name for call in re.findall(r"LAM_API[^;(]*(\([^;]*;)", text) for name in re.findall(r"const (?:struct )?(lam_\w+) \*", call)} & set(bodies)
@@ -140,7 +139,7 @@ def check_render(folder):
     if not check("render_one compiles", built.returncode == 0, built.stdout):
         return
     models = os.path.join(ROOT, "tests", "models")
-    for name in ("cube.obj", "cube.mtl"):  # what a scene file names lies beside it
+    for name in ("cube.obj", "cube.mtl"):  # the files that a scene file names must be next to it
         shutil.copy(os.path.join(models, name), folder)
     scene = os.path.join(folder, "scene.json")
     open(scene, "w").write('{"lambent": 1, "image": {"size": [300, 200], "samples": 8, "background": "navy"}, "stage": "vertex", '

@@ -15,7 +15,7 @@ def strip_comments(text):
 
 
 def fields_of(body):
-    """One Field for each declarator of a struct's body."""
+    """Returns one Field for each declarator of a struct's body."""
     found = []
     for part in (" ".join(part.split()) for part in body.split(";")):
         if not part:
@@ -54,7 +54,7 @@ def read(folder):
 
 
 def rewrite(source, target, change):
-    """Copies the headers, each struct's fields replaced by change(name, fields)."""
+    """Copies the headers, and replaces each struct's fields by change(name, fields)."""
     os.makedirs(target)
     for name in sorted(os.listdir(source)):
         def replaced(match):
@@ -79,7 +79,7 @@ def layout_program(text):
 
 
 def parse_layout(text):
-    """name → (size, {field: (offset, size)}), and constant → number."""
+    """Returns name → (size, {field: (offset, size)}), and constant → number."""
     sizes, numbers = {}, {}
     for words in (line.split() for line in text.splitlines() if not line.startswith("#")):
         if words[0] == "struct":
@@ -92,7 +92,7 @@ def parse_layout(text):
 
 
 def differences(recorded, now):
-    """What a program that was compiled with the recorded layout would stumble over."""
+    """Lists the differences that would break a program compiled with the recorded layout."""
     found = []
     for name, (size, fields) in recorded[0].items():
         if name not in now[0]:

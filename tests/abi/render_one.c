@@ -1,4 +1,4 @@
-// render_one.c: lam_render with its defaults; the picture is saved.
+// render_one.c: calls lam_render with its defaults and saves the picture.
 #include <lambent/lambent.h>
 #include <stdio.h>
 

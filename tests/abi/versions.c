@@ -1,6 +1,6 @@
-// versions.c: what a program does with the library, by fields that every version of the headers has. It prints a hash of
-// its picture and numbers of its explanation, reports and scene, arrays among them. With NEWER the headers have a field
-// `newest` in every struct, and each call is made once with that field set.
+// versions.c: a program that uses the library through fields that every version of the headers contains. It prints a
+// hash of its picture and numbers of its explanation, reports and scene, including arrays. With NEWER, the headers
+// contain a field `newest` in every struct, and each call is made once with that field set.
 #include <lambent/check.h>
 #include <lambent/lambent.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""run.py [NAME …]: five changes as a newcomer would make them: a reflection model, a material field with a reflection model of its own, a
-setting of the picture, a picture format, a model format. Each is a patch of this folder, and is no part of the product.
+"""run.py [NAME …]: makes five typical changes: a reflection model, a material field with its own reflection model, a picture setting, a picture
+format, a model format. Each change is a patch in this folder, and is not part of the product.
 
-Each patch is applied to a copy of the tree (build-test/change/tree), built, tested, tried with the program, and taken out again. It may
-touch no more files than CHANGES says: who changes the architecture mends the patch, and sees how many files a newcomer has to know.
+Each patch is applied to a copy of the tree (build-test/change/tree), built and tested, tried with the program, and then removed. It may change at
+most the number of files in CHANGES. If you change the architecture, update the patch; it then shows how many files such a change needs.
 Generated pages (`make docs`) are not in the patches."""
 import json
 import os
@@ -16,7 +16,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 OUT = os.path.join(ROOT, "build-test", "change")
 TREE, PICTURES = os.path.join(OUT, "tree"), os.path.join(OUT, "pictures")
-BUILD = os.path.join(TREE, "build") # as in a clone, so that a compiler's cache finds what it compiled there
+BUILD = os.path.join(TREE, "build") # as in a clone, so that a compiler cache finds its results
 LAMBENT = os.path.join(BUILD, "lambent")
 results = []
 
@@ -102,7 +102,7 @@ def model_format():
     yield "errors list it", ".off" in lambent("nothing.xyz3", "-o", "c.png") or ".off" in lambent(__file__, "-o", "c.png")
 
 
-# The patch, the most files that it may touch, the test programs that must pass with it.
+# The patch, the maximum number of files, and the test programs that must pass with it.
 CHANGES = {
     "reflection_model": (3, reflection_model, ["lighting-equations", "lighting-widths", "lighting-words", "glsl"]),
     "material_field": (3, material_field, ["lighting-equations", "lighting-widths", "lighting-words", "materials", "scene-file"]),
@@ -113,7 +113,7 @@ CHANGES = {
 
 
 def copy_tree():
-    """The tree as it is, without what git ignores. Files that have not changed keep their time, so that little is built again."""
+    """The current tree without ignored files. Unchanged files keep their modification time, so that only little is rebuilt."""
     names = run("git", "ls-files", "-co", "--exclude-standard", cwd=ROOT).stdout.split("\n")
     wanted = {name for name in names if name and os.path.isfile(os.path.join(ROOT, name))}
     for folder, folders, files in os.walk(TREE):
@@ -130,7 +130,8 @@ def copy_tree():
 
 
 def patch(name, *how):
-    # Without a repository above it, git takes the paths of a patch from the current folder.
+    # Without a repository in a parent folder, git interprets the paths of a patch relative to the
+    # current folder.
     return run("git", "apply", *how, os.path.join(HERE, name + ".patch"), cwd=TREE, env={**os.environ, "GIT_CEILING_DIRECTORIES": OUT})
 
 

@@ -1,7 +1,7 @@
 """correct.py: correct shaders in unusual valid styles, in every contract and many versions of GLSL. Each must pass.
 
-SHADERS is a list of (name, options of the command line, {"vert": text, "frag": text}). All are our own texts, in the styles of
-lectures, tutorials, games and golfers. `python3 tests/check/correct.py FOLDER` writes them as files."""
+SHADERS is a list of (name, options of the command line, {"vert": text, "frag": text}). All texts are original, in the styles of lectures, tutorials,
+games and code golf. `python3 tests/check/correct.py FOLDER` writes them as files."""
 import pathlib
 import sys
 
@@ -40,7 +40,7 @@ def add(name, vert, frag, options="", dialect=None):
 
 
 def p(name, body, head=P_HEAD, dialect="120", vert=P_VERT, options=""):
-    """Pittsburgh's names, with a fragment shader of its own."""
+    """Pittsburgh's names, with a separate fragment shader."""
     add("pittsburgh " + name, vert, head + "void main() {\n" + body + "}\n", options, dialect)
 
 
@@ -63,7 +63,7 @@ for old, new in smooth:
     o_smooth = [t.replace(old, new) for t in o_smooth]
 add("oregon without flat shading", *o_smooth)
 
-# --- ways to write one thing
+# --- different ways to write one expression
 p("on one line", "vec3 n=normalize(N),l=normalize(L),h=normalize(l+normalize(V));float d=length(L),q=dot(n,l);gl_FragColor=vec4(ambient_product.xyz+"
   "(max(q,0.)*diffuse_product.xyz+(q>0.?pow(max(dot(n,h),0.),shininess):0.)*specular_product.xyz)/(attenuation_constant+d*(attenuation_linear+d*"
   "attenuation_quadratic)),diffuse_product.w);\n")
@@ -164,7 +164,7 @@ add("pittsburgh, diffuse and ambient light alone", P_VERT, "uniform vec4 ambient
     "uniform float attenuation_constant, attenuation_linear, attenuation_quadratic;\nvoid main() { float d = length(L);\n" + P_ATT +
     "gl_FragColor = vec4(ambient_product.rgb + att * max(dot(normalize(N), L / d), 0.0) * diffuse_product.rgb, diffuse_product.a); }\n", dialect="120")
 
-# --- NYU's exercises: a term at a time, one light or a list
+# --- NYU's exercises: one term at a time, one light or a list
 NYU_D = """attribute vec4 position; attribute vec4 normal; uniform mat4 modelViewMatrix, projectionMatrix, normalMatrix;
 varying vec3 varyingNormal, varyingPosition;
 void main() { vec4 p = modelViewMatrix * position; varyingPosition = p.xyz; varyingNormal = normalize((normalMatrix * normal).xyz);
@@ -230,7 +230,7 @@ void main() { vec3 p = vec3(gl_ModelViewMatrix * gl_Vertex), n = normalize(gl_No
   vColor = vec4(uColor * (uKa + uKd * d) + uKs * s * uSpecularColor, 1.); gl_Position = ftransform(); }
 """, "#version 120\nvarying vec4 vColor;\nvoid main() { gl_FragColor = vColor; }\n")
 
-# --- written by a teacher who had not seen the others
+# --- written by a teacher independently of the others
 add("learnopengl with numbers in the sum", """#version 330 core
 layout (location = 0) in vec3 aPos;
 layout (location = 1) in vec3 aNormal;
@@ -324,7 +324,7 @@ void main() {
 }
 """)
 
-# --- metalness and roughness: the forms that are as right as the expected one
+# --- metalness and roughness: forms that are equivalent to the expected one
 B_VERT, B_FRAG = read("learnopengl-pbr", "vert"), read("learnopengl-pbr", "frag")
 G_VERT, G_FRAG = read("gltf", "vert"), read("gltf", "frag")
 H_VERT, H_FRAG = read("threejs-pbr", "vert"), read("threejs-pbr", "frag")

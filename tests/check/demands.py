@@ -1,15 +1,15 @@
-"""demands.py: the forms that a contract may demand, and contracts that demand them all, to test that they are found."""
+"""demands.py: the forms that a contract may demand, and contracts that demand all of them, to test that mistakes in them are found."""
 import json
 import subprocess
 
-# Mistakes only under a contract that demands the other form.
+# Texts that are mistakes only if a contract demands the other form.
 DEMANDED = {"no-gate": "gate", "normal-unit-late": "unit_normals", "ambient-attenuated": "bare_ambient"}
-# The contracts that are built in and do not.
+# The built-in contracts that do not demand them.
 LENIENT = ("learnopengl-pbr", "learnopengl", "threejs")
 
 
 def demanding(program, shader, ids, folder):
-    """The options by which a shader of tests/check that makes the mistakes `ids` is checked by a contract that demands the other forms."""
+    """The options for checking a shader of tests/check with the mistakes `ids`, with a contract that demands the other forms."""
     name = next((n for n in LENIENT if shader.startswith(n)), None)
     if not name or not DEMANDED.keys() & set(ids):
         return ()

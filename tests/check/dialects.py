@@ -1,6 +1,6 @@
 """dialects.py: rewrites the shaders of this folder, which are GLSL 120, in other versions of GLSL.
 
-A dialect is the text of the version line without `#version `; "" is none, and "web" is WebGL 1's: none, and mediump."""
+A dialect is the text of the version line without `#version `; "" means no version line, and "web" means WebGL 1: no version line, and mediump."""
 import re
 
 OLD = ("", "110", "120", "100", "web")
@@ -12,7 +12,8 @@ ALL = ("", "110", "120", "130", "140", "150", "330 core", "400", "450", "330 com
 
 
 def translate(text, ending, dialect, output="frag_color", precision=None):
-    """A shader of GLSL 120 (`ending`: vert or frag) in a dialect. `precision`: of ES; None: mediump in version 100, else highp."""
+    """Converts a GLSL 120 shader (`ending`: vert or frag) to a dialect. `precision` applies to ES; None means mediump in version 100, and otherwise
+    highp."""
     text = re.sub(r"^#version .*\n", "", text)
     first = "#version %s\n" % dialect if dialect not in ("", "web") else ""
     if dialect in ES and ending == "frag":

@@ -1,6 +1,6 @@
-"""lectures.py: programs of tests/check/lectures, which make the mistakes that the courses' own programs print, and what is found in them.
+"""lectures.py: programs of tests/check/lectures, which contain mistakes printed in the courses' own programs, and the expected findings.
 
-(name, contract, title, verdict, mistakes or parts of hints): `docs/check/contracts.md` is made of the same rows (scripts/contracts.py).
+`docs/check/contracts.md` is generated from the same rows (name, contract, title, verdict, mistakes or parts of hints; scripts/contracts.py).
 """
 
 LECTURES = [

@@ -1,5 +1,5 @@
-"""maps.py: shaders that read maps of base colour, metalness, roughness, normals, occlusion and emission: correct ones, and edits that make
-known mistakes. Rows as those of correct.py and mistakes.py, which include them."""
+"""maps.py: shaders that read maps of base colour, metalness, roughness, normals, occlusion and emission: correct shaders, and edits that introduce
+known mistakes. The rows have the same form as in correct.py and mistakes.py, which include them."""
 B, G, T = "learnopengl-pbr-maps", "gltf-maps", "threejs-pbr-maps"
 
 
@@ -37,7 +37,7 @@ SIGNED = OUT + """    vec3 T = normalize(mat3(model) * aTangent.xyz);
 """
 BOTH = OUT + "    TBN = mat3(normalize(mat3(model) * aTangent), normalize(mat3(model) * aBitangent), Normal);\n"
 
-# glTF's program without tangents, as Khronos' sample viewer has it.
+# glTF's program without tangents, as in Khronos' sample viewer.
 G_DERIVED = [
     vert("in vec4 a_tangent;\n", ""), vert("out mat3 v_TBN;", "out vec3 v_Normal;"),
     vert("""    vec3 N = normalize(vec3(u_NormalMatrix * vec4(a_normal, 0.0)));

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""matrix.py PROGRAM [--versions N] [--only TEXT] [--jobs N]: checks correct shaders and every known mistake, in every contract, and prints
-tables: how many correct shaders pass, how many mistakes get their right names, none, or a wrong one, by contract and by version of
-GLSL. Exit code 1 if a correct shader fails or a mistake gets a wrong name.
+"""matrix.py PROGRAM [--versions N] [--only TEXT] [--jobs N]: checks correct shaders and every known mistake, in every contract, and prints tables by
+contract and by version of GLSL: how many correct shaders pass, and how many mistakes get the right name, no name, or a wrong name. The exit code is 1
+if a correct shader fails or a mistake gets a wrong name.
 
 Each mistake is made in N versions of GLSL, in turn (1: some minutes; 20: all, two hours)."""
 import argparse
@@ -17,7 +17,7 @@ import correct
 import demands
 import mutants
 
-BATCH = 200  # shaders of one call: the pictures of mistakes are drawn once in each
+BATCH = 200  # shaders per call; each call draws the pictures of mistakes once
 
 
 def run(program, folder, names, options):
@@ -28,7 +28,7 @@ def run(program, folder, names, options):
 
 
 def check(program, folder, rows, jobs):
-    """rows: (key, options, texts). Returns the reports by key. Batches are of one contract and stage, as a class is."""
+    """`rows` contains (key, options, texts). Returns the reports by key. Each batch has one contract and stage, like the submissions of a class."""
     batches = collections.defaultdict(list)
     for number, (key, group, options, texts) in enumerate(rows):
         for ending, text in texts.items():
@@ -64,12 +64,12 @@ def judge_correct(program, folder, jobs, only):
     return not bad
 
 
-# Several mistakes that together are one with a name of its own.
+# Combinations of mistakes that equal one mistake with its own name.
 SAME = {("clip-space-vectors", "normal-clip-space"): ["clip-space"], ("light-from-object-space", "eye-from-object-space"): ["point-in-object-space"]}
 
 
 def matches(choices, right):
-    """Whether each of the reported names is one of the right ones, in some order. A reported name may stand for others with the same pictures."""
+    """Whether the reported names match the right names in some order. A reported name may represent others with the same pictures."""
     if not choices or not right:
         return not choices and not right
     return any(one in choices[0] and matches(choices[1:], right[:i] + right[i + 1:]) for i, one in enumerate(right)) or any(
@@ -101,7 +101,7 @@ def judge_mistakes(program, folder, jobs, versions, only):
         if verdict != "right":
             failures[verdict, name, contract, stage, " ".join(reported), certain, r.get("error", "")[:200] or " ".join(
                 n["text"] for n in r.get("notes", []) if n["kind"] == "compiler")[:200]].append(dialect)
-    # hidden: the names explain every picture, the other mistakes cannot be seen in them
+    # hidden: the names explain every picture, so the other mistakes are not visible
     columns = ("right", "hidden", "part", "none", "not seen", "wrong", "error")
     for title, counts in by.items():
         table(title, columns, [(name, [c[x] for x in columns]) for name, c in counts.items()])

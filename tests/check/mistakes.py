@@ -42,7 +42,7 @@ P_MINUS = [
 ]
 
 MISTAKES = [
-    # --- Pittsburgh's names, lit per fragment
+    # --- Pittsburgh's names, lighting per fragment
     (P, "normal-not-unit", [frag("normalize(N)", "N")]),
     (P, "normal-unit-late", [vert("normalize(normal_matrix * vNormal.xyz)", "normal_matrix * vNormal.xyz")]),
     (P, "normal-never-unit", [frag("normalize(N)", "N"), vert("normalize(normal_matrix * vNormal.xyz)", "normal_matrix * vNormal.xyz")]),
@@ -111,7 +111,7 @@ MISTAKES = [
     (P, "alpha-summed", [frag("vec4(color.rgb, diffuse_product.a)", "color")]),
     (P, "encoded", [frag("vec4(color.rgb,", "vec4(pow(min(color.rgb, 1.0), vec3(1.0 / 2.2)),")]),
     (P, "upside-down", [vert("gl_Position = projection * point;", "gl_Position = projection * point; gl_Position.y = -gl_Position.y;")]),
-    # --- the same names, lit per vertex
+    # --- the same names, lighting per vertex
     (Q, "normal-never-unit", [vert("normalize(normal_matrix * vNormal.xyz)", "normal_matrix * vNormal.xyz")]),
     (Q, "normal-by-model-view", [vert("normal_matrix * vNormal.xyz", "(model_view * vNormal).xyz")]),
     (Q, "no-gate", [vert("dot(n, l) > 0.0 ? pow(max(dot(n, h), 0.0), shininess) : 0.0", "pow(max(dot(n, h), 0.0), shininess)")]),
@@ -192,7 +192,7 @@ MISTAKES = [
                                    frag("vec3 color = material", "vec3 color = 1.0 * material")]),
     (M, "no-attenuation", [frag("color += attenuation * spot", "color += spot")]),
     (M, "alpha-one", [frag("color, material.diffuse.a", "color, 1.0")]),
-    # --- LearnOpenGL's names, lit in world space
+    # --- LearnOpenGL's names, lighting in world space
     (L, "no-gate", [frag("diffuse > 0.0 ? pow(max(dot(v, r), 0.0), 32.0) : 0.0", "pow(max(dot(v, r), 0.0), 32.0)")]),
     (L, "normal-unit-late", [vert("normalize(mat3(transpose(inverse(model))) * aNormal)", "mat3(transpose(inverse(model))) * aNormal")]),
     (L, "normal-by-model-view", [vert("mat3(transpose(inverse(model)))", "mat3(model)")]),
@@ -232,7 +232,7 @@ MISTAKES = [
     (T, "phong-lobe", [frag("max(dot(n, h), 0.0)", "max(dot(reflect(-l, n), v), 0.0)")]),
     (TR, "normal-object-space", [vert("normalMatrix * normal", "normal")]),
     (TR, "first-light-only", [frag("for (int i = 0; i < 2", "for (int i = 0; i < 1")]),
-    # --- mistakes that students make, each in shaders of four styles or more
+    # --- mistakes that students make, each in shaders of at least four styles
     (P, "point-as-direction", [vert(P_LIGHT, "L = light.xyz;")]),
     (O, "point-as-direction", [vert("uLightZ) - point", "uLightZ)")]),
     (N, "point-as-direction", [frag("normalize(way)", "normalize(lights[i].lightPosition)")]),
@@ -293,7 +293,7 @@ MISTAKES = [
     (P, "channels-mixed", [frag("color.rgb, diffuse_product.a", "color.bgr, diffuse_product.a")]),
     (O, "channels-mixed", [frag("vec4(color, 1.0)", "vec4(color.zyx, 1.0)")]),
     (N, "channels-mixed", [frag("vec4(uColor * diffuse + specular, 1.0)", "vec4((uColor * diffuse + specular).rrr, 1.0)")]),
-    # The product of three lights is nearly black: the same picture.
+    # The product of three lights is nearly black, so the picture is the same.
     (M, "no-light", [frag("vec3 color = material", "vec3 product = vec3(1.0), color = material"),
                      frag("color += attenuation", "product *= attenuation"), frag("pixel = vec4(color,", "pixel = vec4(color + product,")]),
     (TR, "lights-multiplied", [frag("vec3 sum = ambientLightColor;", "vec3 sum = uColor;"), frag("sum += pointLights[i].color", "sum *= (i == 0 ? vec3(1.0) : uColor) * pointLights[i].color"),

@@ -1,6 +1,7 @@
-"""mutants.py: every known mistake, made on purpose in a correct shader of every contract, in every version of GLSL.
+"""mutants.py: inserts every known mistake into a correct shader of every contract, in every version of GLSL.
 
-A shader is a template whose parts ($normal, $attenuation …) a contract fills in, and a mistake replaces. `mutants()` lists them all;
+A shader is a template with parts ($normal, $attenuation …). A contract supplies the parts, and a mistake replaces some of them. `mutants()` lists
+them all;
 `python3 tests/check/mutants.py FOLDER` writes them as files. tests/check/matrix.py checks them and prints a table."""
 import random
 import re
@@ -161,7 +162,7 @@ LIST_EXTRA = "varying vec3 X[$count];"
 P_ONLY, O_ONLY, M_ONLY, A_ONLY = ("pittsburgh",), ("oregon",), ("lambent",), ("angel",)
 NYUS, LEARN, THREES = ("nyu", "nyu-point", "nyu-direction"), ("learnopengl", "learnopengl-basic"), ("threejs", "threejs-raw")
 POSITION = ("oregon", "nyu", "nyu-point", "lambent") + LEARN + THREES  # lights are positions in the space of the lighting
-EYE_LIGHT = POSITION + A_ONLY  # or directions, by their w
+EYE_LIGHT = POSITION + A_ONLY  # or directions, depending on their w
 ATTENUATED = ("pittsburgh", "nyu", "nyu-point", "lambent", "learnopengl")
 MATERIAL = ("pittsburgh", "oregon", "lambent", "learnopengl", "angel") + THREES
 BLINN = ("pittsburgh", "lambent", "angel") + NYUS + THREES
@@ -169,7 +170,7 @@ MIRROR = ("oregon",) + LEARN
 TERMS = ("pittsburgh", "oregon", "lambent", "learnopengl", "angel") + THREES
 EVERY = tuple(CONTRACTS)
 ALL = tuple(c for c in EVERY if c != "mdn")  # with a highlight
-SHINY = tuple(c for c in ALL if c != "learnopengl-basic")  # whose exponent is no number in the text, which may be any
+SHINY = tuple(c for c in ALL if c != "learnopengl-basic")  # whose exponent is not a number in the text; any exponent is allowed
 CLIP_LIGHT, CLIP_POINT, CLIP_EYE = {"light": "$pr * seen"}, {"point": "($pr * eye).xyz"}, {"eye_point": "($pr * eye).xyz"}
 CLIP_NORMAL = {"normal": "normalize(($pr * $mv * vec4($n, 0.0)).xyz)"}
 NO_GATE = {"S": "pow(max(base, 0.0), $shininess)"}
@@ -179,8 +180,8 @@ def exponent(text):
     return {"S": f"nl > 0.0 ? pow(max(base, 0.0), {text}) : 0.0"}
 
 
-# (id, contracts, where: f(ragment), v(ertex) or both, parts). Parts may be a list: forms of one mistake. Ids after a blank are as right:
-# in these shaders they draw the same picture.
+# (id, contracts, where: f(ragment), v(ertex) or both, parts). Parts may be a list: forms of one mistake. Ids after a blank are also
+# right, because they draw the same picture in these shaders.
 MISTAKES = [
     ("normal-not-unit", ALL, "f", {"unit_normal": "N"}),
     ("normal-not-unit", MIRROR, "f", {"unit_normal": "N", "mirror": "vec3 r = normalize(reflect(-l, n));"}),
@@ -307,7 +308,7 @@ MISTAKES = [
                                          {"normal": "normalize(eye.xyz)"}, {"n": "$at.xyz"}]),
     ("normal-transformed-twice", EVERY, "fv", {"normal": "normalize($nm_twice)"}),
     ("normal-transformed-twice", EVERY, "fv", {"normal": "normalize(($mv * vec4($mv_n, 0.0)).xyz)"}),
-    ("normal-flat", tuple(c for c in ALL if c != "threejs"), "f", {"flat": "flat"}),  # not in the old versions
+    ("normal-flat", tuple(c for c in ALL if c != "threejs"), "f", {"flat": "flat"}),  # not in old versions
     # --- terms
     ("attenuation-twice", ATTENUATED, "fv", {"kept_d": "attenuation * attenuation * spot", "kept_s": "attenuation * attenuation * spot"}),
     ("ambient-times-n.l", ("pittsburgh", "oregon", "learnopengl", "angel", "threejs"), "fv",
@@ -338,7 +339,7 @@ def fill(text, parts):
 
 
 def shader(contract, stage, dialect, parts):
-    """The texts of a shader. `stage`: f or v, which computes the lighting."""
+    """The texts of a shader. `stage` is f or v: the stage that computes the lighting."""
     all_parts = {**COMMON, **CONTRACTS[contract]}
     all_parts["nm_twice"] = all_parts["nm_n"].replace("$n", "(%s)" % all_parts["nm_n"])
     both = all_parts["both"]
@@ -360,7 +361,7 @@ def shader(contract, stage, dialect, parts):
 
 
 def stages(contract):
-    """The back of a surface lit per vertex needs OpenGL's own two colours; MDN's lesson lights vertices."""
+    """With lighting per vertex, back faces need OpenGL's own two colours; MDN's lesson computes lighting per vertex."""
     return {"lambent": "f", "mdn": "v"}.get(contract, "fv")
 
 
@@ -369,22 +370,21 @@ def dialects_of(contract):
 
 
 def clashes(a, b):
-    """Whether two mistakes cannot be made in one shader, or hide one another."""
+    """Whether two mistakes cannot occur in one shader, or whether one hides the other."""
     groups = ("normal", "unit_normal", "flat", "n"), ("light", "point", "eye_point", "way", "view", "unit_view", "unit_light", "mirror", "base", "each"), \
         ("attenuation", "distance", "kept_d", "kept_s", "extra"), ("S", "mirror", "base"), ("sum", "kd", "ks", "ambient", "alpha", "out_color"), ("D", "S", "kept_s"), \
         ("first", "last", "add", "light_color", "light_specular", "after"), ("spot", "inside", "cos", "spot_exponent"), ("end", "flip")
     return any(set(group) & set(a) and set(group) & set(b) for group in groups)
 
 
-# These hide others. A few mistakes are missing where nobody can see them: an unclamped n.l that only darkens black, a highlight of exponent
-# 64 between vertices, a light's direction where the shader has only points.
+# These mistakes hide others. A few mistakes are missing where they are invisible: an unclamped n.l that only darkens black, a highlight of
+# exponent 64 between vertices, a light's direction in shaders with only point lights.
 ALONE = {"normal-as-point", "no-diffuse", "no-specular", "encoded", "upside-down", "lit-from-behind", "normal-inward", "cone-reversed", "vertex-colour-clamped"}
 
 
 def mutants(versions=20, several=4):
-    """Yields (name, contract, stage, dialect, lists of ids that are right, texts): each mistake in each contract, and `several` shaders
-    of two and as many of three mistakes in each contract and stage. Each is made in
-    `versions` versions of GLSL, in turn."""
+    """Yields (name, contract, stage, dialect, lists of right ids, texts): each mistake in each contract, and `several` shaders with two mistakes and
+    with three mistakes in each contract and stage. Each is written in `versions` versions of GLSL, in rotation."""
     turn = 0
     for contract in CONTRACTS:
         for stage in stages(contract):
@@ -414,7 +414,7 @@ def mutants(versions=20, several=4):
 
 
 def correct():
-    """The templates without a mistake, likewise."""
+    """Yields the templates without a mistake in the same way."""
     for contract in CONTRACTS:
         for stage in stages(contract):
             for dialect in dialects_of(contract):

@@ -2,8 +2,8 @@
 """public.py FOLDER [--program PROGRAM] [--only TEXT] [--jobs N] [--page FILE]: checks the public shaders that public_labels.py lists, fetched by the
 caller to FOLDER/OWNER/REPOSITORY/PATH, and prints each verdict beside its label, and counts.
 
-Exit code 1 if a right shader differs, a wrong one passes, one that cannot be judged passes, a name without a hedge is not among the true
-ones, or fewer than 70 % get a verdict. A program that says "differs" to everything, or nothing at all, fails."""
+The exit code is 1 if a right shader differs, if a wrong one passes, if one that cannot be judged passes, if a certain name is not a true one, or if
+fewer than 70 % get a verdict. A program that always reports "differs", or reports nothing, therefore fails."""
 import argparse
 import collections
 import concurrent.futures
@@ -33,7 +33,7 @@ def shader_text(folder, repository, path):
 
 
 def check(program, folder, row):
-    """What the program says: (verdict or "none", certain names, hedged names, sentence)."""
+    """Returns the program's result: (verdict or "none", certain names, uncertain names, sentence)."""
     repository, fragment, vertex = row[:3]
     with tempfile.TemporaryDirectory() as scratch:
         files = []
@@ -51,7 +51,7 @@ def check(program, folder, row):
 
 
 def judge(row, verdict, certain):
-    """How a verdict stands to the label."""
+    """Compares a verdict with the label."""
     label, names = row[3], row[4]
     if verdict not in VERDICTS:
         return "silent"

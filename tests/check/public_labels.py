@@ -1,9 +1,9 @@
-"""public_labels.py: what a reader found in lighting shaders of public repositories, before the check was run on them.
+"""public_labels.py: the findings of a person who read lighting shaders in public repositories before the check was run on them.
 
-(repository, fragment shader, vertex shader, label, names, reason). A page or script that holds several shaders is written `page#id`.
-Labels: `right` by its course or tutorial; `wrong`, with the names of mistakes that would be true, as far as the check has one; `unknown`:
-the check cannot drive or judge it (another stage is missing, the model is not a sum of ambient, diffuse and highlight). The shaders'
-texts are not part of this project: tests/check/public.py reads them from a folder that its caller fetched.
+(repository, fragment shader, vertex shader, label, names, reason). If a page or script contains several shaders, the path is `page#id`.
+Labels: `right` (according to its course or tutorial); `wrong`, with the names of the true mistakes, as far as the check has names for them;
+`unknown`: the check cannot run or judge it (another stage is missing, or the model is not a sum of ambient, diffuse and highlight). The shaders'
+texts are not part of this project; tests/check/public.py reads them from a folder that the caller provides.
 """
 
 INFO = "181x121x/InfoVis2018"

@@ -1,14 +1,17 @@
-// record_painter.c OUT: checks shaders by OpenGL as a painter that compiles OpenGL ES alone, as a page's WebGL 2 does, and records what the
-// painter is asked and answers, and the report: tests/web/check.mjs replays it for the module of the page, whose requests, verdict and
-// JSON must be the same. Standard input: fragment shader, vertex shader and contract, each with a 0 at its end, "" for none. Exit code 77: no
-// OpenGL. TEST_SIZE: of the pictures.
+// record_painter.c OUT: checks shaders with OpenGL as a painter that compiles only OpenGL ES, like a page's WebGL 2. It
+// records the requests to the painter, its answers and the report; tests/web/check.mjs replays them for the module of
+// the page, whose requests, verdict and JSON must be the same. Standard input contains the fragment shader, the vertex
+// shader and the contract, each with a 0 at its end, "" for none. The exit code is 77 without OpenGL. TEST_SIZE is the
+// size of the pictures.
 //
-// The file is little-endian, a record for each call: its letter, then numbers of 32 bits and texts with a 0 at their end.
+// The file is little-endian, with a record for each call: its letter, then 32-bit numbers and texts with a 0 at their
+// end.
 //   O renderer                          place opened
 //   C hash(vertex, fragment) built refused-bits vertex-log fragment-log link-log count {name type elements attribute}
 //   D hash(mesh, values, attributes, cull) pixels
 //   J report
-// A drawing that is asked for twice in a row is recorded once: a check draws again where the first took long.
+// A drawing that is requested twice in a row is recorded once, because a check draws again if the first drawing was
+// slow.
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +23,7 @@
 enum { TEST_SIZE = 40, MAX_TEXTS = 1 << 18 };
 
 static FILE *out;
-static uint32_t last_drawing; // the hash; 0: another call came after it
+static uint32_t last_drawing; // the hash; 0 after another call
 static lam_check_painter gl;
 
 static void number(uint32_t n)
@@ -76,7 +79,7 @@ static bool compile(void *place, const char *vertex, const char *fragment, lam_c
 
 static bool draw(void *place, const lam_check_drawing *d, float *pixels, lam_error *error)
 {
-    static const size_t components[] = {0, 1, 1, 1, 2, 3, 4, 9, 16, 4}; // of a lam_check_type
+    static const size_t components[] = {0, 1, 1, 1, 2, 3, 4, 9, 16, 4}; // for each lam_check_type
     if (!gl.draw(place, d, pixels, error))
         return false;
     const lam_check_mesh *m = d->mesh;

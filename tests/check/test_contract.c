@@ -1,4 +1,4 @@
-// test_contract.c: contract files: those that are built in, every error with its place, and memory that runs out.
+// test_contract.c: contract files: built-in contracts, every error with its position, and failed allocations.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -74,7 +74,7 @@ static void test_read(void **state)
     lam_check_contract_free(mine);
 }
 
-// An engine's prefix completes texts that declare none of its names, and lines are those of the texts.
+// An engine's prefix completes texts that declare none of its names, and line numbers refer to the texts.
 static void test_prefix(void **state)
 {
     (void)state;
@@ -195,7 +195,7 @@ static void test_errors(void **state)
         "my.json:1: built_ins: found \"gl_Vertex\", expected a list of texts");
 }
 
-// Every cut of a file is refused, and every failed allocation reported, without a leak.
+// Every truncated file is refused, and every failed allocation is reported without a leak.
 static void test_damage(void **state)
 {
     (void)state;

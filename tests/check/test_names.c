@@ -1,4 +1,4 @@
-// test_names.c: which name is suggested for another, and which names a statement of a shader can use.
+// test_names.c: tests which name is suggested for another, and which names a statement of a shader can use.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +10,7 @@
 #include "name_similarity.h"
 #include "visible_names.h"
 
-// Candidates separated by blanks. `expected` "": none.
+// The candidates are separated by blanks. `expected` is "" for none.
 static void nearest(const char *name, const char *candidates, const char *expected)
 {
     char text[200];

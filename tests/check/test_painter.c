@@ -1,5 +1,6 @@
-// test_painter.c: checks drawn by painters of the caller's: one that compiles OpenGL ES alone, as a page's WebGL 2 does, one
-// that has bytes in place of floats, one that is of a newer header, one whose place does not wake. TEST_SHADERS: this folder.
+// test_painter.c: tests checks drawn by the caller's painters: one that compiles only OpenGL ES, like a page's WebGL 2,
+// one with bytes instead of floats, one from a newer header, and one whose place cannot be woken. TEST_SHADERS is this
+// folder.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,7 +32,7 @@ static char *read_text(const char *name, const char *ending)
     return text;
 }
 
-// OpenGL as a painter of the caller's, without the gl_ of desktop OpenGL.
+// OpenGL as a painter of the caller, without the gl_ of desktop OpenGL.
 static lam_check_painter es_painter(void)
 {
     lam_check_painter painter = gl_painter(NULL);
@@ -62,7 +63,7 @@ static lam_check_report run(const lam_check_painter *painter, const char *vertex
     return report;
 }
 
-// Every contract's program, most of them in desktop GLSL: GLSL 1.20 to 3.30, with OpenGL's built-in inputs in one.
+// Every contract's program, most of them in desktop GLSL 1.20 to 3.30, one with OpenGL's built-in inputs.
 static const char *const programs[] = {"angel",
                                        "angel-vertex",
                                        "gltf",
@@ -116,7 +117,8 @@ static void a_mistake_has_its_name_as_es(void **state)
     free(fragment);
 }
 
-// ES 3.00 has no blocks of varyings: what the languages do not share is refused, with the compiler's words.
+// ES 3.00 does not support blocks of varyings: features that the languages do not share are refused with the compiler's
+// message.
 static void blocks_of_varyings_are_refused_as_es(void **state)
 {
     (void)state;
@@ -137,7 +139,7 @@ static void blocks_of_varyings_are_refused_as_es(void **state)
 
 // --- a painter with bytes
 
-static int open_size; // of the place opened last: a check draws in no other
+static int open_size; // the size of the place opened last; a check draws in no other
 
 static void *open_bytes(void *user, lam_check_language language, int size, char renderer[128], lam_error *error)
 {
@@ -218,10 +220,10 @@ static void a_painter_that_does_not_open_says_why(void **state)
     free(fragment);
 }
 
-// --- places at rest
+// --- idle places
 
 static int opened, closed, compiled, forgotten;
-static bool sleeps; // a place that does not wake
+static bool sleeps; // a place that cannot be woken
 
 static void *open_counted(void *user, lam_check_language language, int size, char renderer[128], lam_error *error)
 {
@@ -258,7 +260,7 @@ static void forget_counted(void *place, lam_check_program *program)
     gl_painter(NULL).forget(place, program);
 }
 
-// All that was made is freed, by a check that cannot wake a place and by a cache.
+// A check that cannot wake a place, and a cache, free everything that they made.
 static void a_place_that_does_not_wake_is_freed(void **state)
 {
     (void)state;
@@ -273,7 +275,7 @@ static void a_place_that_does_not_wake_is_freed(void **state)
     lam_check_params params = {.vertex = vertex, .fragment = fragment, .painter = &painter};
     lam_check_report report;
     lam_error error = {0};
-    params.cache = lam_check_cache_make(0, &error); // keeps places, and no pictures
+    params.cache = lam_check_cache_make(0, &error); // keeps places, but no pictures
     assert_non_null(params.cache);
     opened = closed = compiled = forgotten = 0;
     sleeps = false;
@@ -339,7 +341,7 @@ static void a_place_at_rest_is_closed_beside_another(void **state)
 
 // --- texts
 
-// Drivers may compute what is not highp with 16 bits. A sampler of OpenGL ES is lowp where nothing is said.
+// Drivers may compute with 16 bits unless the precision is highp. A sampler of OpenGL ES is lowp by default.
 static void everything_has_full_precision(void **state)
 {
     (void)state;
@@ -350,7 +352,7 @@ static void everything_has_full_precision(void **state)
          "highp vec2 a;\nuniform sampler2D b; precision highp float; precision highp sampler2D;"},
         {"precision highp int; precision highp float;\nuniform sampler2D a;\n",
          "precision highp int; precision highp float; precision highp sampler2D;\nuniform sampler2D a;\n"},
-        {"uniform mediump sampler2D a;\n", "uniform highp sampler2D a;\n"}, // no statement to stand behind
+        {"uniform mediump sampler2D a;\n", "uniform highp sampler2D a;\n"}, // no statement to follow
         {"precision lowp float;\n", "precision highp float;\n"},
         {"precision lowp float", "precision highp float"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

@@ -1,4 +1,4 @@
-// test_preprocess.c: the words that the preprocessor leaves of a shader, and its declarations.
+// test_preprocess.c: tests the words that the preprocessor returns for a shader, and its declarations.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -37,7 +37,7 @@ static void test_words(void **state)
 static void test_macros(void **state)
 {
     (void)state;
-    leaves("#define N 3\nx[N] N", "x [ 3 ] N"); // a number's name says more, but for the size of an array
+    leaves("#define N 3\nx[N] N", "x [ 3 ] N"); // a number's name is more informative, except for the size of an array
     leaves("#define F(a, b) a + b\nF(1, (2, 3)) F", "1 + ( 2 , 3 ) F");
     leaves("#define F (a)\nF(1)", "( a ) ( 1 )");
     leaves("#define A B\n#define B A c\nA B", "A c B c");
@@ -77,7 +77,7 @@ static void test_lines(void **state)
     declarations_free(&d);
 }
 
-// A text of 1 kB whose macros expand to 10^30 words, or for ever to none: both end.
+// A text of 1 kB whose macros expand to 10^30 words, or endlessly to nothing: both end.
 static void test_bombs(void **state)
 {
     (void)state;

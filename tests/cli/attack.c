@@ -1,11 +1,12 @@
-// attack.c: system calls that injected code could try, in a library that test_attack.py preloads into the program. Right
-// after the program has entered its sandbox it makes system calls, from the main thread and from one that it starts, and later
-// from a thread that the program starts. It writes a line for each: "MODE THREAD NAME ERROR", with the number of the error, 0 if
-// the call worked.
+// attack.c: a library with system calls that injected code could try; test_attack.py preloads it into the program.
+// Right after the program has entered its sandbox, it makes system calls from the main thread and from a thread that it
+// starts, and later from a thread that the program starts. It writes a line for each: "MODE THREAD NAME ERROR", with
+// the error number, or 0 if the call succeeded.
 //
-// Its orders are in the environment: ATTACK_LOG, a file; ATTACK_FOLDER, a folder with the file "victim"; ATTACK_PROCESS, the number of another
-// process; ATTACK_WRITE, paths separated by ':' that the writer is asked to write; ATTACK_NOW: the names of calls, each between spaces, that are made
-// at once, without a sandbox. No call harms the machine where it works.
+// The environment contains its parameters: ATTACK_LOG, a file; ATTACK_FOLDER, a folder with the file "victim";
+// ATTACK_PROCESS, the number of another process; ATTACK_WRITE, paths separated by ':' that the writer is asked to
+// write; ATTACK_NOW, the names of calls, each between spaces, that are made immediately, without a sandbox. No call
+// harms the machine if it succeeds.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -84,7 +85,7 @@ static long try(const char *mode, const char *thread, const char *name, const lo
     return result;
 }
 
-// A call that gives a file: it is closed.
+// A call that returns a file, which is then closed.
 #define TRY_OPEN(name, ...)                                                                                            \
     do {                                                                                                               \
         long file = TRY(name, __VA_ARGS__);                                                                            \
@@ -240,7 +241,7 @@ static void direct_signals(const char *mode, const char *thread)
     TRY("F_GETOWN", SYS_fcntl, server, F_GETOWN);
     TRY("F_SETSIG", SYS_fcntl, server, F_SETSIG, SIGKILL);
     TRY("O_ASYNC", SYS_fcntl, server, F_SETFL, O_ASYNC | O_NONBLOCK);
-    TRY("F_SETFL", SYS_fcntl, log_file, F_SETFL, 0); // a journal that is no longer appended to
+    TRY("F_SETFL", SYS_fcntl, log_file, F_SETFL, 0); // a journal that cannot be appended to any more
     TRY("FIOASYNC", SYS_ioctl, server, FIOASYNC, P(&on));
     TRY("FIOSETOWN", SYS_ioctl, server, 0x8901, P(&number));
     TRY("SIOCSPGRP", SYS_ioctl, server, 0x8902, P(&number));
@@ -294,7 +295,7 @@ static void make_more(const char *mode, const char *thread)
         call(SYS_exit_group, 0, 0, 0, 0, 0, 0);
 }
 
-// Asks the writer, on each socket that there is, for files that are not this run's. The answers are lam_errors.
+// Asks the writer, on each existing socket, for files that do not belong to this run. The answers are lam_errors.
 static void ask_writer(const char *mode, const char *thread)
 {
     const char *paths = getenv("ATTACK_WRITE");
@@ -336,7 +337,7 @@ static void attack(const char *mode, const char *thread)
     change_processes(mode, thread);
     direct_signals(mode, thread);
     make_more(mode, thread);
-    if (strcmp(thread, "worker") != 0) // another of the program's threads may be asking for its picture
+    if (strcmp(thread, "worker") != 0) // another thread of the program may be asking for its picture
         ask_writer(mode, thread);
     change_files(mode, thread);
 }
@@ -349,7 +350,7 @@ static void *in_thread(void *user)
     return user;
 }
 
-static int ready; // the sandbox holds; the next thread of the program acts too
+static int ready; // the sandbox is active; the next thread of the program also attacks
 
 static void act(const char *mode)
 {
@@ -384,7 +385,8 @@ __attribute__((constructor)) static void prepare(void)
         act("free");
 }
 
-// The filter is the last part of a sandbox. That of a process which serves others has a successor in those.
+// The filter is the last part of a sandbox. A process that serves others has a filter that is followed by the filters
+// of those.
 long syscall(long number, ...)
 {
     long a[6];

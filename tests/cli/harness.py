@@ -1,4 +1,5 @@
-# harness.py: shared by the tests of the program: runs it, reads its pictures, checks its reports.
+# harness.py: functions shared by the tests of the program: run the program, read its pictures and
+# check its reports.
 import itertools
 import json
 import os
@@ -19,7 +20,7 @@ HAS_SANDBOX = b"sandbox off" not in subprocess.run([PROGRAM, "--version"], stdou
 
 
 def long(test):
-    """Marks a test of `make test-long`: tests/cli/run.py leaves it out elsewhere."""
+    """Marks a test of `make test-long`; otherwise, tests/cli/run.py skips it."""
     test.long = True
     return test
 
@@ -36,7 +37,7 @@ def wait_until_caught(process, number):
 
 
 def writers_and_others(pid):
-    """The child processes of a process: those that write files for one in the sandbox, and the others, once each of them can be told."""
+    """The child processes of a process: the writer processes of the sandbox, and the others, as soon as they can be distinguished."""
     children = pathlib.Path(f"/proc/{pid}/task/{pid}/children")
     for _ in range(1000):
         try:
@@ -45,7 +46,7 @@ def writers_and_others(pid):
             return [], []
         writers = [child for child, name in names if name == "lambent-writer"]
         others = [child for child, name in names if name != "lambent-writer"]
-        # A writer has its name a moment after it is made, and each process that draws to a file has a writer.
+        # A writer gets its name shortly after it starts, and each process that draws to a file has a writer.
         if not HAS_SANDBOX or len(others) <= len(writers):
             break
         time.sleep(0.001)
@@ -64,7 +65,7 @@ class Case(unittest.TestCase):
 
     def run_program(self, *words, stdin=b"", env=None, stdout=subprocess.PIPE, timeout=60, user=None):
         environment = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "TERM")}
-        environment["XDG_CONFIG_HOME"] = str(self.folder / "no-settings")  # not the settings of the user who runs the tests
+        environment["XDG_CONFIG_HOME"] = str(self.folder / "no-settings")  # ignore the settings of the user who runs the tests
         environment.update(env or {})
         given = {"stdin": stdin} if hasattr(stdin, "fileno") else {"input": stdin}
         return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, stdout=stdout, stderr=subprocess.PIPE,
@@ -77,7 +78,8 @@ class Case(unittest.TestCase):
         return done
 
     def bad(self, code, *words, says=(), leaves=(), **more):
-        """Runs the program, which must fail with the code and a sentence that contains all of `says`, and leave no new file but `leaves`."""
+        """Runs the program, which must fail with this exit code and an error message that contains all texts in `says`, and must leave no new files
+        except `leaves`."""
         done = self.run_program(*words, **more)
         text = done.stderr.decode(errors="replace")
         self.assertEqual(done.returncode, code, f"lambent {' '.join(map(str, words))}: {text}")
@@ -88,7 +90,7 @@ class Case(unittest.TestCase):
         return done
 
     def plain_user(self):
-        """The user for tests of permissions: root may do everything, so it switches to nobody."""
+        """The user for tests of permissions: root may do everything, so the test switches to nobody."""
         if os.geteuid() != 0:
             return None
         os.chmod(self.folder, 0o755)
@@ -118,7 +120,7 @@ def pixel(picture, x, y):
 
 
 def covered(picture):
-    """The bounding box of pixels that are not clear: (left, top, right, bottom), right and bottom excluded."""
+    """The bounding box of the pixels that are not transparent: (left, top, right, bottom), right and bottom excluded."""
     width, height, data = picture
     inside = [i for i in range(width * height) if data[i * 4 + 3]]
     columns = [i % width for i in inside]
@@ -126,7 +128,7 @@ def covered(picture):
 
 
 def png_chunks(data):
-    """The chunks of a PNG, (kind, body), checked."""
+    """The checked chunks of a PNG, as (kind, body)."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n", data[:20]
     at = 8
     while at < len(data):
@@ -138,7 +140,7 @@ def png_chunks(data):
 
 
 def read_png(data):
-    """Decodes an 8-bit PNG without a palette or interlacing to RGBA, checking every chunk."""
+    """Decodes an 8-bit PNG without a palette or interlacing to RGBA, and checks every chunk."""
     packed, texts = b"", {}
     for kind, body in png_chunks(data):
         if kind == b"IHDR":
@@ -164,7 +166,7 @@ def decode_png(width, height, color, packed):
         unfilter(raw[start], row, before, step)
         before = row
         pixels = bytearray(b"\xff") * (width * 4)
-        for channel in range(4 if step % 2 == 0 else 3):  # gray is three channels; the last is alpha
+        for channel in range(4 if step % 2 == 0 else 3):  # grey gives three channels; the last channel is alpha
             pixels[channel::4] = row[step - 1 if channel == 3 else min(channel, (step - 1) // 2 * 2)::step]
         rows += pixels
     return bytes(rows)
@@ -211,7 +213,7 @@ def check_report(case, report):
 
 
 def check_value(case, value, schema, place, root=SCHEMA):
-    """The part of JSON Schema that the schemas of docs/ use (`root`: the whole one); a word it does not know fails."""
+    """Implements the part of JSON Schema that the schemas of docs/ use (`root` is the complete schema); an unknown keyword is an error."""
     known = {"type", "enum", "required", "dependentRequired", "additionalProperties", "properties", "items", "minItems", "maxItems", "minimum",
              "$ref", "$defs", "$schema", "title", "description"}
     case.assertLessEqual(set(schema), known, place)

@@ -1,5 +1,5 @@
 # reference.py: computes pixels of a scene file independently: rays through the pixels' centres and the sums of docs/lighting.md,
-# in Python's double precision, without the renderer's code. For test_known.py: raw colours, one sample, meshes as lists.
+# in Python's double precision, without the renderer's code. It serves test_known.py: raw colours, one sample, meshes as lists.
 import math
 
 UNLIT = (0.0, 0.0, 0.0)
@@ -17,7 +17,7 @@ def product(a, b): return [[dot(row, column) for column in zip(*b)] for row in a
 
 
 def step(words):
-    """A transform's step as a 3x3 matrix and a translation."""
+    """A transform step as a 3x3 matrix and a translation."""
     one = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
     if words[0] == "translate":
         return one, tuple(words[1:])
@@ -32,7 +32,7 @@ def step(words):
 
 
 def placement(steps):
-    """The last listed step acts first."""
+    """The last step in the list is applied first."""
     if steps and not isinstance(steps[0], list):
         return [steps[0:3], steps[4:7], steps[8:11]], (steps[3], steps[7], steps[11])
     matrix, move = step(["scale", 1])
@@ -111,7 +111,7 @@ class Reference:
         return tuple(v)
 
     def arriving(self, light, p):
-        """The direction to the light, and the share of it that arrives."""
+        """The direction to the light, and the fraction of the light that arrives."""
         kind = light["type"]
         place = light.get("position", [0, 0, 0])
         if kind == "directional" or (len(place) == 4 and place[3] == 0):
@@ -207,7 +207,7 @@ class Reference:
         return (add(self.eye, out), scale(self.z, -1)) if self.ortho else (self.eye, sub(out, self.z))
 
     def hits(self, origin, way):
-        """Nearest first; None near an edge, where the snapping of corners may decide."""
+        """Nearest first; None near an edge, where the result depends on the snapping of corners."""
         found = []
         for triangle in self.triangles:
             a, b, c = (corner["p"] for corner in triangle["corners"])

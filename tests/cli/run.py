@@ -1,9 +1,8 @@
-#!/usr/bin/env python3
-# run.py: runs tests of the program.  run.py PROGRAM [unittest's arguments; without them all but `check` and `known`]
-# run.py --modules prints the names of those test files: tests/meson.build makes a test of each, which run beside one another.
-# run.py --modules-without-classroom prints those that hold for a program that was built with -Dclassroom=false.
-# run.py --long prints those that have tests marked with harness.long. These run where LAMBENT_LONG is set: to "only" they alone,
-# to "all" with the others. A test that is named runs in any case.
+# !/usr/bin/env python3 run.py: runs tests of the program. run.py PROGRAM [unittest's arguments; without them, all tests except
+# `check` and `known`] run.py --modules prints the names of those test files; tests/meson.build makes a test of each, and the
+# tests run in parallel. run.py --modules-without-classroom prints the test files that apply to a program built with
+# -Dclassroom=false. run.py --long prints the test files that contain tests marked with harness.long. These run if LAMBENT_LONG
+# is set: only these tests with "only", or all tests with "all". A test given by name always runs.
 import os
 import pathlib
 import sys
@@ -29,7 +28,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 
 class Loader(unittest.TestLoader):
-    """Leaves out the tests of `make test-long`, or all others."""
+    """Skips the tests of `make test-long`, or all other tests."""
 
     def getTestCaseNames(self, case):
         names, wanted = super().getTestCaseNames(case), os.environ.get("LAMBENT_LONG", "")
@@ -37,7 +36,7 @@ class Loader(unittest.TestLoader):
 
 
 class TapResult(unittest.TextTestResult):
-    """Prints a line of the Test Anything Protocol for each test, so that the suite can count them."""
+    """Prints a line in the Test Anything Protocol for each test, so that the suite can count them."""
 
     lines = 0
 

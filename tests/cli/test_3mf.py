@@ -1,4 +1,4 @@
-# test_3mf.py: 3MF files as people have them, with faults, and hostile ones.
+# test_3mf.py: typical, faulty and hostile 3MF files.
 import io
 import json
 import os
@@ -95,11 +95,11 @@ class Read(ThreeMF):
                      f'<object id="9" name="unused">{box(100, 100, 100)}</object>')
         row = self.info(self.save("a.3mf", model(resources, '<item objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 7"/><item objectid="5"/>')))
         self.assertEqual((row["counts"]["objects"], row["counts"]["meshes"], row["counts"]["triangles"]), (3, 1, 36))
-        # (x, y) becomes (10 − y, x), then all is doubled.
+        # (x, y) becomes (10 − y, x), and the result is doubled.
         self.assertEqual((row["bounds"]["min"], row["bounds"]["max"]), ([0, 0, 0], [20, 2, 9]))
 
     def test_parts(self):
-        """The production extension: parts with units of their own, as slicers write them."""
+        """The production extension: parts with their own units, as slicers write them."""
         root = model('<object id="1"><components><component objectid="3" p:path="/3D/Objects/a_1.model"/></components></object>'
                      f'<object id="2">{box()}</object>', '<item objectid="1" p:UUID="x"/><item objectid="2" transform="1 0 0 0 1 0 0 0 1 50 0 0"/>',
                      'requiredextensions="p" unit="millimeter"', f'{CORE} {PRODUCTION} xmlns:BambuStudio="http://schemas.bambulab.com/package/2021"')
@@ -114,7 +114,7 @@ class Read(ThreeMF):
         self.good("info", "--lenient", self.save("d.3mf", root.replace('requiredextensions="p"', 'requiredextensions="BambuStudio"'), **{"3D__Objects__a_1_dot_model": part}))
 
     def test_base_materials(self):
-        """Named materials with colours; the triangles of a material are a part; what has none keeps the default."""
+        """Named materials with colours: the triangles of a material are a part; triangles without a material keep the default."""
         materials = '<basematerials id="2"><base name="red PLA" displaycolor="#FF0000"/><base name="clear" displaycolor="#0000FF80"/></basematerials>'
         name = self.save("a.3mf", model(materials + f'<object id="1" pid="2" pindex="0">{box(1, 1, 1, lambda face: " p1=%s1%s" % (chr(34), chr(34)) if face == 3 else "")}</object>'))
         row = self.info(name)
@@ -145,7 +145,7 @@ class Read(ThreeMF):
         self.assertEqual(self.pixel(name, "top"), self.pixel(default, "top"))
 
     def test_texture(self):
-        """A texture's lower left corner is (0, 0); a picture that is missing is a warning."""
+        """A texture's lower left corner is (0, 0); a missing picture causes a warning."""
         picture = write_png(2, 2, bytes([255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255]))
         groups = ('<m:texture2d id="2" path="/3D/t.png" contenttype="image/png" filter="nearest"/><m:texture2dgroup id="3" texid="2">'
                   '<m:tex2coord u="0" v="0"/><m:tex2coord u="1" v="0"/><m:tex2coord u="1" v="1"/><m:tex2coord u="0" v="1"/></m:texture2dgroup>')
@@ -159,7 +159,7 @@ class Read(ThreeMF):
         self.assertIn(b"its part 3D/t.png cannot be read: the archive has no part of this name; drawn without it", done.stderr)
 
     def test_layers(self):
-        """Textures over a base colour are mixed with it: an opaque base stays opaque."""
+        """Textures over a base colour are mixed with it; an opaque base stays opaque."""
         clear = write_png(2, 2, bytes([255, 0, 0, 255, 0, 255, 0, 0, 0, 0, 255, 0, 255, 255, 255, 255]))
         groups = ('<basematerials id="5"><base name="a" displaycolor="#00FFFF"/><base name="b" displaycolor="#FF00FF"/></basematerials>'
                   '<m:texture2d id="2" path="/3D/t.png" contenttype="image/png" filter="nearest"/><m:texture2dgroup id="3" texid="2">'
@@ -178,11 +178,11 @@ class Read(ThreeMF):
         self.assertEqual(self.info(name)["warnings"], [])
         name = save("b.3mf", ' blendmethods="multiply"')
         self.assertEqual(self.pixel(name, "front", (0.3, 0.3)), (0, 0, 0))
-        name = save("c.3mf", last=1)  # colours that differ under a texture
+        name = save("c.3mf", last=1)  # different colours under a texture
         self.assertIn("without mixing their layers", " ".join(self.info(name)["warnings"]))
 
     def test_display_properties(self):
-        """Metals and dielectrics, named by the group or by the element; those that are defined later too."""
+        """Metals and dielectrics, assigned to the group or to the element, also if they are defined later."""
         groups = ('<basematerials id="2" displaypropertiesid="7"><base name="a" displaycolor="#FFAA00"/><base name="b" displaycolor="#FFAA00"/></basematerials>'
                   '<basematerials id="3"><base name="c" displaycolor="#FFAA00" displaypropertiesid="8"/></basematerials>'
                   '<m:pbmetallicdisplayproperties id="7"><m:pbmetallic name="x" metallicness="1" roughness="0.25"/><m:pbmetallic name="y"/>'
@@ -195,7 +195,7 @@ class Read(ThreeMF):
         self.assertEqual((found["c"]["metallic"], found["c"]["roughness"]), (0, 0.5))
 
     def test_undeclared_prefix(self):
-        """As in samples of the consortium: refused, and read with --lenient as a name of the element around."""
+        """As in the consortium's samples: Lambent refuses the name, and with --lenient reads it as a name of the surrounding element."""
         root = model('<basematerials id="2"><base name="a" displaycolor="#C0C0C0" displaypropertiesid="9"/></basematerials>'
                      f'<object id="1" pid="2" pindex="0">{box()}</object><m:pbmetallicdisplayproperties id="9"><ms:pbmetallic name="x" metallicness="1" '
                      'roughness="0.25"/></m:pbmetallicdisplayproperties>', spaces=f"{CORE} {MATERIALS}")
@@ -215,14 +215,14 @@ class Read(ThreeMF):
         self.assertIn("not drawn: slices; objects with slices (1)", " ".join(self.info(self.save("c.3mf", root))["warnings"]))
 
     def test_not_an_archive(self):
-        """What is wrong with a file that is called .3mf, whatever it is."""
+        """Errors of files with any content whose name ends in .3mf."""
         whole = package({"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": model(f'<object id="1">{box()}</object>')})
         for data, says in ((whole[:40], "the file is truncated: found 40 bytes of a ZIP archive"), (whole[:-30], "the file is truncated"),
                            (b"hello there", "not a ZIP archive, as a 3MF file is: found 11 bytes"), (package({"a": "b"}), "_rels/.rels cannot be read")):
             self.bad(2, "info", self.save_bytes("a.3mf", data), says=says)
 
     def test_names_of_parts(self):
-        """The root part is the one that the relationships name; the file may have any name, and none."""
+        """The relationships determine the root part; the file may have any name, or none."""
         data = package({"_rels/.rels": relations("/Elsewhere/Thing.MODEL.model"), "Elsewhere/Thing.MODEL.model": model(f'<object id="1">{box()}</object>')})
         self.save_bytes("noise", data)
         self.assertEqual(self.info("noise")["format"], "3mf")
@@ -232,7 +232,7 @@ class Read(ThreeMF):
         self.bad(2, "info", self.save_bytes("zip.3mf", package({"letter.txt": "hello"})), says="its part _rels/.rels cannot be read: the archive has no part of this name")
 
     def test_sandbox(self):
-        """The libraries are opened and the file is read inside of the sandbox; from inside of a batch too."""
+        """Lambent opens the libraries and reads the file inside the sandbox, also in a batch."""
         name = self.save("a.3mf", model(f'<object id="1">{box()}</object>'))
         if self.run_program("cube.obj", "-s", 8, "--sandbox", "require", "-o", "-").returncode == 3:
             self.skipTest("no complete sandbox here")
@@ -243,7 +243,7 @@ class Read(ThreeMF):
 
     @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
     def test_library_missing(self):
-        """Without libzip or expat a sentence names their package; other formats are read as before."""
+        """Without libzip or expat, an error message names the package; other formats still work."""
         name = self.save("a.3mf", model(f'<object id="1">{box()}</object>'))
         for library, files, debian in (("libzip.so.4", "libzip.so.[45]", "libzip4, in Debian 13 libzip5"), ("libexpat.so.1", "libexpat.so.1", "libexpat1")):
             found = [path for folder in ("/usr/lib", "/lib") for path in pathlib.Path(folder).glob(f"*/{files}")]
@@ -259,7 +259,7 @@ class Read(ThreeMF):
 
 class Faults(ThreeMF):
     def test_faults(self):
-        """One sentence with the part, the line and what was found."""
+        """The error message names the part, the line and the error."""
         good = f'<object id="1">{box()}</object>'
         for change, words in (
                 (lambda m: m.replace('x="1"', 'x="nan"', 1), 'found x="nan", expected a finite number'),
@@ -281,14 +281,14 @@ class Faults(ThreeMF):
                 (lambda m: "", "not well-formed XML: no element found")):
             done = self.bad(2, "info", self.save("bad.3mf", change(model(good))), says=words)
             self.assertRegex(done.stderr.decode(), r"^lambent: bad.3mf: [^\n]+\n$", words)
-        # A circle, and a transform without a volume.
+        # A cycle, and a transform without a volume.
         circle = '<object id="1"><components><component objectid="2"/></components></object><object id="2"><components><component objectid="1"/></components></object>'
         self.bad(2, "info", self.save("bad.3mf", model(circle)), says="found objectid=\"1\", an object that contains this one")
         flat = self.save("flat.3mf", model(good, '<item objectid="1"/><item objectid="1" transform="1 0 0 0 1 0 0 0 0 0 0 0"/>'))
         self.assertIn("whose transform has no volume (1)", " ".join(self.info(flat)["warnings"]))
 
     def test_cut_files(self):
-        """A file that is cut off anywhere, or has a wrong byte, is refused with one sentence or read."""
+        """A truncated file, or a file with a wrong byte, is read or refused with an error message."""
         whole = package({"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": model(f'<object id="1">{box()}</object>')})
         for size in range(0, len(whole), 97):
             done = self.run_program("info", self.save_bytes("cut.3mf", whole[:size]))
@@ -302,7 +302,7 @@ class Faults(ThreeMF):
 
 
 class Hostile(ThreeMF):
-    """Small files that would unfold to anything: below 10 s of processor time and 1 GB, with one sentence."""
+    """Small files that would expand enormously: less than 10 s of processor time and 1 GB, with an error message."""
 
     def refused(self, name, code, says, *words):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -314,14 +314,14 @@ class Hostile(ThreeMF):
         self.assertLess((self.folder / name).stat().st_size, 100_000)
 
     def test_entities(self):
-        """Billion laughs, and a document type of any other kind."""
+        """Billion laughs, and any other document type."""
         entities = "".join(f'<!ENTITY l{i} "{f"&l{i - 1};" * 10 if i else "ha"}">' for i in range(10))
         laughs = f'<!DOCTYPE model [{entities}]><model {CORE}><metadata name="Copyright">&l9;</metadata></model>'
         self.refused(self.save("a.3mf", laughs), 2, "document type")
         self.refused(self.save("b.3mf", f'<!DOCTYPE model SYSTEM "file:///etc/passwd"><model {CORE}/>'), 2, "document type")
 
     def test_doubling(self):
-        """Forty components that each have the one before it twice."""
+        """Forty components, each of which contains the previous one twice."""
         objects = f'<object id="1">{box()}</object>' + "".join(
             f'<object id="{i}"><components><component objectid="{i - 1}"/><component objectid="{i - 1}"/></components></object>' for i in range(2, 42))
         self.refused(self.save("a.3mf", model(objects, '<item objectid="41"/>')), 4, "--object-limit")
@@ -335,12 +335,12 @@ class Hostile(ThreeMF):
         self.refused(self.save("b.3mf", f"<model {CORE}>" + "<a>" * 100000), 2, "more than 256 elements")
 
     def test_long_tokens(self):
-        """An element, a comment and a text of many megabytes, which expat would look through again and again."""
+        """An element, a comment and a text of many megabytes, which expat would scan again and again."""
         for i, text in enumerate(('<model a="' + "a" * 30_000_000, "<!--" + "a" * 30_000_000, "<a" + " " * 30_000_000)):
             self.refused(self.save(f"{i}.3mf", text), 2, "more than 1048576 bytes")
 
     def test_spaces(self):
-        """A part that unfolds a thousandfold is read as far as the limit lets it."""
+        """A part that expands a thousandfold is read up to the limit."""
         spaces = model(f'<object id="1">{box()}</object>').encode() + b" " * 20_000_000
         self.good("info", self.save("large.3mf", spaces))
 
@@ -377,7 +377,7 @@ class Hostile(ThreeMF):
         self.refused(self.save("a.3mf", root, **{"t_dot_png": picture}), 4, "--expansion-limit")
 
     def test_claims(self):
-        """Numbers of entries and sizes that the archive does not have."""
+        """Wrong numbers of entries and wrong sizes in the archive."""
         good = package({"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": model(f'<object id="1">{box()}</object>')})
         end = good.rindex(b"PK\5\6")
         for offset, form, value in ((8, "<HH", (65535, 65535)), (12, "<I", (0xfffffff0,)), (16, "<I", (0xfffffff0,))):
@@ -396,7 +396,7 @@ class Hostile(ThreeMF):
         self.bad(4, "info", name, "--memory-limit", "100k", says="--memory-limit")
 
     def test_many(self):
-        """8,000 ids, references and colours take no time that grows with their square."""
+        """The time for 8,000 ids, references and colours does not grow with their square."""
         colors = "".join(f'<m:color color="#{i:06x}"/>' for i in range(8000))
         objects = "".join(f'<object id="{i}"><components><component objectid="1"/></components></object>' for i in range(3, 8000))
         items = "".join(f'<item objectid="{i}"/>' for i in range(3, 8000))
@@ -409,7 +409,7 @@ class Hostile(ThreeMF):
 
 @unittest.skipUnless(os.environ.get("LAMBENT_3MF"), "LAMBENT_3MF names no folder of samples")
 class Samples(ThreeMF):
-    """The samples of the consortium: each is drawn, or refused with one sentence."""
+    """The consortium's samples: each is drawn, or refused with an error message."""
 
     def test_samples(self):
         drawn = 0

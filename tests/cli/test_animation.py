@@ -1,4 +1,4 @@
-# test_animation.py: --turntable and --sweep: the files, and that each frame is the still picture of its values.
+# test_animation.py: --turntable and --sweep: the files; each frame must equal the still picture of its values.
 import ctypes
 import ctypes.util
 import json
@@ -23,7 +23,7 @@ class Frame:
 
 
 class Apng:
-    """An animated PNG, decoded by the rules of the specification; they are checked."""
+    """Decodes an animated PNG by the rules of the specification, and checks the rules."""
 
     def __init__(self, data):
         self.boxes, frames, sequence, ended = [], [], 0, False
@@ -63,7 +63,7 @@ class Apng:
 
 
 class WebpFrames:
-    """The frames of an animated WebP by libwebpdemux, which libwebp-dev brings."""
+    """The frames of an animated WebP, decoded by libwebpdemux from libwebp-dev."""
 
     def __init__(self, data):
         class Data(ctypes.Structure):
@@ -125,7 +125,7 @@ class Turntable(Animated):
             self.assertEqual(animation.pictures[1], self.still("cube.obj", "--up", up, "--rotate", turn), up)
 
     def test_light_that_turns_with_the_model(self):
-        # A light of the world: the camera goes around the model, against the turn.
+        # A light in the world's frame: the camera circles the model, against the turn.
         light = ["--light", "directional:direction=-1/-1/-1"]
         animation = self.animated("cube.obj", *light, "--turntable", "4", "--turntable-light", "model")
         self.assertEqual(self.good("cube.obj", *light, "--turntable", "4,light=model", "-o", "-").stdout,
@@ -137,8 +137,8 @@ class Turntable(Animated):
             self.assertEqual(covered(animation.pictures[k]), covered(around))
             steps = max(abs(a - b) for a, b in zip(animation.pictures[k][2], around[2]))
             self.assertLessEqual(steps, 1, k)
-        # Lights of the camera stand still where the first frame has them: the tops of the frames, which the lights of a camera
-        # would light alike, differ.
+        # Lights in the camera's frame stay where they are in the first frame. The tops of the frames, which lights of a moving
+        # camera would light equally, therefore differ.
         fixed = self.animated("cube.obj", "--turntable", "2", "--turntable-light", "model", "--rig", "headlight")
         self.assertGreater(sum(fixed.pictures[0][2]), 1.5 * sum(fixed.pictures[1][2][i] for i in range(len(fixed.pictures[1][2])) if i % 4 < 3))
         still = self.animated("cube.obj", "--turntable", "2", "--rig", "headlight")
@@ -165,12 +165,12 @@ class Turntable(Animated):
                         left, top, right, bottom = min(left, x), min(top, y), max(right, x + 1), max(bottom, y + 1)
         for x, y, width, height in animation.boxes[1:]:
             self.assertTrue(left <= x and top <= y and x + width <= right and y + height <= bottom)
-        # Frames that are equal have one pixel.
+        # Equal frames contain one pixel.
         same = self.animated("sphere", "--sweep", "exposure=0..0", "--frames", "3")
         self.assertEqual(same.boxes[1:], [(0, 0, 1, 1)] * 2)
 
     def test_frames_of_more_channels_than_the_first(self):
-        # Black on white, then red on white; and the first frame without a transparent pixel.
+        # Black on white, then red on white; the first frame has no transparent pixel.
         animation = self.animated("sphere", "--color", "red", "-b", "white", "--sweep", "light-scale=0..1", "--frames", "3")
         self.assertEqual(animation.color, 2)
         grey = self.animated("sphere", "-b", "white", "--sweep", "light-scale=0..1", "--frames", "3")
@@ -301,7 +301,7 @@ class Sweep(Animated):
 
     def test_stops_and_loops(self):
         def values(sweep, frames):
-            """The exposures, found again from a grey picture of one light: 2^stops."""
+            """The exposures, computed from a grey picture of one light: 2^stops."""
             animation = self.animated("sphere", "--color-mode", "raw", "--light", "ambient:color=0.1", "--sweep", "exposure=" + sweep, "--frames", frames)
             return [round(pixel(picture, 32, 32)[0] / 255 / 0.1 / 0.8, 1) for picture in animation.pictures]
         up = values("0..2", 3)
@@ -331,7 +331,7 @@ class Sweep(Animated):
         walk = [a for a in info["animations"] if a["name"] == "Walk"][0]
         self.assertEqual(animation.count, round(walk["length_s"] * 10) if "length_s" in walk else animation.count)
         self.assertEqual(report["image"]["animation"]["frames"], animation.count)
-        # One camera, in which every pose is seen whole; the same as that of the stills with it.
+        # One camera that shows every pose completely; still pictures with this camera are the same.
         camera = report["camera"]
         words = "eye={}/{}/{},target={}/{}/{},up={}/{}/{},fovy={}".format(*camera["eye"], *camera["target"], *camera["up"], camera["fovy_deg"])
         part = self.animated(fox, "--animation", "Walk", "--camera", words, "--sweep", "time=0..0.4", "--frames", "3")
@@ -439,6 +439,6 @@ class Errors(Animated):
         self.bad(5, "cube.obj", "--turntable", "3", "-o", "no/a.png", says="no")
 
     def test_memory_of_frames(self):
-        # A time that is given counts for all frames, the default for each.
+        # A given time limit applies to all frames together, the default to each frame.
         done = self.bad(4, "torus-knot", "--turntable", "5000", "-s", "400", "--time-limit", "1", "-o", "a.png", says="time limit of 1 s")
         self.assertEqual(done.stderr.decode().count("\n"), 1)

@@ -1,5 +1,5 @@
-# test_attack.py: injected code inside the sandbox. attack.c is built here and preloaded into the program. After the sandbox has started it makes about
-# 150 system calls from the main thread, from a new thread and from a thread of the program. None may work, in any command.
+# test_attack.py: injected code inside the sandbox. attack.c is built here and preloaded into the program. After the sandbox has started, the code
+# makes about 150 system calls from the main thread, from a new thread and from a thread of the program. None of them may succeed, in any command.
 import errno
 import os
 import pathlib
@@ -16,7 +16,7 @@ from harness import OWN_MODELS, PROGRAM, Case
 
 VERSION = subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE).stdout.decode()
 LANDLOCK = int((re.search(r"(?m)^sandbox Landlock (\d+) and seccomp$", VERSION) or [0, 0])[1])
-# Calls that work where nothing forbids them, for root and for anyone; the last ones take the file away.
+# Calls that succeed without a sandbox, for root and for any user; the last ones delete the file.
 FREE = ("setaffinity getaffinity getpriority ioprio_get getscheduler sched_getattr getparam limits kill kill-usr1 kill-parent tkill tgkill getpgid getsid "
         "clock F_SETOWN-socket F_SETOWN_EX F_GETOWN F_SETSIG O_ASYNC FIOASYNC FIOSETOWN SIOCSPGRP F_NOTIFY memfd socket unix-socket fork fchmod fchmodat "
         "utimensat futimens ftruncate flock open-write open-empty openat2-empty openat2-setuid make-setuid reopen own-memory link rename "
@@ -78,7 +78,7 @@ class Attack(Case):
         return tried
 
     def attack(self, *words, threads=("main", "thread"), code=0, more=(), **orders):
-        """Runs the program under attack in the folder `home`, which then has the files `more` besides its own."""
+        """Runs the program under attack in the folder `home`, which then contains the files `more` in addition to its own."""
         before = self.state()
         done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.place, stdin=self.model, capture_output=True, timeout=60,
                               env={**os.environ, **self.orders(**orders)})
@@ -96,14 +96,14 @@ class Attack(Case):
             for thread in threads:
                 names = tried[mode, thread]
                 self.assertGreater(len(names), 100, words)
-                # The sandbox is the reason, or the writer's answer, which is above 1000.
+                # The sandbox causes the failure, or the writer's answer, which is above 1000.
                 wrong = [(n, error) for n, error in names.items() if error not in (errno.EPERM, errno.EACCES, errno.ENOSYS) and error < 1000]
                 self.assertEqual(wrong, [], (words, mode, thread))
         self.assertEqual(self.state(), before, words)
         self.assertIsNone(self.process.poll())
 
     def test_without_sandbox(self):
-        """The attempts are real: without the sandbox they work."""
+        """The attempts are valid: without the sandbox they succeed."""
         self.run_program("shapes", env=self.orders(ATTACK_NOW=f" {' '.join(FREE)} "))
         tried = self.attempts()["free", "main"]
         self.assertEqual([(name, tried.get(name)) for name in FREE if tried.get(name) != 0], [])
@@ -111,7 +111,7 @@ class Attack(Case):
         self.assertTrue((self.place / "fresh").stat().st_mode & 0o4000)
 
     def test_single_picture(self):
-        """A new picture, and one that is replaced: each is what it should be, and other files of the folder stay, whoever made them."""
+        """A new picture, and a replaced one: each is correct, and other files of the folder do not change, regardless of their creator."""
         own = self.place / "own.png"
         self.good("home/cube.obj", "-s", 40, "-o", own)
         other = own.read_bytes()
@@ -126,7 +126,7 @@ class Attack(Case):
             (self.place / name).unlink()
 
     def test_name_of_a_stranger(self):
-        """A file that has the name which the model gives to its picture stays, unless the user names it."""
+        """A file with the name that the model gives to its picture does not change, unless the user names it."""
         (self.place / "cube.png").write_bytes(b"a photograph")
         self.attack("info", "cube.obj", more={"cube.png"}, ATTACK_WRITE="cube.png")
         self.assertEqual((self.place / "cube.png").read_bytes(), b"a photograph")
@@ -137,7 +137,7 @@ class Attack(Case):
         self.assertEqual((self.place / "cube.png").read_bytes(), b"a photograph")
 
     def test_modes(self):
-        """A picture loses the right to be executed when it is replaced."""
+        """A replaced picture loses the permission to be executed."""
         picture = self.place / "picture.png"
         picture.write_bytes(b"old")
         picture.chmod(0o4751)
@@ -146,7 +146,7 @@ class Attack(Case):
 
     def test_commands(self):
         (self.folder / "a.png").write_bytes(self.good("cube.obj", "-s", 16, "-o", "-").stdout)
-        (self.folder / "scene.json").write_text('{"lambent": 1, "objects": [{"file": "cube.obj"}]}')  # which lets files be read anywhere
+        (self.folder / "scene.json").write_text('{"lambent": 1, "objects": [{"file": "cube.obj"}]}')  # which allows files to be read everywhere
         for words, more in ((["compare", "cube.obj", "--sheet", "stages", "-s", 16, "-o", "sheet.png"], {"sheet.png"}),
                             (["explain", "cube.obj", "8,8", "-s", 16, "-o", "figure.svg"], {"figure.svg"}), (["lights", "cube.obj"], {}),
                             (["shader", "cube.obj", "-o", "text"], {"text.vert", "text.frag"}), (["info", "cube.obj"], {}),
@@ -165,7 +165,8 @@ class Attack(Case):
                 (self.place / name).unlink()
 
     def test_convert(self):
-        """Beside an OBJ file its MTL file and numbered pictures can be made, beside other models nothing. Older files and links stay."""
+        """Next to an OBJ file, its MTL file and numbered pictures may be created; next to other models, nothing. Older files and links do not
+        change."""
         self.attack("convert", "cube.obj", "out.glb", "-q", more={"out.glb"}, ATTACK_WRITE="victim:new.png:out.mtl:out-0.png:cube.mtl:out.obj")
         names = "victim:out-front.png:out-12345.png:out-.png:o_t.mtl:out.png:out-0.jpg:deeper/out-0.png"
         self.attack("convert", "cube.obj", "out.obj", "-q", more={"out.glb", "out.obj"}, ATTACK_WRITE=names)
@@ -176,7 +177,7 @@ class Attack(Case):
         self.assertEqual((self.place / "mine-1.png").read_bytes(), b"a photograph")
 
     def test_hash(self):
-        """Of the folder of --pictures new files and Lambent's can be written, and through no link."""
+        """In the folder of --pictures, new files and Lambent's own files may be written, but not through links."""
         os.makedirs(self.place / "pics")
         (self.folder / "elsewhere").mkdir()
         os.symlink("../../elsewhere", self.place / "pics" / "deeper")
@@ -188,7 +189,7 @@ class Attack(Case):
         self.assertEqual(os.listdir(self.folder / "elsewhere"), [])
 
     def test_batch(self):
-        """Of the output folder's files those that the batch makes can be changed, and no other."""
+        """In the output folder, only the files of the batch may be changed."""
         out = self.place / "out"
         out.mkdir()
         models = self.folder / "models"
@@ -209,7 +210,7 @@ class Attack(Case):
             self.attack("batch", "../models", "-o", "out/", "-s", 16, *words, threads=threads, more=more, ATTACK_WRITE=paths)
             self.assertEqual({name: (out / name).read_bytes() for name in kept}, kept)
             self.assertEqual((out / "a.png").read_bytes(), self.good("models/a.stl", "-s", 16, "-o", "-").stdout)
-        # The page reads pictures again, which may be an attacker's.
+        # The page reads pictures again, which an attacker may have written.
         thumbnails = ["out/page-files/" + test_batch.xxh64(f"out/{name}.png".encode() + b"\0")[6:] + ".png" for name in "abc"]
         page = {*before, "out/page.html", *thumbnails}
         for words in (["batch", "../models", "-o", "out/", "-s", 16, "--resume", "--report", "out/page.html"],
@@ -220,7 +221,8 @@ class Attack(Case):
                 (self.place / thumbnail).unlink()
 
     def test_worker(self):
-        """Of jobs, new files below --allow-path can be made from inside, or with --isolate those of the job; none that is there is changed."""
+        """From inside, only new files below --allow-path may be created (with --isolate, only the files of the job), and no existing file may be
+        changed."""
         (self.folder / "jobs").write_text('{"id": 1, "model": "cube.obj", "options": {"size": 16}, "output": "a.png"}\n'
                                           '{"id": 2, "model": "cube.obj", "options": {"size": 16}}\n')
         for more in ([], ["--isolate"]):
@@ -231,7 +233,7 @@ class Attack(Case):
             (self.place / "a.png").unlink()
 
     def test_viewer(self):
-        """Its server, and the process that draws for it."""
+        """The viewer's server, and the process that draws for it."""
         page = self.folder / "page.html"
         page.write_text("<!doctype html>\n<html>\n<head>\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
                         "script-src 'sha256-x'; img-src blob: data:; base-uri 'none'; form-action 'none'\">\n</head>\n<body>\n</body>\n</html>\n")

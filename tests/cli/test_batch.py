@@ -1,4 +1,4 @@
-# test_batch.py: many models: where they come from, their names, the journal, going on after a failure, a kill, a change.
+# test_batch.py: many models: sources, names, the journal, and continuing after a failure, a kill or a change.
 import ctypes
 import json
 import os
@@ -16,11 +16,11 @@ import urllib.parse
 
 from harness import PROGRAM, Case, long, read_png, write_png, wait_until_caught, writers_and_others
 
-KILLS = int(os.environ.get("LAMBENT_KILLS", "5"))  # of test_kill; `make test-long` has 50
+KILLS = int(os.environ.get("LAMBENT_KILLS", "5"))  # of test_kill; `make test-long` uses 50
 
 
 def xxh64(data):
-    """XXH64 with the seed 0, written from its specification a second time."""
+    """XXH64 with the seed 0, an independent implementation of its specification."""
     mask, p = (1 << 64) - 1, (0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5)
     rotate = lambda x, n: (x << n | x >> (64 - n)) & mask
     turn = lambda lane, word: rotate(lane + word * p[1] & mask, 31) * p[0] & mask
@@ -48,7 +48,7 @@ def xxh64(data):
 
 
 def default_interrupt():
-    """In the child: a shell that starts the tests in the background has Ctrl-C ignored, and lambent leaves an ignored signal so."""
+    """Runs in the child: a shell that starts the tests in the background ignores Ctrl-C, and lambent keeps an ignored signal ignored."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
@@ -67,7 +67,7 @@ class Batch(Case):
     def tree(self, count=6):
         for i in range(count):
             self.cube(f"in/{'ab'[i % 2]}/m{i}.stl")
-        time.sleep(0.02)  # a file changed within a tick of the clock before its reading has no key
+        time.sleep(0.02)  # a file changed within a clock tick before it was read has no key
         return [f"in/{'ab'[i % 2]}/m{i}.stl" for i in range(count)]
 
     def files(self, folder="out"):
@@ -78,7 +78,7 @@ class Batch(Case):
         return {name: (self.folder / folder / name).read_bytes() for name in self.files(folder) if name.endswith(".png")}
 
     def journal(self, path="out/lambent.jsonl"):
-        """The records of pictures of a journal; every line is whole."""
+        """The picture records of a journal; every line is complete."""
         lines = [json.loads(line) for line in (self.folder / path).read_text().splitlines()]
         return [line for line in lines if "output" in line]
 
@@ -96,7 +96,7 @@ class Sources(Batch):
         self.cube("in/a/.h.stl")
         (self.folder / "in/a/notes.txt").write_text("no model")
         (self.folder / "in/a/data.json").write_text("{}")
-        os.symlink("..", self.folder / "in/b/up")  # a circle
+        os.symlink("..", self.folder / "in/b/up")  # a cycle
         done = self.batch("in", "-o", "out/{dir}/{stem}.png")
         self.assertEqual(set(self.pictures()), {"a/m0.png", "b/m1.png", "a/m2.png", "b/m3.png", "a/deep/c.png"})
         self.assertIn("5 of 5 pictures written", done.stderr.decode())
@@ -105,7 +105,8 @@ class Sources(Batch):
         self.assertEqual(set(self.pictures("two")), {"m0.png", "m1.png", "m2.png", "m3.png", "deep/c.png"})
 
     def test_links_of_a_folder(self):
-        """A link that leads out of the folder fails, unless its folder is allowed; what leads nowhere and what is no file fail too."""
+        """A link that leads out of the folder fails unless the target's folder is allowed; broken links and links to other things than files also
+        fail."""
         self.cube("in/deep/a.obj", "cube.obj")
         self.cube("elsewhere/secret.obj", "cube.obj")
         os.symlink("deep/a.obj", self.folder / "in/inside.obj")
@@ -124,7 +125,7 @@ class Sources(Batch):
                 self.assertEqual(sorted({p.name.split("-")[0].split(".")[0] for p in (self.folder / "o").glob("*.png")}), ["a", "inside"])
                 for path in (self.folder / "o").iterdir():
                     path.unlink()
-        # A file that is named is read, and one in a folder that is allowed.
+        # A named file is read, and a file in an allowed folder is read.
         self.good("batch", "in/out.obj", "-s", 8, "-o", "o/")
         done = self.run_program("batch", "in", "-s", 8, "--allow-path", "elsewhere", "-o", "o/")
         self.assertEqual(done.returncode, 7)
@@ -247,7 +248,7 @@ class Pictures(Batch):
             shutil.rmtree(self.folder / "out")
 
     def test_an_environment_is_read_once(self):
-        """Workers share it; each picture has the bytes that it has alone."""
+        """Workers share the model; each picture has the same bytes as when drawn alone."""
         names = self.tree(12)
         sky = self.folder / "sky.png"
         sky.write_bytes(write_png(32, 16, bytes((i * 7 + i // 64) % 256 if i % 4 < 3 else 255 for i in range(2048))))
@@ -283,7 +284,7 @@ class Pictures(Batch):
             done = self.batch("in", "-o", "out/", "--failures-ok", *more)
             self.assertIn("1 failed", done.stderr.decode())
         self.good("in/b/m1.stl", names[0], "-s", 24, "-o", "out/", "--failures-ok")
-        # Only failures of models are fine.
+        # Only failures of models are tolerated.
         self.batch("in", "-o", "out/", "--failures-ok", "--journal", "/proc/none", code=5)
         self.batch("in", "none", "-o", "out/", "--failures-ok", "--resume", "--tone", "aces", code=1)
         self.batch("in", "-o", "out/", code=7)
@@ -340,7 +341,7 @@ class Journal(Batch):
         before = {name: os.stat(self.folder / "out" / name).st_mtime_ns for name in self.pictures()}
         with open(self.folder / "out/lambent.jsonl", "a") as journal:
             journal.write('{"model": "in/a/m0.stl", "output": "out/m0.p')  # torn
-        (self.folder / "out/m1.png").write_bytes((self.folder / "out/m1.png").read_bytes()[:300])  # as after a power cut
+        (self.folder / "out/m1.png").write_bytes((self.folder / "out/m1.png").read_bytes()[:300])  # as after a power failure
         done = self.batch("in", "-o", "out/", "--resume", code=7)
         self.assertIn("3 of 6 pictures written, 2 done before, 1 failed", done.stderr.decode())
         self.assertEqual({n for n in before if n != "m1.png" and os.stat(self.folder / "out" / n).st_mtime_ns != before[n]}, set())
@@ -358,7 +359,7 @@ class Journal(Batch):
             done = self.batch("in", "-o", "out/", "--resume", *more, code=1)
             self.assertIn(says, done.stderr.decode())
         self.assertEqual(len(self.journal()), 2)
-        self.batch("in", "-o", "out/", "--resume", "--tone", "auto", "-j", "2", "--time-limit", "50")  # the defaults, and what changes nothing
+        self.batch("in", "-o", "out/", "--resume", "--tone", "auto", "-j", "2", "--time-limit", "50")  # the defaults, and options that change nothing
 
     def test_retries(self):
         names = self.tree(3)
@@ -394,7 +395,7 @@ class SkipSame(Batch):
         (self.folder / "in/t.obj").write_text("mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n")
         (self.folder / "in/t.mtl").write_text("newmtl a\nKd 1 1 1\nmap_Kd t.ppm\nmap_Ke later.ppm\n")
         self.texture(b"\xff\0\0")
-        time.sleep(0.02)  # a file changed within a tick of the clock before its reading has no key
+        time.sleep(0.02)  # a file changed within a clock tick before it was read has no key
 
     def texture(self, color, name="t.ppm"):
         (self.folder / "in" / name).write_bytes(b"P6\n2 2\n255\n" + color * 4)
@@ -420,8 +421,8 @@ class SkipSame(Batch):
         self.assertEqual(self.drawn(), set())
         self.assertEqual(self.drawn("--tone", "aces"), {m, t})
         self.assertEqual(self.drawn("--tone", "aces", "--samples", "8"), {m, t})
-        self.assertEqual(self.drawn("--tone", "aces", "--samples", "8", "--ao", "auto", "-j", "1", "-v"), set())  # a default, and what changes no picture
-        shutil.copy(self.folder / t, self.folder / m)  # not the picture that was written
+        self.assertEqual(self.drawn("--tone", "aces", "--samples", "8", "--ao", "auto", "-j", "1", "-v"), set())  # a default, and an option that changes no picture
+        shutil.copy(self.folder / t, self.folder / m)  # not the written picture
         self.assertEqual(self.drawn("--tone", "aces", "--samples", "8"), {m})
         os.remove(self.folder / t)
         self.assertEqual(self.drawn("--tone", "aces", "--samples", "8"), {t})
@@ -435,7 +436,7 @@ class SkipSame(Batch):
         self.assertEqual(len(self.drawn(*words)), 2)
 
     def test_spellings(self):
-        """However paths are spelled, and from whichever folder, the same pictures are recognised."""
+        """The same pictures are recognised for any spelling of the paths and from any folder."""
         os.rename(self.folder / "in/m.stl", os.fsencode(self.folder) + b"/in/\xe9.stl")
         (self.folder / "sky.ppm").write_bytes(b"P6\n2 1\n255\nabcdef")
         (self.folder / "else").mkdir()
@@ -498,7 +499,8 @@ class Kills(Batch):
         killed = 0
         for round in range(20 * KILLS):
             process = subprocess.Popen([PROGRAM, *self.words("--resume", *more)], cwd=self.folder, stderr=subprocess.PIPE)
-            # The first kills come early, so that a run is killed often before it is done; now and then it may start anew.
+            # The first kills come early, so that a run is often killed before it finishes; sometimes it may start again
+            # from the beginning.
             try:
                 process.wait(timeout=random.uniform(0, 3 * whole_s / max(KILLS, 4)))
             except subprocess.TimeoutExpired:
@@ -524,7 +526,7 @@ class Kills(Batch):
             try:
                 record = json.loads(line)
             except ValueError:
-                continue  # torn by a kill
+                continue  # truncated by a kill
             if "output" in record:
                 records.append(record)
         self.assertEqual(sorted(r["output"] for r in records), sorted(f"out/{i:02}.png" for i in range(self.COUNT)))
@@ -538,22 +540,22 @@ class Kills(Batch):
         self.kill_test("--isolate")
 
     def test_resumed_at_once(self):
-        """The processes of a killed run hold its lock for some milliseconds more."""
+        """The processes of a killed run keep its lock for a few milliseconds."""
         for round in range(4 * KILLS):
-            with open(self.folder / "said", "wb") as said:  # a pipe would only end with all processes
+            with open(self.folder / "said", "wb") as said:  # a pipe would end only with all processes
                 process = subprocess.Popen([PROGRAM, *self.words("--resume", "--isolate")], cwd=self.folder, stderr=said)
             children, done = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children"), False
             while not done and not children.read_text():
                 done = process.poll() is not None
             time.sleep(random.uniform(0, 0.01))
             process.kill()
-            process.wait()  # its processes may still be there
+            process.wait()  # its processes may still exist
             self.assertIn(process.returncode, (7, -signal.SIGKILL), f"round {round}: {(self.folder / 'said').read_text()}")
             if process.returncode == 7:
                 shutil.rmtree(self.folder / "out")
 
     def test_temporary_files_of_a_killed_run(self):
-        """A picture that was being replaced when the process was killed leaves a file, which the next run removes."""
+        """If the process is killed while it replaces a picture, a file remains, which the next run removes."""
         process = subprocess.Popen([PROGRAM, *self.words()], cwd=self.folder, stderr=subprocess.DEVNULL)
         until = time.time() + 20
         while not self.pictures() and time.time() < until:
@@ -563,7 +565,8 @@ class Kills(Batch):
         process.wait()
         host = socket.gethostname()
         part = f".lambent-{pid}-{host}-12a.part"
-        # Of other runs, and of other machines that write to the same folder: their numbers of processes may be the same.
+        # Files of other runs, and of other machines that write to the same folder; their process numbers may be the
+        # same.
         others = (f".lambent-1-{host}-12a.part", f".lambent-{pid}-{host}2-12a.part", f".lambent-{pid}-{host}-b-12a.part")
         for name in (part, *others):
             (self.folder / "out" / name).write_bytes(b"half")
@@ -584,7 +587,7 @@ class Kills(Batch):
                 start = time.time()
                 text = process.communicate()[1].decode()
                 self.assertEqual(process.returncode, -number, text)
-                self.assertLess(time.time() - start, 1 if KILLS > 5 else 15)  # a busy machine has no second
+                self.assertLess(time.time() - start, 1 if KILLS > 5 else 15)  # a busy machine may need more than a second
                 self.assertRegex(text, r"interrupted: \d+ of 40 pictures written")
                 self.assertEqual({n for n in self.files() if not n.endswith(".png")}, {"lambent.jsonl", "lambent.jsonl.running"})
                 shutil.rmtree(self.folder / "out")
@@ -592,9 +595,9 @@ class Kills(Batch):
 
 class Crashes(Batch):
     def test_a_crash_is_one_failed_line(self):
-        """A process killed while it draws costs its own picture alone."""
+        """If a process is killed while it draws, only its own picture is lost."""
         names = self.tree(2)
-        own = ":handle_segv=0" # AddressSanitizer would make an exit code of the signal
+        own = ":handle_segv=0" # AddressSanitizer would turn the signal into an exit code
         process = subprocess.Popen([PROGRAM, "batch", *names, "-s", "6000", "--samples", "16", "--isolate", "-j", "2", "-o", "out/"],
                                    cwd=self.folder, stderr=subprocess.PIPE,
                                    env=dict(os.environ, ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + own))

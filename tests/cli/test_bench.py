@@ -1,4 +1,5 @@
-# test_bench.py: the bench measures what the repository has, makes the rest, and leaves out what is not installed.
+# test_bench.py: the bench measures the repository's models, generates the others, and skips what is not
+# installed.
 import os
 import subprocess
 import sys
@@ -24,7 +25,7 @@ class Bench(Case):
         return done.stdout
 
     def test_models(self):
-        """Rows need no other models unless LAMBENT_MODELS names them."""
+        """Rows need additional models only if LAMBENT_MODELS names them."""
         names = "print(*[name for name, _, _ in run.row_list(['avx2'], False, whole.Display(), True)], sep='\\n')"
         own = set(self.python(names).splitlines())
         others = set(self.python(names, LAMBENT_MODELS="/nowhere").splitlines()) - own
@@ -37,12 +38,12 @@ class Bench(Case):
             self.good(model, "-s", 8, "-o", "-", "--environment", environment)
 
     def test_what_is_not_installed(self):
-        """Rows whose peer is missing say so, and the bench succeeds."""
+        """Rows whose peer is missing report this, and the bench succeeds."""
         said = self.python("sys.argv = ['run.py', 'whole spot', 'three.js spot']\nsys.exit(run.main())", PATH="/nowhere")
         self.assertRegex(said, r"(?m)^ *\d+  whole spot +not measured: f3d or Xvfb is not installed")
         self.assertRegex(said, r"(?m)^ *\d+  three.js spot +not measured: three.js: chromium is not installed")
         said = self.python("gltf_rows.environment = lambda: '/nowhere.hdr'\nsys.argv = ['run.py', 'prefilter']\nprint(run.main())")
-        self.assertRegex(said, r"NOT +not measured: .*nowhere.hdr(.|\n)*\n1\n$")  # a row that fails is a failure
+        self.assertRegex(said, r"NOT +not measured: .*nowhere.hdr(.|\n)*\n1\n$")  # a row that fails counts as a failure
 
 
 if __name__ == "__main__":

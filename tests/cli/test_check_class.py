@@ -11,7 +11,8 @@ import test_check
 from test_check import SCHEMA, CheckTest, edited
 
 GATE = ("frag", "dot(n, l) <= 0.0", "false")
-# Each line doubles the one before three times: a kilobyte of text, some ten million instructions.
+# Each line uses the previous one three times: a kilobyte of text becomes some ten million
+# instructions.
 BOMB = "#define A0 x = x * 1.0001 + y;\n" + "".join(f"#define A{i} {f'A{i - 1} ' * 8}\n" for i in range(1, 9))
 
 
@@ -38,7 +39,7 @@ class Class(CheckTest):
         return {row[0]: dict(zip(rows[0], row)) for row in rows[1:]}
 
     def test_everything(self):
-        """What goes wrong in one submission ends that one only, and is said of it."""
+        """An error in one submission affects only that submission, and the report states it."""
         self.write("ann/main", "pittsburgh")
         (self.folder / "class/ann/main.vert").rename(self.folder / "class/ann/other.vert")
         self.write("bob/phong", "pittsburgh", [GATE])
@@ -95,7 +96,7 @@ class Class(CheckTest):
         self.assertIn("no shader in this folder", dict(rows)["eve"])
 
     def test_deep_folders(self):
-        """A folder below sixteen others is not searched, and said so."""
+        """A folder nested below sixteen others is not searched, and Lambent reports this."""
         deepest = "/".join(["ann"] + ["in"] * 15)
         self.write(deepest + "/phong", "pittsburgh")
         self.write(deepest + "/in/phong", "pittsburgh")
@@ -105,7 +106,7 @@ class Class(CheckTest):
         self.assertIn("too deeply", rows[deepest + "/in"]["says"])
 
     def test_outputs_that_cannot_be_written(self):
-        """The verdicts are there, whatever becomes of the pictures."""
+        """The verdicts are available even if the pictures fail."""
         self.write("ann", "pittsburgh")
         self.write("bob", "pittsburgh")
         words = ("--scenes", "gate,all")
@@ -141,7 +142,7 @@ class Class(CheckTest):
         self.assertEqual(rows("--memory-limit", "600M", code=0)["ann"]["verdict"], "passes")
 
     def test_without_proc(self):
-        """Where /proc is missing, as in a bare chroot. (Sanitizers read it themselves.)"""
+        """The test simulates a missing /proc, as in a bare chroot. (Sanitizers read /proc themselves.)"""
         if "LAMBENT_SANITIZED" in os.environ:
             self.skipTest("sanitizers need /proc")
         self.write("ann", "pittsburgh")

@@ -1,5 +1,5 @@
-# test_check_teaching.py: the command `check` for those who teach: contracts that it writes, grades in the forms of learning
-# platforms, weights of scenes, and a sentence where no known mistake explains a difference.
+# test_check_teaching.py: the command `check` for teachers: generated contracts, grades in the formats of learning
+# platforms, weights of scenes, and a sentence if no known mistake explains a difference.
 import csv
 import json
 import re
@@ -10,7 +10,7 @@ PITTSBURGH_SUM = "ambient + attenuation * (diffuse + specular)"
 
 
 class Written(CheckTest):
-    """--write-contract FILE writes a file that loads again and gives the same verdict, with a comment beside each entry."""
+    """--write-contract FILE writes a file that loads again and gives the same verdict, with a comment for each entry."""
 
     def write(self, vert, frag):
         (self.folder / "s.vert").write_text(vert)
@@ -40,13 +40,13 @@ class Written(CheckTest):
         self.again(self.write(vert.replace("normalize(mat3(transpose(inverse(model))) * inNormal)", "inNormal"), frag), code=6)
 
     def test_fixed_state(self):
-        """Names of OpenGL's fixed state are written as they are in GLSL, and may stand in a contract."""
+        """Names of OpenGL's fixed state are written as in GLSL, and are allowed in a contract."""
         words = self.shader("glsl120")
         self.assertEqual(self.again(words)["uniforms"]["gl_LightSource[].position"]["role"], "light_position")
         self.assertEqual(self.report_of(*words, "--contract", "glsl120")["verdict"], "passes")
 
     def test_without_a_verdict(self):
-        """Then the file says what is known, and which input is not."""
+        """The file then states the known inputs and the unknown input."""
         frag = (SHADERS / "learnopengl.frag").read_text().replace("uniform vec3 lightPos;", "uniform vec3 lightPos;\nuniform sampler2D shadowMap;")
         words = self.write((SHADERS / "learnopengl.vert").read_text(), frag.replace("FragColor = vec4(", "FragColor = texture(shadowMap, vec2(0.0)) * vec4("))
         self.bad(1, "check", *words, "--write-contract", "c.json", says="'shadowMap'", leaves=("s.frag", "s.vert", "c.json"))
@@ -64,7 +64,7 @@ class Written(CheckTest):
         self.bad(1, "check", "a.frag", "b.frag", "--write-contract", "c.json", says="one submission", leaves=("s.frag", "s.vert", "file"))
 
     def test_defaults_and_comments(self):
-        """A contract that says nothing of attenuation and strengths expects none; an error names its line."""
+        """A contract without attenuation and strengths expects none; an error message contains its line."""
         lines = ['{"contract": 1, "name": "mine", "space": "world", "comment": ["for", "people"],', '"attributes": {"p": {"role": "position", "type": "vec3", "comment": "a"},',
                  '"n": {"role": "normal", "type": "vec3"}},', '"uniforms": {"M": {"role": "model", "type": "mat4"}, "VP": {"role": "view_projection", "type": "mat4"},',
                  '"lamp": {"role": "light_position", "type": "vec3"},', '"paint": {"role": "color", "type": "vec3"}}}']
@@ -111,7 +111,7 @@ class Grades(CheckTest):
         self.assertIn("n.l <= 0", row["Feedback comments"])
 
     def test_no_verdict(self):
-        """A shader that cannot be judged has no points, and the reason as its output."""
+        """A shader that cannot be judged gets no points, and the reason as its output."""
         (self.folder / "s.frag").write_text("void main() { gl_FragColor = vec4(1.0); }\n")
         done = self.run_program("check", "s.frag", "--gradescope", "r.json", "--submitty", "v.json")
         self.assertEqual(done.returncode, 1)
@@ -121,7 +121,7 @@ class Grades(CheckTest):
         self.assertEqual(json.loads((self.folder / "v.json").read_text())["data"]["score"], 0)
 
     def test_moodle(self):
-        """Moodle's folders carry the participants' numbers."""
+        """The names of Moodle's folders contain the participants' numbers."""
         for name in ("Ann Lee_4711_assignsubmission_file_", "bob"):
             (self.folder / "class" / name).mkdir(parents=True)
             for ending in ("frag", "vert"):
@@ -135,7 +135,7 @@ class Grades(CheckTest):
 
 
 class Sentences(CheckTest):
-    """Where no known mistake explains a difference, the report says what the scenes show."""
+    """If no known mistake explains a difference, the report describes the scenes."""
 
     def hint(self, name, *edits):
         report = self.report_of(*self.shader(name, edits), code=6)
@@ -153,7 +153,7 @@ class Sentences(CheckTest):
                 self.assertIn(says, self.hint(name, *edits))
 
     def test_projected_normal(self):
-        """The text shows the first mistake where the pictures are too far from anything known."""
+        """The text shows the first mistake if the pictures are too different from all known mistakes."""
         hint = self.hint("pittsburgh", ("vert", "N = normalize(normal_matrix * vNormal.xyz);", "mat4 both = projection * model_view;\n    N = (both * vNormal).zxy;"))
         self.assertIn("the normal is multiplied by the projection", hint)
         report = self.report_of("s.frag", "--vertex", "s.vert", code=6)
@@ -162,7 +162,7 @@ class Sentences(CheckTest):
 
 class Texts(CheckTest):
     def test_line_ends(self):
-        """Old Macs end lines with a carriage return alone."""
+        """Old Macs end lines with only a carriage return."""
         words = self.shader("pittsburgh", [("frag", "dot(n, l) <= 0.0", "dot(n, ll) <= 0.0")])
         for ending in ("frag", "vert"):
             path = self.folder / f"s.{ending}"
@@ -171,9 +171,9 @@ class Texts(CheckTest):
         self.assertEqual((report["verdict"], [n["line"] for n in report["notes"] if "ll" in n["text"]][0]), ("refused", 25))
 
     def test_many_names(self):
-        """40,000 uniforms that nothing uses cost no time that grows with their square."""
+        """The time for 40,000 unused uniforms does not grow with their square."""
         words = self.shader("pittsburgh", [("frag", "varying vec3 N;", "".join(f"uniform float u{i};\n" for i in range(40000)) + "varying vec3 N;")])
-        # Half a second; eight minutes where each name is compared with each word.
+        # This takes half a second; comparing each name with each word would take eight minutes.
         self.assertEqual(self.report_of(*words, "--scenes", "all", timeout=240)["verdict"], "passes")
 
     def test_cube_map(self):

@@ -1,4 +1,5 @@
-# test_compare.py: the command `compare`: every picture of a sheet equals the one drawn with its options alone; captions, names, errors.
+# test_compare.py: the command `compare`: every picture of a sheet equals the picture drawn with its options alone; captions, names,
+# errors.
 import base64
 import json
 import os
@@ -34,14 +35,14 @@ class Mistakes(Case):
         pictures, _ = self.sheet("--across", "mistake=no-ambient,normal-by-model-view,no-gate")
         self.assertEqual([p["mistake"] for p in pictures], [None, "no-ambient", "normal-by-model-view", "no-gate"])
         means = [p["mean_difference"] for p in pictures]
-        self.assertEqual((means[0], means[2]), (0, 0))  # the matrix is wrong for stretched objects alone
+        self.assertEqual((means[0], means[2]), (0, 0))  # the matrix is wrong only for stretched objects
         self.assertGreater(means[1], 0.01)
         self.assertGreater(means[3], 0)
         width, _, data = read_png((self.folder / "sheet.png").read_bytes())
         self.assertEqual(width, 4 * (60 + 4) + 4)
 
     def test_the_first_picture_is_that_of_the_cpu(self):
-        """Shaders of the lecture style draw what the CPU draws, but at edges, where the devices antialias alike."""
+        """Shaders of the lecture style draw the CPU's picture, except at edges, where the devices antialias differently."""
         light = ("--light", "point:position=1/2/3,attenuation=0.5/0.1/0.1", "--light", "spot:position=-1/2/3,target=0/0/0,cutoff=20,exponent=3")
         self.sheet(*light, "--across", "mistake=no-cone", "--no-captions")
         page = read_png((self.folder / "sheet.png").read_bytes())
@@ -67,7 +68,7 @@ class Mistakes(Case):
         self.bad(3, "compare", "sphere", "--across", "mistake=no-cone", says="mistake 'no-cone': the shader lacks the code that this mistake changes; expected a spotlight")
         self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--stage", "application", says="options '--stage application' and '--across mistake'")
         self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--device", "cpu", says="see 'lambent compare -h'")
-        many = [word for i in range(46) for word in ("--caption", f"Picture {i}")]  # the sphere shows fewer than the 47 there are
+        many = [word for i in range(46) for word in ("--caption", f"Picture {i}")]  # the sphere shows fewer than all 47 mistakes
         self.bad(1, "compare", "sphere", "--across", "mistake", "-q", "-s", "32", *many, says="option '--caption': found 46, but the sheet has ")
         self.bad(3, "compare", "sphere", "--across", "mistake=no-gate", "--reflection", "ggx", says="'--style lecture' does not have '--reflection ggx'")
         self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--device", "cpu", says="mistakes are edits of shaders, which OpenGL draws")
@@ -100,7 +101,7 @@ class Compare(Case):
                 self.assertEqual((width, height), (columns * 51 + 3, rows * (36 + inset + 8 + 3) + head + 3))
 
     def test_terms_add_up(self):
-        """Raw numbers: ambient + diffuse + specular at shininess 50 are the picture with all of them, to the rounding of bytes."""
+        """In raw numbers, ambient + diffuse + specular at shininess 50 equal the picture with all terms, up to the rounding of bytes."""
         page = self.sheet("sphere", "--sheet", "terms", "--no-captions", "--color-mode", "raw", "-s", "48x40", "-b", "0/0/0/1")
         gap = 3
         at = [part(page, gap + i % 3 * (48 + gap), gap + i // 3 * (40 + gap), 48, 40) for i in range(4)]
@@ -110,7 +111,7 @@ class Compare(Case):
         self.assertGreater(max(at[2][0::4]), 100)  # there is a highlight
 
     def test_turned_and_unturned_pictures_share_a_camera(self):
-        """The rows of the sheet of frames: the model does not jump in size or place."""
+        """In the rows of the sheet `frames`, the model keeps its size and place."""
         page = self.sheet("cube.obj", "--sheet", "frames", "--no-captions", "-s", "48x40")
         lights = ["point:position=1.5r/1.5r/1.5r,ambient=0.15,frame=" + frame for frame in ("world", "camera", "object")]
         for i in range(6):
@@ -142,7 +143,7 @@ class Compare(Case):
             self.assertEqual(part(plain, left, 7, 120, 60), part(captioned, left, 7 + 15, 120, 60))
         caption = part(captioned, 7, 7 + 15 + 60, 120, 20)
         self.assertGreater(sum(value < 160 for value in caption[0::4]), 10)
-        # The defaults of a sheet are printed under its title, nowhere beyond the page's margin.
+        # The defaults of a sheet are printed below its title, within the page's margins.
         words = ("sphere", "--across", "viewer", "-s", "240x200")
         plain, captioned = self.sheet(*words, "--no-captions"), self.sheet(*words)
         self.assertEqual(captioned[1] - plain[1], 50 + 41)
@@ -165,7 +166,7 @@ class Compare(Case):
         self.bad(1, "compare", "cube.obj", "--across", "light=point,spot:cutoff=9", says="semicolon")
 
     def test_shininess(self):
-        """Without a material it gets a specular colour, so that there is a highlight; a given material is not changed."""
+        """Without a material, the model gets a specular colour so that a highlight is visible; a given material does not change."""
         plain = self.sheet("cube.stl", "-s", "48x40", "--no-captions", "--across", "shininess=9")
         glossy = self.alone("cube.stl", "-s", "48x40", "--shininess", 9, "--material", "specular=0.7", *LIGHT)
         self.assertEqual(part(plain, 3, 3, 48, 40), glossy)
@@ -174,7 +175,7 @@ class Compare(Case):
             self.assertEqual(part(page, 3, 3, 48, 40), self.alone("cube.obj", "-s", "48x40", "--material", "gold", "--shininess", 9, *LIGHT))
 
     def test_defaults_yield(self):
-        """What a sheet gives its pictures gives way to the command line and to what the model brings."""
+        """The command line and the model's own settings override the settings of a sheet."""
         sphere = ("--segments", "24x12")
         (self.folder / "lit.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}],
                                                           "lights": [{"type": "point", "position": [3, 1, 3]}]}))
@@ -190,12 +191,12 @@ class Compare(Case):
                 page = self.sheet(model, "-s", "48x40", "--no-captions", "--across", "shading=gouraud", *words)
                 one = self.alone(model, "-s", "48x40", *defaults, *words, "--shading", "gouraud")
                 self.assertTrue(part(page, 3, 3, 48, 40) == one)
-        # The anisotropic picture's own changes of the material give way with it.
+        # They also override the anisotropic picture's own changes of the material.
         for words, more in (((), (*GLOSSY, "--material", "diffuse=0.3,shininess=30")), (("--material", "gold"), ())):
             page = self.sheet("sphere", "-s", "48x40", "--no-captions", *words)
             one = self.alone("sphere", "-s", "48x40", *sphere, *LIGHT, *more, *words, "--reflection", "kajiya-kay")
             self.assertTrue(part(page, 3 + 4 * 51, 3, 48, 40) == one)
-        # A row of a default's own option has it from the row.
+        # A row of the default's own option takes its value from the row.
         for across, more in (("material=gold", LIGHT), ("segments=9x7", (*LIGHT, *GLOSSY))):
             option, value = across.split("=")
             page = self.sheet("sphere", "-s", "48x40", "--no-captions", "--across", "shading=flat", "--across", across)
@@ -203,7 +204,7 @@ class Compare(Case):
             self.assertTrue(part(page, 3, 3, 48, 40) == one, across)
 
     def shares(self, *words, inset=False):
-        """How far neighbouring pictures of a sheet are apart: the percentage of the model's pixels that differ by more than 16/255."""
+        """The difference between neighbouring pictures of a sheet: the percentage of the model's pixels that differ by more than 16/255."""
         width, height, gap = 72, 60, 4
         page = self.sheet(*words, "-s", f"{width}x{height}", "--no-captions")
         step = height + gap + (height // 6 * 3 + gap // 2 if inset else 0)
@@ -222,7 +223,8 @@ class Compare(Case):
         return shares
 
     def test_sheets_show_their_subject(self):
-        """Each sheet of the teapot, and rows about shading: every picture differs from the one before it. None: equal by nature."""
+        """In each sheet of the teapot, and in rows about shading, every picture differs from the previous one. None means that the pictures are equal
+        by definition."""
         for words, floors in {
                 "--sheet summary": (6, 2.5, 50, 50), "--sheet terms": (50, 50, 50, 6, 1.5), "--sheet stages": (2.5,),
                 "--sheet light": (50, 50, 50), "--sheet ambient": (50, 50), "--sheet frames": (50, 50, 40, 40, 50),
@@ -233,10 +235,11 @@ class Compare(Case):
             with self.subTest(words):
                 shares = self.shares("teapot", *words.split(), inset="stages" in words)
                 self.assertGreaterEqual(len(shares), len(floors))
-                for share, floor in zip(shares, [*floors, *[1.5] * len(shares)]):  # new words of an option come last
+                for share, floor in zip(shares, [*floors, *[1.5] * len(shares)]):  # new values of an option come last
                     if floor is not None:
                         self.assertGreaterEqual(share, floor, [round(s, 2) for s in shares])
-        # The band of the anisotropic picture runs from the pot's top to its bottom, and is its brightest part.
+        # The band of the anisotropic picture extends from the pot's top to its bottom, and is its brightest
+        # part.
         page = self.sheet("teapot", "--sheet", "summary", "-s", "96x80", "--no-captions")
         pot = part(page, 5 + 4 * 101, 5, 96, 80)
         bright = {i // 96 for i in range(96 * 80) if pot[4 * i + 3] and 225 < pot[4 * i] < 255}
@@ -244,10 +247,10 @@ class Compare(Case):
 
     @long
     def test_pages_show_their_subject(self):
-        """The sheets of the pages: every picture differs from the one before it, but those that are equal by nature."""
+        """On the sheets of the pages, every picture differs from the previous one, except for pictures that are equal by definition."""
         equal = {"sphere.png": {0}, "frames.png": {2}, "normals.png": {6, 7}, "sides.png": {0}}
-        faint = {"shadows-soft.png": 1, "shadows-terminator.png": 0.7,  # edges of shadows: few pixels
-                 "left-out.png": 0.5}  # recesses alone
+        faint = {"shadows-soft.png": 1, "shadows-terminator.png": 0.7,  # edges of shadows affect few pixels
+                 "left-out.png": 0.5}  # only recesses
         commands = [line for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
                     for line in re.findall(r"(?m)^\s+lambent (compare .*-o docs/pictures/\S+)", page.read_text())]
         self.assertGreater(len(commands), 20)
@@ -266,7 +269,7 @@ class Compare(Case):
                         self.assertGreaterEqual(share, faint.get(picture, 1.5), [round(s, 2) for s in shares])
 
     def test_json_says_the_words_of_each_picture(self):
-        """Drawn alone, the words give the picture of the sheet."""
+        """The options alone draw the same picture as on the sheet."""
         for words in (("cube.obj", "--across", "shading", "--azimuth", "50"), ("torus", "--sheet", "terms"),
                       ("sphere", "--across", "ao=off,screen", "--across", "reflection=phong,ggx", "-b", "black")):
             with self.subTest(words):
@@ -288,7 +291,7 @@ class Compare(Case):
                     self.assertEqual(part(page, 3 + i % columns * 51, 3 + i // columns * 43, 48, 40), one, picture["caption"])
 
     def test_grid(self):
-        """Two rows crossed: the first makes the rows, the second the columns."""
+        """Two options crossed: the first defines the rows, the second the columns."""
         page = self.sheet("cube.obj", "-s", "48x40", "--no-captions", "--across", "shading=flat,phong", "--across", "azimuth=0,30,60")
         self.assertEqual(page[:2], (3 * 51 + 3, 2 * 43 + 3))
         for line, shading in enumerate(("flat", "phong")):
@@ -312,7 +315,7 @@ class Compare(Case):
         self.assertEqual(self.good(*words, "-j", 1, "--isa", "plain").stdout, self.good(*words, "-j", 3).stdout)
 
     def test_titles_of_rows(self):
-        """The title of a row of values says what the pictures show."""
+        """The title of a row of values states the subject of the pictures."""
         for words, title in ((["cull"], "Culled sides of the surface"), (["azimuth=0,90"], "Values of --azimuth"),
                              (["normals", "shading=flat,phong"], "Rows: sources of the normals; columns: shading methods")):
             self.good("compare", "cube.obj", "-s", 16, "-o", "t.svg", *(word for one in words for word in ("--across", one)))
@@ -320,7 +323,7 @@ class Compare(Case):
         self.given |= {"t.svg"}
 
     def test_svg(self):
-        """A sheet as SVG: the pictures inside are those of the words of --json, text is text in any language."""
+        """A sheet as SVG contains the pictures drawn with the options in --json, and text in any language as text."""
         done = self.good("compare", "cube.obj", "--sheet", "ambient", "-s", "80x60", "-o", "s.svg", "--json", "--title", "الضوء & <b>",
                          "--caption", "环境光", "--caption", "Łódź")
         svg = xml.fromstring((self.folder / "s.svg").read_bytes())
@@ -335,7 +338,7 @@ class Compare(Case):
         texts = [t.text for t in svg.iter(SVG + "text")]
         self.assertEqual(texts[0], "الضوء & <b>")
         self.assertLessEqual({t["caption"] for t in answer}, set(texts))
-        # Pictures stand beside one another, inside the page.
+        # The pictures are side by side, within the page.
         left = [float(i.get("x")) for i in images]
         self.assertTrue(all(b - a >= 80 for a, b in zip(left, left[1:])) and left[-1] + 80 <= float(svg.get("width")))
         self.bad(1, "compare", "cube.obj", "--caption", "a", "--caption", "b", "--caption", "c", "--sheet", "light", "--caption", "d", "--caption", "e",
@@ -345,7 +348,7 @@ class Compare(Case):
         a, b = (self.png("compare", "cube.obj", "-s", 48, "--across", "shading=flat,phong", *more) for more in ([], ["--title", "Łódź — Φῶς"]))
         self.assertEqual(a[:2], b[:2])
         self.assertNotEqual(a[2], b[2])
-        # A byte that is no letter, of a model's name, is a replacement character.
+        # An invalid byte in a model's name becomes a replacement character.
         name = b"c\xff.obj"
         (self.folder / "cube.obj").rename(os.path.join(os.fsencode(self.folder), name).decode(errors="surrogateescape"))
         self.good("compare", name.decode(errors="surrogateescape"), "-s", 16, "-o", "s.svg", "--across", "shading=flat")

@@ -1,4 +1,5 @@
-# test_completion.py: what the shells complete: the command behind it, and each shell as its users see it.
+# test_completion.py: the completions of the shells: the underlying command, and each shell as users see
+# it.
 import os
 import pty
 import re
@@ -34,7 +35,7 @@ class Words(Case):
         self.assertEqual(len(self.words("help", "")), len(set(self.words("help", ""))))
 
     def test_every_option(self):
-        """Those that a command takes, and no others; every one of them is in its help."""
+        """The command's own options and no others; its help lists every one of them."""
         for command in ("render", "compare", "check", "diff", "plot", "shader", "lights", "materials"):
             rows, _, shared = self.good(command, "--help").stdout.decode().partition("\nShared with ")
             options = set(re.findall(r"(?m)^  (?:-\w, |    )(--[a-z][a-z0-9-]*)", rows))
@@ -69,9 +70,9 @@ class Words(Case):
             self.assertEqual(self.words(*words), wanted, words)
 
     def test_candidates_are_right(self):
-        """Every word that is offered for a value is accepted there."""
+        """Every value that the completion offers is accepted."""
         options = self.words("-")
-        needs = {"--turntable-light": ["--turntable", 2]}  # options that others go with
+        needs = {"--turntable-light": ["--turntable", 2]}  # options that other options require
         tried = 0
         for option in options:
             for word in self.words(option + "="):
@@ -81,7 +82,7 @@ class Words(Case):
                 tried += 1
                 self.assertNotEqual(self.run_program("sphere", "-s", 4, "-o", "-", option, word, *needs.get(option, ())).returncode, 1, (option, word))
         self.assertGreater(tried, 120)
-        # A key is one: a wrong value is named, not the key.
+        # A key is valid alone: the error names the wrong value, not the key.
         for option, start in (("--material", ""), ("--camera", ""), *(("--light", kind + ":") for kind in ("point", "spot", "directional", "hemisphere", "ambient"))):
             for key in self.words(option, start):
                 if key.endswith("="):
@@ -103,7 +104,7 @@ class Shells(Case):
         self.environment = {**os.environ, "TERM": "dumb", "PATH": f"{self.folder}/bin:{os.environ['PATH']}", "HOME": str(self.folder), "PS1": "> "}
 
     def typed(self, shell, setup):
-        """The command lines after the tabulator, in a terminal."""
+        """Returns the command lines after a tab key, in a terminal."""
         mine, its = pty.openpty()
         process = subprocess.Popen(shell, cwd=self.folder, stdin=its, stdout=its, stderr=its, env=self.environment, start_new_session=True)
         os.close(its)
@@ -132,7 +133,7 @@ class Shells(Case):
     @unittest.skipUnless(shutil.which("zsh"), "no zsh")
     def test_zsh(self):
         self.typed(["zsh", "-f", "-i"], "unsetopt beep; autoload -U compinit; compinit -u -D; source <(lambent generate zsh)")
-        # As a function of $fpath, which is how it is installed.
+        # As a function of $fpath, as it is installed.
         (self.folder / "_lambent").write_bytes(self.good("generate", "zsh").stdout)
         self.typed(["zsh", "-f", "-i"], "unsetopt beep; fpath=($PWD $fpath); autoload -U compinit; compinit -u -D")
 

@@ -1,4 +1,4 @@
-# test_convert.py: the command `convert`: round trips that draw the same bytes, what is said to be lost, files beside the model, hostile names.
+# test_convert.py: the command `convert`: round trips that draw the same bytes, reported losses, files next to the model, hostile names.
 import json
 import os
 import resource
@@ -28,7 +28,7 @@ def glb(data):
 
 class Convert(Case):
     def convert(self, model, output):
-        """Converts, and returns the report; its files are there, and no others."""
+        """Converts a model and returns the report; exactly its files exist."""
         before = set(os.listdir(self.folder))
         report = json.loads(self.good("convert", model, output, "--json").stdout)
         names = [os.path.basename(file["path"]) for file in report["files"]]
@@ -42,13 +42,13 @@ class Convert(Case):
         return self.png(model, "-s", 96, *words)
 
     def same(self, model, output, *words):
-        """A round trip in which nothing of the picture is lost."""
+        """A round trip that preserves the picture exactly."""
         report = self.convert(model, output)
         self.assertEqual(self.picture(model, *words), self.picture(output, *words), f"{model} to {output}: {report['losses']}")
         return report
 
     def check_glb(self, path):
-        """What every GLB file has: views within the buffer, accessors within views, indices in range."""
+        """The properties of every GLB file: views within the buffer, accessors within views, indices in range."""
         root, data = glb((self.folder / path).read_bytes())
         self.assertEqual(root["buffers"][0]["byteLength"], len(data))
         sizes = {5121: 1, 5125: 4, 5126: 4}
@@ -105,7 +105,7 @@ class Convert(Case):
     # --- round trips
 
     def test_glb_to_glb(self):
-        """Every glTF file of the corpus that is drawn at all: the same bytes, or a sentence that says what is lost."""
+        """Every glTF file of the corpus that can be drawn gives the same bytes, or a sentence that lists the losses."""
         self.assertEqual(self.same(SPOT, "spot.glb")["losses"], [])
         self.check_glb("spot.glb")
         count = 0
@@ -121,7 +121,7 @@ class Convert(Case):
         self.assertGreater(count, 3)
 
     def test_twice(self):
-        """A file of its own loses nothing, and is the same file again."""
+        """A file written by Lambent loses nothing, and becomes the same file again."""
         for name in ("a.glb", "a.obj", "a.ply", "a.stl"):
             self.convert("cube.obj", name)
             ending = name.split(".")[1]
@@ -131,7 +131,7 @@ class Convert(Case):
             self.assertEqual(b, c, name)
 
     def test_same_pictures(self):
-        """OBJ with its materials; PLY and OBJ of what has none; STL as it is read."""
+        """OBJ with its materials; PLY and OBJ without materials; STL as it is read."""
         self.assertEqual(self.same("cube.obj", "o.obj")["losses"], [])
         self.assertIn(b"usemtl", (self.folder / "o.obj").read_bytes())
         self.assertEqual(self.same("cube.ply", "p.ply")["losses"], [])
@@ -143,7 +143,7 @@ class Convert(Case):
         self.same("teapot", "t.obj", "--view", "back")
 
     def test_textures(self):
-        """Pictures go beside an OBJ file, and into a GLB file."""
+        """Pictures are written next to an OBJ file, and into a GLB file."""
         report = self.convert(SPOT, "spot.obj")
         self.assertEqual([os.path.basename(f["path"]) for f in report["files"]], ["spot.obj", "spot-0.png", "spot.mtl"])
         self.assertIn("map_Kd", (self.folder / "spot.mtl").read_text())
@@ -156,7 +156,7 @@ class Convert(Case):
         self.assertEqual(colors("spot.obj"), colors("spot.glb"))
 
     def test_colors(self):
-        """Colours of vertices, in PLY, OBJ and GLB."""
+        """Vertex colours in PLY, OBJ and GLB."""
         (self.folder / "c.ply").write_text("""ply
 format ascii 1.0
 element vertex 4
@@ -185,7 +185,7 @@ end_header
         self.assertLessEqual(max(abs(x - y) for x, y in zip(a[2], b[2])), 1)
 
     def test_strokes(self):
-        """Lines and points: GLB and OBJ have both, PLY points, STL neither."""
+        """Lines and points: GLB and OBJ support both, PLY supports points, STL neither."""
         (self.folder / "l.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n")
         (self.folder / "p.ply").write_text("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 2 3\n")
         self.given.update(("l.obj", "p.ply"))
@@ -200,7 +200,7 @@ end_header
         self.bad(1, "convert", "p.ply", "x.3mf", says="3MF")
 
     def test_up(self):
-        """What is up stays up: z in STL and 3MF, y elsewhere."""
+        """The up axis is preserved: z in STL and 3MF, y in other formats."""
         for name in ("s.glb", "s.obj", "s.ply"):
             self.convert("cube.stl", name)
             a, b = self.picture("cube.stl", "--show", "coverage"), self.picture(name, "--show", "coverage")
@@ -213,7 +213,7 @@ end_header
             os.remove(self.folder / "u.ply")
 
     def test_lights_and_cameras(self):
-        """Lights of a scene file that glTF has; a camera; what it has not."""
+        """Lights of a scene file that glTF supports; a camera; unsupported features."""
         scene = {"lambent": 1, "objects": [{"file": "cube.obj"}], "camera": {"eye": [3, 2, 5], "target": [0, 0, 0], "fovy": 40},
                  "lights": [{"type": "point", "position": [2, 3, 4], "diffuse": [9, 8, 7], "specular": [9, 8, 7], "attenuation": [0, 0, 1]},
                             {"type": "ambient", "ambient": [0.1, 0.1, 0.1]}]}
@@ -301,7 +301,7 @@ end_header
     # --- files
 
     def test_files_beside(self):
-        """A file of somebody else's stays; converting again replaces one's own. Odd names do not lead out of the folder."""
+        """A file of another program does not change; converting again replaces Lambent's own file. Odd names do not lead out of the folder."""
         (self.folder / "mine.mtl").write_text("precious")
         self.given.add("mine.mtl")
         self.bad(5, "convert", "cube.obj", "mine.obj", says=("mine.mtl would be overwritten", "mine.obj does not exist"))
@@ -314,7 +314,7 @@ end_header
         self.assertEqual(self.picture("sub/a b.c.obj", "--show", "coverage"), self.picture(SPOT, "--show", "coverage"))
 
     def test_links_beside(self):
-        """A link with the name of a file beside the model is not followed, whether the model is there or not, with the sandbox and without."""
+        """A link with the name of a file next to the model is not followed, with or without the model, with or without the sandbox."""
         (self.folder / "precious").write_text("of the user")
         self.given.update(("precious", "ship.obj", "ship.mtl", "ship-0.png"))
         for name in ("ship.mtl", "ship-0.png"):
@@ -327,13 +327,13 @@ end_header
                     self.assertFalse((self.folder / "missing").exists())
                     os.remove(self.folder / name)
         (self.folder / "ship.obj").unlink()
-        os.symlink("real.obj", self.folder / "ship.obj")  # a link that the user names is followed
+        os.symlink("real.obj", self.folder / "ship.obj")  # a link named by the user is followed
         (self.folder / "real.obj").write_text("older")
         self.good("convert", SPOT, "ship.obj", "-q")
         self.assertTrue((self.folder / "ship.obj").is_symlink() and (self.folder / "real.obj").stat().st_size > 1000)
 
     def test_all_files_or_none(self):
-        """If one file of the model cannot be written, the older files of all of them stay."""
+        """If one file of the model cannot be written, all older files remain."""
         old = {}
         self.good("convert", "cube.obj", "o.obj", "-q")
         for name in ("o.obj", "o.mtl"):
@@ -346,7 +346,7 @@ end_header
             self.assertEqual(sorted(self.new_files()), [])
 
     def test_names_that_files_cannot_have(self):
-        """OBJ and MTL name files without quotes: files beside the model get names that can be read back."""
+        """OBJ and MTL name files without quotes, so files next to the model get names that can be read back."""
         self.good("convert", "-q", SPOT, "plain.obj")
         expected = self.picture("plain.obj")
         for name, stem in (("-bm 1", "_bm 1"), (" lead", "_lead"), ("back\\slash", "back_slash"), ("line\nend", "line_end"), ("tab\tcr\r", "tab_cr_"),
@@ -359,7 +359,7 @@ end_header
                 self.assertEqual((read_png(read.stdout), read.stderr), (expected, b""))
 
     def test_nothing_is_left_if_the_model_cannot_be_written(self):
-        """The files beside the model are written first; new ones are removed again, and older ones stay."""
+        """The files next to the model are written first; on failure, new files are removed and older files remain."""
         (self.folder / "m.mtl").write_text("newmtl a\nKd 1 0 0\n")
         (self.folder / "m.obj").write_text("mtllib m.mtl\n" + "".join(f"v {i} {i * i} 0\n" for i in range(2000)) + "usemtl a\nf 1 2 3\n")
         self.given.update(("m.mtl", "m.obj"))
@@ -385,14 +385,14 @@ end_header
         self.bad(2, "convert", "bad.obj", "x.glb", says="bad.obj")
 
     def test_endings_in_capitals(self):
-        """The format of .STL is that of .stl, and the file has the name that was given."""
+        """The format of .STL equals .stl, and the file keeps the given name."""
         for ending in ("STL", "GLB", "Obj", "PLY", "3MF"):
             self.good("convert", "cube.obj", f"c.{ending}", "-q")
             self.good(f"c.{ending}", "-s", 16, "-o", "x.png", "-q")
         self.given.update({"c.STL", "c.GLB", "c.Obj", "c.PLY", "c.3MF", "c.mtl", "x.png"})
 
     def test_names(self):
-        """Names of materials and objects with every kind of character become names that are read again."""
+        """Names of materials and objects with every kind of character become names that can be read back."""
         (self.folder / "m.mtl").write_text("newmtl a b\nKd 1 0 0\nnewmtl <&\">\nKd 0 1 0\n")
         (self.folder / "m.obj").write_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\ng x%s\\n\nusemtl a b\nf 1 2 3\nusemtl <&\">\nf 1 3 2\n")
         self.given.update(("m.mtl", "m.obj"))

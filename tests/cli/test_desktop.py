@@ -1,4 +1,4 @@
-# test_desktop.py: the files for desktops (packaging/desktop), and thumbnails as GNOME and Xfce ask for them.
+# test_desktop.py: the files for desktops (packaging/desktop), and thumbnails as requested by GNOME and Xfce.
 import configparser
 import json
 import os
@@ -36,7 +36,7 @@ def expand(command, **fields):
 
 class Files(Case):
     def test_formats(self):
-        """Every format of models has a MIME type in all of the files; scene files, which are JSON as any, have none."""
+        """Every model format has a MIME type in all of the files; scene files have none, because they are JSON."""
         reads = re.search(r"lambent reads (.*) and scene files", self.run_program("a.fbx").stderr.decode())[1]
         self.assertEqual({word.strip(" .") for word in reads.split(",")}, set(ENDINGS))
         for name in ("lambent.thumbnailer", f"{ID}.desktop"):
@@ -73,14 +73,14 @@ class Files(Case):
 
 
 class Thumbnails(Case):
-    """The thumbnailer's command line, whatever the file is called."""
+    """The thumbnailer's command line works for every file name."""
     NAMES = ("cube.stl", "-a.stl", "a b'c\"d.stl", "%i%o.stl", "{stem}.stl", "größe.stl", "a;rm -rf $HOME.stl", "file:name.stl", "noise")
 
     def command(self, path, output, size=128):
         return expand(entry("lambent.thumbnailer")["Exec"], i=str(path), o=str(output), s=str(size))
 
     def test_names(self):
-        """The picture has the size, and is a PNG whatever the output's name is."""
+        """The picture has the requested size, and is a PNG for any output name."""
         model = (self.folder / "cube.stl").read_bytes()
         for name in self.NAMES:
             path = self.folder / name
@@ -93,7 +93,7 @@ class Thumbnails(Case):
                 os.remove(self.folder / output)
 
     def in_bubblewrap(self, path, output, more=()):
-        """As GNOME runs thumbnailers: no network, one file to read, one folder to write."""
+        """Runs like GNOME's thumbnailers: no network, one readable file, one writable folder."""
         program = pathlib.Path(PROGRAM).resolve()
         words = [word.replace("lambent -q", "lambent -q " + " ".join(more)) for word in self.command("/tmp/in/" + path.name, "/tmp/out/" + output.name)]
         binds = [word for name in ("/lib", "/lib64", "/bin", "/sbin") for word in
@@ -108,7 +108,7 @@ class Thumbnails(Case):
 
     @tool("bwrap")
     def test_bubblewrap(self):
-        """Inside of bubblewrap, with the program's own sandbox inside of that."""
+        """Inside bubblewrap, and inside the program's own sandbox within it."""
         self.can_wrap()
         out = self.folder / "out"
         out.mkdir()
@@ -133,7 +133,7 @@ class Thumbnails(Case):
 
 @unittest.skipUnless(all(map(shutil.which, ("dbus-run-session", "gdbus", "update-mime-database"))), "dbus, gdbus or update-mime-database is not installed")
 class Tumbler(Case):
-    """Xfce's thumbnail service, on a bus of its own, with the files where `make install` puts them."""
+    """Xfce's thumbnail service on its own bus, with the files where `make install` puts them."""
 
     def setUp(self):
         super().setUp()

@@ -1,4 +1,5 @@
-# test_devices.py: the command `devices`, on this machine and on one whose OpenGL is broken; pictures by OpenGL.
+# test_devices.py: the command `devices` on this machine and on a machine with a broken OpenGL; pictures by
+# OpenGL.
 import json
 import os
 import struct
@@ -15,7 +16,7 @@ class Devices(Case):
         self.assertIn("\ngl", text)
         answer = json.loads(self.good("devices", "--json").stdout)
         self.assertTrue(answer["cpu"].startswith("cpu "))
-        # Either there are devices, or the reason why there are none.
+        # Either devices are listed, or the reason why there are none.
         self.assertTrue(answer["gl"] or answer["gl_reason"])
         for device in answer["gl"]:
             self.assertIn(device["name"] or device["place"], text)
@@ -38,7 +39,7 @@ class Devices(Case):
         drawn = subprocess.run([PROGRAM, "cube", "-s", "32x32"], capture_output=True, cwd=self.folder, timeout=60,
                                env={**os.environ, "LD_LIBRARY_PATH": str(self.folder)})
         self.assertEqual(drawn.returncode, 0)
-        # If OpenGL is requested, no other device draws.
+        # If OpenGL is requested, Lambent does not switch to another device.
         for option in (["--device", "gl"], ["--device", "gles"], ["--gl-device", "0"]):
             self.bad(3, "cube", "-s", "32x32", *option, says=("libEGL.so.1 cannot be opened", "apt install libegl1"),
                      leaves=["cube.png"], env={"LD_LIBRARY_PATH": str(self.folder)})
@@ -107,7 +108,7 @@ class Drawing(Case):
             self.assertNotEqual((self.folder / "gl.png").read_bytes(), plain, more)
 
     def test_texture_filter(self):
-        """The graphics card's filters: another picture, near the exact one."""
+        """The graphics card's filters give another picture, close to the exact one."""
         rows = b"".join(b"\0" + bytes(c for x in range(64) for c in ((230, 220, 200) if x // 8 % 2 == y // 8 % 2 else (40, 30, 20)))
                         for y in range(64))
         chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -122,7 +123,7 @@ class Drawing(Case):
         report = json.loads(self.run_program("diff", "given.ppm", "fast.ppm", "--json").stdout)
         self.assertGreater(report["maximum"], 0)
         self.assertLess(report["mean"], 0.01)
-        # The shaders that are printed say the same.
+        # The printed shaders contain the same filters.
         self.assertIn("texelFetch(", self.good("shader", "floor.obj").stdout.decode())
         printed = self.good("shader", "floor.obj", "--texture-filter", "hardware").stdout.decode()
         self.assertIn("textureGrad(map, at, dx, dy)", printed)
@@ -131,7 +132,8 @@ class Drawing(Case):
     def test_samples_and_repeated_frames(self):
         differ, _ = self.apart("cube", "--samples", 8, "--show", "coverage")
         self.assertLessEqual(differ, 3)
-        # The counts are those of the frame of median time: all is there. The first frame compiles shaders, and of fifteen seven would have to be slower.
+        # The counts belong to the frame with the median time, in which all data is already present. The first frame compiles shaders; to become the
+        # median, it would have to be faster than seven of fifteen.
         report = self.report("cube", "-s", "32x32", "--ao", "off", "--device", "gl", "--repeat", 15, "-o", "r.png")
         self.assertEqual(report["counts"]["bytes_uploaded"], 0)
 

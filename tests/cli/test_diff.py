@@ -15,7 +15,7 @@ def ppm(width, height, pixels):
 
 
 def pfm(width, height, rows):
-    """`rows` from the bottom up, as in the format."""
+    """`rows` are in order from the bottom up, as in the format."""
     return b"PF\n%d %d\n-1.0\n" % (width, height) + struct.pack("<%df" % len(rows), *rows)
 
 
@@ -26,7 +26,7 @@ class Diff(Case):
         return name
 
     def pair(self):
-        """Two pixels: one off by 10 and 1 in red and green, one by 2 in blue."""
+        """Two pixels: one differs by 10 and 1 in red and green, one by 2 in blue."""
         return (self.write("a.ppm", ppm(2, 1, [100, 50, 0, 7, 8, 9])),
                 self.write("b.ppm", ppm(2, 1, [110, 49, 0, 7, 8, 11])))
 
@@ -59,10 +59,10 @@ class Diff(Case):
         self.assertEqual(self.good("diff", a, a, "-q").stdout, b"")
 
     def test_interlaced(self):
-        """A PNG in seven passes is the same picture, at every size, with 8 and 16 bits."""
+        """A PNG with seven passes is the same picture, at every size, with 8 and 16 bits."""
         passes = ((0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2))
         for width, height in ((1, 1), (2, 3), (7, 9), (33, 40)):
-            for depth in (1, 2):  # bytes a number
+            for depth in (1, 2):  # bytes per number
                 pixel_at = lambda x, y: bytes((x * 31 + y * 17 + c * 50 + (x * y) % 7) & 255 for c in range(3 * depth))
                 rows = [b"\0" + b"".join(pixel_at(x, y) for x in range(x0, width, dx))
                         for x0, y0, dx, dy in passes for y in range(y0, height, dy) if x0 < width]
@@ -121,7 +121,7 @@ class Diff(Case):
 
 
 class Models(Case):
-    """Models, and folders of models: old on the left, new on the right, one camera."""
+    """Models, and folders of models: old on the left, new on the right, with one camera."""
 
     def setUp(self):
         super().setUp()
@@ -144,7 +144,7 @@ class Models(Case):
         return json.loads(done.stdout)
 
     def pictures(self, page="report.html"):
-        """The pictures of the page, in order, with their captions."""
+        """The pictures of the page in order, with their captions."""
         text = (self.folder / page).read_text()
         self.assertNotIn("<script", text)
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)', text), [])
@@ -181,7 +181,8 @@ class Models(Case):
             self.assertIn(line, text)
 
     def test_one_camera(self):
-        """A box that becomes twice as wide: in front view both are as high, the new one twice as wide, and both lie within the picture."""
+        """A box that becomes twice as wide: in front view, both have the same height, the new one is twice as wide, and both are within the
+        picture."""
         self.box("new/part.obj", 2)
         found = self.diff("old", "new", "-o", "report.html", "--view", "front", "--projection", "orthographic", "-s", 200, code=6)
         self.assertEqual(found["changed"], 1)
@@ -198,7 +199,7 @@ class Models(Case):
         self.assertAlmostEqual(found["models"][0]["share_over_1"], share, 9)
 
     def test_turned(self):
-        """Both models turn about one axis: a part that has not changed does not move."""
+        """Both models rotate about one axis, so an unchanged part does not move."""
         self.box("new/part.obj", 1)
         with open(self.folder / "new" / "part.obj", "a") as file:  # a second box beside the first
             file.write("".join("v %g %g %g\n" % (x + 5, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)))
@@ -217,7 +218,7 @@ class Models(Case):
         self.assertEqual(self.diff("teapot", "teapot", "--exposure", "auto", "-s", 64, code=0)["equal"], 1)
 
     def test_page(self):
-        """Names are text, not markup; the page goes to standard output; a title takes the folders' place."""
+        """Names are text, not markup; the page is written to standard output; a title replaces the folders' names."""
         self.box("new/a<b>&\"c.obj", 1)
         page = self.run_program("diff", "old", "new", "-o", "-", "--title", "x<y", "-s", 32).stdout.decode()
         self.assertIn("a&lt;b&gt;&amp;", page)

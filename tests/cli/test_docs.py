@@ -33,7 +33,7 @@ class Docs(Case):
             self.assertRegex(text, rf"(?m)^  {code} ")
 
     def test_contracts(self):
-        """docs/check/contracts.md has the names and programs of today; the reports on it are test_check's."""
+        """docs/check/contracts.md contains the current names and programs; test_check tests its reports."""
         done = subprocess.run([sys.executable, ROOT / "scripts" / "contracts.py", PROGRAM, "--check"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.assertEqual(done.returncode, 0, done.stdout.decode())
         page = (ROOT / "docs" / "check" / "contracts.md").read_text()
@@ -46,7 +46,7 @@ class Docs(Case):
             self.assertIn(f"lectures/{lecture.stem}.", page)
 
     def test_brief_help(self):
-        """-h is for the many: 25 lines of 80 columns, the examples first, every command named."""
+        """-h is short: 25 lines of 80 columns, with the examples first and every command listed."""
         lines = self.good("-h").stdout.decode().splitlines()
         self.assertLessEqual(len(lines), 25)
         self.assertLessEqual(max(map(len, lines)), 80)
@@ -68,7 +68,7 @@ class Docs(Case):
         self.assertEqual(self.good("-qh").stdout, self.good("-h").stdout)
 
     def test_help_by_subject(self):
-        """Every subject, command and option has its page, and every option belongs to a subject."""
+        """Every subject, command and option has a page, and every option belongs to a subject."""
         listed = self.good("help").stdout.decode()
         subjects, commands = (re.findall(r"(?m)^  ([a-z-]+)", part) for part in
                               listed.split("Subjects:")[1].split("Options:")[0].split("Commands:"))
@@ -95,7 +95,7 @@ class Docs(Case):
         self.assertRegex(pages["exit-codes"], r"(?m)^  130 ")
 
     def test_own_options_first(self):
-        """A command describes its own options, then names those that it shares with pictures of models."""
+        """A command describes its own options, and then lists the options that it shares with pictures of models."""
         for command, own in (("shape", "parametric"), ("shader", "glsl"), ("compare", "across"), ("batch", "journal"), ("view", "port")):
             page = self.good(command, "--help").stdout.decode()
             rows, _, shared = page.partition("\nShared with pictures of models (lambent --help describes them")
@@ -121,7 +121,7 @@ class Docs(Case):
                          ["MODEL.png", "MODEL-SHEET.png", "KIND.png", "standard output", "no picture, no page", "no sheet", "no sheet"])
         self.assertEqual([default(c, "background COLOR") for c in ("render", "compare")], ["transparent", "white"])
         self.assertEqual([default(c, "tolerance STEPS") for c in ("diff", "check")], ["0", "2"])
-        # What they do without -o.
+        # Their behaviour without -o.
         self.good("compare", "cube.obj", "-s", 16, "--no-captions", "-q")
         self.good("plot", "spot", "-s", 64, "--no-captions", "-q")
         self.assertEqual(self.new_files(), {"cube-summary.png", "spot.png"})
@@ -146,7 +146,7 @@ class Docs(Case):
             self.assertIn(f"--{option}", man)
 
     def test_examples_are_right(self):
-        # Every option of an example is in the table, and each example's command line parses.
+        # Every option of an example is in the table, and each example's command line can be parsed.
         for line in re.findall(r"(?m)^  (lambent .*?)(?:  .*)?$", self.help().split("\nPicture:")[0]):
             words = shlex.split(line.replace("*.stl", "cube.stl").split("<")[0])[1:]
             (self.folder / "pictures").mkdir(exist_ok=True)
@@ -156,7 +156,7 @@ class Docs(Case):
 
     @unittest.skipUnless(shutil.which("dpkg-query"), "not Debian")
     def test_packages_of_libraries(self):
-        """A library that is opened when it is needed comes with the packages that `make` installs; libchafa only draws in terminals."""
+        """The packages that `make` installs include every library that is loaded when needed; libchafa only draws in terminals."""
         sources = [path for folder in ("src", "tools") for ending in ("c", "h") for path in (ROOT / folder).rglob("*." + ending)]
         names = {name for path in sources for name in re.findall(r'"(lib[\w+-]+\.so\.[\w.]+)"', path.read_text())} - {"libchafa.so.0"}
         self.assertGreaterEqual(names, {"libmeshoptimizer.so.2d", "libwebp.so.7", "libmicrohttpd.so.12"})
@@ -179,7 +179,7 @@ class Docs(Case):
         self.assertEqual(kept, made, "refresh it: lambent generate markdown > docs/command-line.md")
 
     def sheet(self, page, picture):
-        """The pictures of a page's sheet, 48 pixels high: caption and pixels."""
+        """The pictures of a page's sheet, scaled to 48 pixels: caption and pixels."""
         [line] = re.findall(rf"(?m)^ +lambent (compare .* -o docs/pictures/lighting/{picture}\.png)$", (ROOT / "docs/lighting" / page).read_text())
         words = [word.replace("examples/", str(ROOT / "examples") + "/") for word in shlex.split(line)[:-2]]
         size = words.index("-s")
@@ -190,7 +190,7 @@ class Docs(Case):
         return {one["caption"]: self.good(words[1], "-s", "48", *more, *one["words"], "-o", "-").stdout for one in done["pictures"]}
 
     def test_rows_of_sheets(self):
-        """Sheets about normals and sides show differences: each method with normals of its own, each side that is left out."""
+        """Sheets about normals and sides show differences: each method with its own normals, each omitted side."""
         normals = self.sheet("shading.md", "normals")
         for shading, different in (("flat", 1), ("gouraud", 3), ("phong", 3)):
             self.assertEqual(len({normals[f"normals {source}, shading {shading}"] for source in ("file", "smooth", "facet")}), different, shading)
@@ -198,7 +198,7 @@ class Docs(Case):
 
     @long
     def test_sheets_of_pages(self):
-        """No two pictures of a sheet of docs/lighting are equal, but for flat shading, which has no use for normals of vertices."""
+        """No two pictures of a sheet in docs/lighting are equal, except for flat shading, which ignores vertex normals."""
         checked = 0
         for page in sorted((ROOT / "docs/lighting").glob("*.md")):
             for picture in re.findall(r"(?m)^ +lambent compare .*--across.* -o docs/pictures/lighting/([a-z-]+)\.png$", page.read_text()):
@@ -210,8 +210,8 @@ class Docs(Case):
         self.assertGreater(checked, 20)
 
     def test_readme_commands(self):
-        """Every command in a code block of the README and of docs/examples.md works, in order, in a tree that has been built. One picture is drawn
-        smaller, which takes 14 s of processor time."""
+        """Every command in a code block of the README and of docs/examples.md works, in order, in a built tree. One picture, which takes 14 s of
+        processor time, is drawn smaller."""
         self.run_readme({"examples/still-life.json": "-s 160 --samples 1"})
 
     @long
@@ -222,7 +222,7 @@ class Docs(Case):
         (self.folder / "build").mkdir()
         os.symlink(PROGRAM, self.folder / "build" / "lambent")
         shutil.copytree(ROOT / "examples", self.folder / "examples")
-        (self.folder / "docs" / "pictures").mkdir(parents=True)  # the tree has it
+        (self.folder / "docs" / "pictures").mkdir(parents=True)  # it exists in the tree
         pages = (ROOT / "README.md").read_text() + (ROOT / "docs" / "examples.md").read_text()
         blocks = re.findall(r"(?m)^\n((?:    \S.*\n)+)", pages)
         lines = [line.strip() for block in blocks for line in block.splitlines()]
@@ -249,7 +249,7 @@ class Docs(Case):
         self.assertEqual({path.name for path in (self.folder / "out" / "thumbs").glob("*.png")}, {f"spot-{ext}-{view}.png" for ext in ("glb", "obj") for view in ("front", "left")})
 
     def test_commands_of_the_pages(self):
-        """Every command in a code block of the README and of docs/ is understood: options, values and commands. Most names of files are made up."""
+        """Every command in a code block of the README and of docs/ is valid: options, values and commands. Most file names are invented."""
         tried = 0
         for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
             for line in re.findall(r"(?m)^    (lambent .*)$", page.read_text()):
@@ -264,8 +264,7 @@ class Docs(Case):
         self.assertGreater(tried, 20)
 
     def test_links_and_pictures(self):
-        """Every link has a target, every picture is shown on a page, and each is drawn by a command on a page or by the program of
-        mistakes."""
+        """Every link has a target, every picture appears on a page, and a command on a page or the program of mistakes draws it."""
         shown, drawn = set(), set()
         for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
             text = page.read_text()
@@ -281,7 +280,7 @@ class Docs(Case):
         self.assertEqual({p for p in kept if not p.name.startswith("mistake-")}, drawn)
 
     def test_anchors(self):
-        """A link to a place in a page names a heading of it."""
+        """A link to a section of a page refers to an existing heading."""
         for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
             for link, place in re.findall(r"\]\(([^)#\s]*)#([^)\s]*)\)", page.read_text()):
                 if "://" not in link:

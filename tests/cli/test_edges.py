@@ -1,4 +1,4 @@
-# test_edges.py: --wireframe, --edges and what belongs to them.
+# test_edges.py: --wireframe, --edges and related options.
 import json
 import math
 import unittest
@@ -95,7 +95,7 @@ class Edges(Case):
         self.assertGreater(sum(line[2][4 * (50 * 100 + x)] < 200 or line[2][4 * (49 * 100 + x)] < 200 for x in range(100)), 30)
 
     def test_dashes_run_along_curves(self):
-        """A hidden circle of 360 edges, each shorter than a dash, has the dashes of its whole length."""
+        """A hidden circle of 360 edges, each shorter than a dash, has dashes along its whole length."""
         ring = [(math.cos(math.radians(a)), math.sin(math.radians(a))) for a in range(360)]
         text = "v 0 0 0\n" + "".join("v %.9f %.9f 0\n" % p for p in ring) + "".join("f 1 %d %d\n" % (i + 2, (i + 1) % 360 + 2) for i in range(360))
         text += "v -2 -2 1\nv 2 -2 1\nv 2 2 1\nv -2 2 1\nf 362 363 364 365\n"

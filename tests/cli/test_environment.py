@@ -33,7 +33,7 @@ class EnvironmentOption(Case):
             self.assertEqual(self.draw(cross)[1], six, lying)
 
     def test_where_faces_lie(self):
-        """In its middle a mirror ball seen from the front shows the direction behind the eye, +Z, and +X at its right."""
+        """In the middle, a mirror ball seen from the front shows the direction behind the eye, +Z; at its right, it shows +X."""
         picture, _ = self.draw(self.six())
         self.assertEqual(pixel(picture, 20, 20)[:3], FACES[4])
         self.assertEqual(pixel(picture, 34, 20)[:3], FACES[0])
@@ -53,7 +53,7 @@ class EnvironmentOption(Case):
         read = lambda data: [pixel(data, x, 20)[:3] for x in (6, 34)]
         self.assertEqual(read(self.draw(halves)[0]), [(255, 0, 0), (0, 0, 255)])
         self.assertEqual(read(self.draw(halves, "--environment-rotation", 180)[0]), [(0, 0, 255), (255, 0, 0)])
-        # The same as PNG, and floats as Radiance and PFM.
+        # The same with PNG, and with floats in Radiance and PFM.
         self.good("teapot", "-s", "64x32", "-q", "-b", "#406080", "-o", "a.png")
         self.good("teapot", "-s", "64x32", "-q", "-b", "#406080", "-o", "a.ppm")
         self.assertEqual(self.draw("a.png")[1], self.draw("a.ppm")[1])
@@ -68,7 +68,7 @@ class EnvironmentOption(Case):
         self.assertIn("kr ⊙ environment = (1 1 1) ⊙ (0 1 0)", text)
 
     def test_reference(self):
-        """The integral by directions: near the split sum where the lobe is a mirror's, explained by its number, refused out of its range."""
+        """The integral over directions: close to the split sum for mirror-like lobes, reported with its number, and rejected if out of range."""
         metal = (*MIRROR[:-1], "--material", "#ffc356,metallic=1,roughness=0.1", "--environment", "sky", "--tone", "none", "-q")
         split, summed = (read_png(self.good(*metal, *more, "-o", "-").stdout) for more in ((), ("--reference", 1024)))
         apart = [abs(a - b) for y in range(12, 28) for x in range(12, 28) for a, b in zip(pixel(split, x, y), pixel(summed, x, y))]
@@ -98,12 +98,12 @@ class EnvironmentOption(Case):
 
 class Opacity(Case):
     def test_layers(self):
-        """One side of a cube lets half through, both sides a quarter; 1 is opaque, 0 shows nothing."""
+        """One side of a cube transmits half, and both sides a quarter; 1 is opaque, 0 shows nothing."""
         words = ("cube", "-s", 20, "--view", "front", "--samples", 1)
         for opacity, more, alpha in ((0.5, ("--cull", "back"), 128), (0.5, (), 191), (1, (), 255), (0, (), 0), (0.2, ("--cull", "front"), 51)):
             picture = self.png(*words, "--opacity", opacity, *more)
             self.assertEqual(pixel(picture, 10, 10)[3], alpha, (opacity, more))
-        # Over white, in raw numbers: the mean of the surface and of what is behind it.
+        # Over white, in raw numbers: the mean of the surface and its background.
         plain, half = (pixel(self.png(*words, "--cull", "back", "--color-mode", "raw", "-b", "white", "--opacity", opacity), 10, 10) for opacity in (1, 0.5))
         for c in range(3):
             self.assertLessEqual(abs(half[c] - (plain[c] + 255) / 2), 1)

@@ -37,7 +37,7 @@ class Models(Case):
             self.one_sentence(self.bad(2, name, says=f"lambent: {name}"))
 
     def test_not_regular(self):
-        """Pipes, devices and folders are never opened, whoever names them: models, material files, scene files, pictures."""
+        """Pipes, devices and folders are never opened, regardless of who names them: models, material files, scene files, pictures."""
         os.mkfifo(self.folder / "pipe")
         self.given.add("pipe")
         for name, says in (("pipe", "pipe: is a pipe, expected a regular file (- is standard input)"),
@@ -54,12 +54,12 @@ class Models(Case):
                 data["environment"] = {"equirectangular": "pipe"}
             self.write("s.json", json.dumps(data).encode())
             self.one_sentence(self.bad(2, "s.json", says=["s.json: ", "pipe: is a pipe, expected a regular file"], timeout=10))
-        with open(self.folder / "cube.obj", "rb") as model:  # a redirected file is a regular one, under any name
+        with open(self.folder / "cube.obj", "rb") as model:  # a redirected file is a regular file, with any name
             self.good("/dev/stdin", "-s", 8, "-o", "-", stdin=model)
         self.good("-", "-s", 8, "-o", "-", stdin=(self.folder / "cube.obj").read_bytes())
 
     def test_material_files_are_read_once(self):
-        """60 kB of mtllib lines took gigabytes."""
+        """60 kB of mtllib lines once took gigabytes."""
         self.write("big.mtl", b"".join(b"newmtl m%d\nKd 1 0 0\nmap_Kd %d.png\n" % (i, i) for i in range(2000)))
         self.write("many.obj", b"mtllib big.mtl\n" * 4000 + b"v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m3\nf 1 2 3\n")
         self.good("many.obj", "-s", 8, "-o", "-", "--memory-limit", "36M", "--threads", 2)
@@ -70,7 +70,7 @@ class Models(Case):
         self.good("spheres.json", "-s", 64, "-o", "-", "--memory-limit", "300M")
 
     def test_huge_picture(self):
-        """A header of 40000×20000 pixels is refused before its memory is taken."""
+        """A header of 40000×20000 pixels is rejected before memory is allocated."""
         row = b"\0" + bytes(5000)
         packer = zlib.compressobj()
         packed = b"".join(packer.compress(row) for _ in range(20000)) + packer.flush()
@@ -81,7 +81,7 @@ class Models(Case):
             self.one_sentence(self.bad(4, *words, says=["huge.png", "40000×20000", "at most 400000000 (--pixel-limit)"]))
 
     def test_half_right_texts(self):
-        """What a cut or edited text model lacks is said with its line: a warning where all is there that is drawn."""
+        """Missing data in a truncated or edited text model is reported with its line: as a warning if all drawn data is present."""
         stl = (self.folder / "cube.stl").read_bytes()
         cut = stl[:stl.rindex(b"endsolid")]
         done = self.good(self.write("cut.stl", cut), "-s", 8, "-o", "-")
@@ -95,7 +95,7 @@ class Models(Case):
         self.one_sentence(self.bad(2, self.write("zero.ply", header % (b"comment \0\n", b"")), says="zero.ply:3: found a zero byte in the header"))
 
     def test_meshlab(self):
-        """MeshLab writes `Tr 1` for opaque materials: the picture is not blank, and one warning says why."""
+        """MeshLab writes `Tr 1` for opaque materials: the picture is not blank, and one warning explains this."""
         mtl = b"#\n# Wavefront material file\n# Converted by Meshlab Group\n#\n\nnewmtl material_0\nKa 0.2 0.2 0.2\nKd 0.8 0.1 0.1\nKs 1 1 1\n" \
               b"%sillum 2\nNs 0.000000\n\n"
         self.write("m.obj", b"mtllib ./m.obj.mtl\nusemtl material_0\n" + b"".join(
@@ -105,7 +105,7 @@ class Models(Case):
         wanted = done.stdout
         self.assertIn(b"warning: m.obj.mtl:11: with Ns 0 the highlight would cover all lit points; it is omitted", done.stderr)
         red, green, blue, alpha = pixel(read_png(wanted), 20, 24)
-        self.assertTrue(red > 2 * green and red > 2 * blue and alpha == 255, (red, green, blue, alpha))  # not white all over
+        self.assertTrue(red > 2 * green and red > 2 * blue and alpha == 255, (red, green, blue, alpha))  # not completely white
         self.write("m.obj.mtl", mtl % b"Tr 1.000000\n")
         done = self.good("m.obj", "-s", 40, "-o", "-")
         self.assertEqual(done.stdout, wanted)
@@ -116,7 +116,7 @@ class Models(Case):
         self.given |= {"a.png", "a.json"}
         self.assertEqual((self.folder / "a.png").read_bytes(), wanted)
         self.assertEqual(self.good("a.json", "-o", "-").stdout, wanted)
-        # What the command line asks for stays as it is.
+        # Values given on the command line do not change.
         clear = self.good("m.obj", "-s", 40, "--opacity", 0, "-o", "-").stdout
         self.assertNotEqual(clear, wanted)
 
@@ -185,7 +185,7 @@ class Outputs(Case):
     def test_output_is_a_folder(self):
         (self.folder / "out.png").mkdir()
         self.given.add("out.png")
-        self.good("cube.obj", "-o", "out.png", "-s", "16")  # pictures go into it
+        self.good("cube.obj", "-o", "out.png", "-s", "16")  # pictures are written into it
         self.assertTrue((self.folder / "out.png" / "cube.png").is_file())
         (self.folder / "cube.png").mkdir()
         self.given.add("cube.png")
@@ -203,7 +203,7 @@ class Outputs(Case):
             os.chmod(self.folder, 0o755)
 
     def test_reported_before_the_work(self):
-        # The model does not exist either: the output is checked first, before any long work.
+        # The model does not exist either; the output is checked first, before any long work.
         self.bad(5, "missing.obj", "-o", "no/x.png", says="no/x.png")
 
     def test_unknown_ending(self):
@@ -244,7 +244,7 @@ class Outputs(Case):
         self.assertEqual(self.new_files(), set())
 
     def test_full_file_system(self):
-        """A real one, of 64 kB: a sentence, exit 5, the old picture as it was, nothing else left; durable or not."""
+        """A real full disk, of 64 kB: an error message, exit 5, the old picture unchanged, and no other files; durable or not."""
         place = self.folder / "small"
         place.mkdir()
         self.given.add("small")

@@ -68,7 +68,7 @@ class Explain(Case):
             self.same_as_picture(str(model), "-s", 200)
 
     def test_places(self):
-        """Each space follows from the one before it; the point's window position is the place that the pixel is lit at."""
+        """Each space follows from the previous one; the point's window position is the position at which the pixel is lit."""
         scene = {"lambent": 1, "objects": [{"shape": "teapot", "transform": [["scale", -1, 1, 1]]}]}
         (self.folder / "mirrored.json").write_text(json.dumps(scene))
         for words in (["teapot", "30,30"], ["teapot", "30,30", "--shading", "gouraud"], ["mirrored.json", "30,30"],
@@ -106,7 +106,7 @@ class Explain(Case):
             self.assertIn(words, text)
 
     def test_matrices(self):
-        """A student can compute each line of the text: eye, clip, NDC and window by the matrices, n by the normal matrix."""
+        """A student can compute each line of the text: eye, clip, NDC and window coordinates with the matrices, and n with the normal matrix."""
         def times(matrix, v):
             return [sum(a * b for a, b in zip(row, v)) for row in matrix]
 
@@ -126,7 +126,8 @@ class Explain(Case):
             words = [words[0], "20,24", *words[1:]]
             for triangle in self.explained(*words, "-s", "64x48", "--samples", 1)["triangles"]:
                 m, *corners = triangle["matrices"], *triangle["places"]
-                # Normals: the transposed inverse of the model-view's 3×3, so that N · Mᵀ is the unit matrix.
+                # The normal matrix N is the inverse transpose of the model-view matrix's 3×3 part M, so that
+                # N · Mᵀ is the unit matrix.
                 for i in range(3):
                     near([sum(m["normal"][i][k] * m["model_view"][j][k] for k in range(3)) for j in range(3)], [float(i == j) for j in range(3)], 9)
                 for place in corners:
@@ -152,7 +153,7 @@ class Explain(Case):
             self.assertEqual("(p1 − p0) × (p2 − p0)" in text, triangle["face_normal"])
 
     def test_cones(self):
-        """A spot light's factor can be computed from what is printed beside it, and 0 says why."""
+        """A spot light's factor can be computed from the printed numbers, and for 0 the text states the reason."""
         for cone, says in (("cutoff=40,exponent=8", "c^ε = "), ("cutoff=2,exponent=8", "outside of the cone: c < cos cutoff"), ("cutoff=180,exponent=3", "c^ε = "),
                            ("inner=10,outer=60", "clamp((c − cos outer) / "), ("inner=1,outer=2", "outside of the cone, c ≤ cos outer"),
                            ("cutoff=180,exponent=2,direction=0/0/1", "max(c, 0)^ε")):
@@ -171,7 +172,7 @@ class Explain(Case):
         self.assertIsNone(self.explained("sphere", "38,38", "-s", 64, "--light", "point")["triangles"][0]["points"][0]["lights"][0]["cone"])
 
     def test_rows_of_the_material(self):
-        """Fields of physical materials at their defaults are not printed."""
+        """Fields of physical materials with default values are not printed."""
         text = self.good("explain", "sphere", "32,32", "-s", 64).stdout.decode()
         for name in ("f0_color", "sheen_color", "attenuation_color", "iridescence_ior"):
             self.assertNotIn(name, text)
@@ -179,7 +180,7 @@ class Explain(Case):
         self.assertIn("sheen_color", self.good("explain", "sphere", "32,32", "-s", 64, "--material", "#ffc356,metallic=0,sheen_color=0.5").stdout.decode())
 
     def test_figure_of_threads(self):
-        """The figure of Kajiya-Kay has the tangent, and neither r nor h, which it does not use."""
+        """The figure of Kajiya-Kay shows the tangent, but not r and h, which it does not use."""
         words = ("explain", "torus-knot", "100,80", "-s", 200, "--light", "point:position=2/2/3")
         letters = {}
         for model in ("kajiya-kay", "phong"):
@@ -196,7 +197,7 @@ class Explain(Case):
         self.assertEqual(self.good(*words).stdout, self.good(*words, "--isa", "plain", "-j", 1).stdout)
 
     def test_environment(self):
-        """The reflection term follows from R, printed in both spaces, and the light of the environment from that direction."""
+        """The reflection term follows from R, printed in both spaces, and from the environment's light in that direction."""
         scene = ("-s", 64, "--environment", "sky", "--reflectivity", "0.25/0.5/1", "--samples", 1)
         self.same_as_picture("sphere", *scene, "--environment-rotation", 70, count=3)
         answer = [self.explained("sphere", "32,32", *scene, "--environment-rotation", turn) for turn in (0, 90)]
@@ -207,7 +208,8 @@ class Explain(Case):
             for c in range(3):
                 self.assertAlmostEqual(r[c], twice * n[c] - v[c], 5)
                 self.assertAlmostEqual(point["terms"]["reflection"][c], (0.25, 0.5, 1)[c] * point["environment"]["light"][c], 6)
-        # The environment is turned counter-clockwise, seen from above, so the lookup direction turns the other way.
+        # The environment is rotated counter-clockwise, seen from above, so the lookup direction rotates the other
+        # way.
         straight, turned = (p["environment"]["direction"] for p in points)
         for got, expected in zip(turned, (-straight[2], straight[1], straight[0])):
             self.assertAlmostEqual(got, expected, 5)
@@ -237,11 +239,12 @@ class Explain(Case):
             self.assertIn(part, text)
         triangle = json.loads(self.good("explain", *lit, "--json").stdout)["triangles"][0]
         light = triangle["points"][0]["lights"][0]
-        self.assertAlmostEqual(light["distribution"], 1 / (math.pi * 0.4 ** 4), places=1)  # the middle: n = h, 1 / (pi alpha^2)
+        self.assertAlmostEqual(light["distribution"], 1 / (math.pi * 0.4 ** 4), places=1)  # in the middle, n = h, so D is 1 / (pi alpha^2)
         self.assertAlmostEqual(light["S"], math.pi * light["distribution"] * light["visibility"] * light["n_dot_l"], places=3)
         self.assertEqual(triangle["values"]["metallic"], 0.5)
         self.assertEqual((triangle["maps"], triangle["values"]["tangent"]), ([], None))
-        # A light by hand and a classic look keep the roughness; in the studio the variance of the normals widens it.
+        # With a light from the command line or a classic look, the roughness does not change; in the studio, the
+        # variance of the normals increases it.
         lit_roughness = lambda *more: json.loads(self.good("explain", *words, *more, "--json").stdout)["triangles"][0]["values"]["lit_roughness"]
         given = triangle["values"]["roughness"]
         self.assertEqual(triangle["values"]["lit_roughness"], given)
@@ -262,7 +265,7 @@ class Explain(Case):
             self.assertGreater(around["specular_part"][c], 0.01)
 
     def test_layers(self):
-        """Each layer of a physical material apart: its share of a light and of the environment; the shares add up to the terms."""
+        """Each layer of a physical material separately, with its share of a light and of the environment; the shares add up to the terms."""
         words = ("sphere", "14,20", "-s", "41", "--samples", "1", "--view", "front", "--environment", "studio", "--light", "directional:direction=0/0/-1",
                  "--material", "#ffc356,roughness=0.4,clearcoat=0.5,clearcoat_roughness=0.1,sheen_color=0.2/0.4/0.6,sheen_roughness=0.5,transmission=0.25")
         text = self.good("explain", *words).stdout.decode()
@@ -333,7 +336,7 @@ class Figure(Case):
             self.assertEqual(texts[row + 1:row + 4], ["%.5g" % x for x in terms[name]], name)
 
     def test_arrows(self):
-        """Without perspective the arrows are the vectors' x and y from the point's place in the picture."""
+        """Without perspective, the arrows are the vectors' x and y, starting at the point's position in the picture."""
         colors = {"n": "#0072b2", "l": "#c98a00", "r": "#b0558a", "h": "#d55e00"}
         for words in (("torus", "80,130"), ("teapot", "140,150", "--shading", "gouraud"), ("cube", "160,150", "--shading", "flat", "--azimuth", "30")):
             svg, answer = self.figure(*words, "-s", "320x240", "--projection", "orthographic", "--elevation", "40", "--light", "directional:direction=1/-2/-1")
@@ -359,7 +362,8 @@ class Figure(Case):
                 self.assertGreater(scale * longest, 20)
 
     def test_png(self):
-        """The same as pixels: the picture lies on white, with its arrows; the numbers stay on standard output unless the figure goes there."""
+        """The same as pixels: the picture is on white, with its arrows; the numbers are written to standard output unless the figure is written
+        there."""
         words = ("explain", "torus", "150,120", "-s", "320x240")
         plain = self.good(*words).stdout
         self.assertEqual(self.good(*words, "-o", "f.png").stdout, plain)
@@ -374,7 +378,7 @@ class Figure(Case):
         self.assertLessEqual({(0x00, 0x72, 0xb2), (0xc9, 0x8a, 0x00), (0xd5, 0x5e, 0x00)}, colors)
 
     def test_elsewhere(self):
-        """The background alone, lines, a light from nowhere."""
+        """Cases: the background alone, lines, a light without a direction."""
         svg, answer = self.figure("torus", "1,1", "-s", "96")
         self.assertEqual(answer["triangles"], [])
         self.assertIn("Only the background is visible here.", [t.text for t in svg.iter(SVG + "text")])

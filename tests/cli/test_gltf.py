@@ -58,7 +58,7 @@ class Gltf(GltfCase):
         self.assertIn(b"apply only to glTF files", done.stderr)
 
     def test_factors(self):
-        """Factors outside of the standard's range are cut to it, with one warning; light that overflows gives no NaN."""
+        """Factors outside the standard's range are clamped, with one warning; light that overflows gives no NaN."""
         huge = {"pbrMetallicRoughness": {"baseColorFactor": [1e30, -5, 2, 9], "metallicFactor": 1e30, "roughnessFactor": -4}}
         model = self.model("huge.gltf", materials=[huge] * 3)
         done = self.good(model, "--variant", "plain", "-s", "16", "-o", "huge.pfm")
@@ -75,7 +75,7 @@ class Gltf(GltfCase):
         model = self.model()
         self.assertEqual(self.middle(model, "--camera", "1"), (255, 0, 0))
         self.good(model, "--camera", "1", "-o", "a.png", "-s", "64", "-q", "-b", "black", "--samples", "1")
-        picture = read_png((self.folder / "a.png").read_bytes())  # 8 units high: the square takes the middle quarter
+        picture = read_png((self.folder / "a.png").read_bytes())  # 8 units high: the square fills the middle quarter
         red = [(x, y) for y in range(64) for x in range(64) if pixel(picture, x, y)[0]]
         self.assertEqual((min(red), max(red), len(red)), ((24, 24), (39, 39), 256))
         report = json.loads(self.good(model, "--camera", "near", "-o", "a.png", "-s", "32", "--json").stdout)
@@ -87,7 +87,7 @@ class Gltf(GltfCase):
         self.bad(1, "cube.obj", "--camera", "0", says="a camera of the file, which has none")
 
     def test_animations(self):
-        """The square moves out of the picture's middle within two seconds; a scene file remembers the moment."""
+        """The square leaves the picture's middle within two seconds; a scene file stores the time."""
         keys = struct.pack("<2f", 0, 2) + struct.pack("<6f", 0, 0, 0, 20, 0, 0)
         model = self.model(
             accessors=[{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
@@ -128,7 +128,7 @@ class Gltf(GltfCase):
         self.assertEqual(self.middle(model, "--camera", behind), (255, 0, 0))
 
     def test_scene_files(self):
-        """--save-scene draws the same bytes again, with what was chosen in the file and changed of its many objects."""
+        """--save-scene draws the same bytes again, with the selected parts of the file and changed objects."""
         light = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}}
         model = self.model(
             nodes=[{"mesh": 0, "children": [1]}, {"mesh": 1, "translation": [1, 0.5, 0.5], "scale": [-1, 1, 1]},
@@ -144,7 +144,7 @@ class Gltf(GltfCase):
         self.given.update(["a.png", "b.png", "a.json"])
 
     def test_lights_that_leave_the_model_black(self):
-        """A dim studio lights them too, unless an option says how they are lit; a saved scene and each view repeat the picture."""
+        """A dim studio lights them too, unless an option sets the lights; a saved scene and each view repeat the picture."""
         light = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}}
         for z, warns in ((-30, True), (30, False)):
             model = self.model(nodes=[{"mesh": 0}, {"mesh": 1}, {"translation": [0, 0, z], "extensions": {"KHR_lights_punctual": {"light": 0}}}, {}],
@@ -176,7 +176,7 @@ class Gltf(GltfCase):
         self.assertTrue(lit[0] < 100 and lit[2] > 150, lit)
 
     def test_glass_that_is_not_shown(self):
-        """A warning says that glass is opaque under methods that do not show it."""
+        """A warning states that glass is opaque with methods that do not support it."""
         model = self.model(materials=[{"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}, {}, {}])
         for words, said in (((), False), (("--reflection", "phong"), True), (("--shading", "gouraud"), True)):
             text = self.good(model, "-s", "16", "-b", "white", "-o", "a.png", *words).stderr
@@ -184,7 +184,7 @@ class Gltf(GltfCase):
         self.given.add("a.png")
 
     def test_moved_lights(self):
-        """A scene file that places a model places its lights and cameras too."""
+        """A scene file that places a model also places its lights and cameras."""
         light = {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 30, "name": "lamp"}]}}
         model = self.model(nodes=[{"mesh": 0}, {"mesh": 1}, {"camera": 0, "translation": [0, 0, 9]},
                                   {"translation": [1, 0, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}}], extensions=light)
@@ -199,7 +199,7 @@ class Gltf(GltfCase):
 
 
 class Compressed(Gltf):
-    """EXT_meshopt_compression: encoded here by the library itself, drawn as the plain file is."""
+    """EXT_meshopt_compression: the data is encoded with the library itself, and draws the same picture as the plain file."""
 
     def encode(self, library, kind, data, count, stride):
         bound = getattr(library, f"meshopt_encode{kind}Bound")

@@ -1,4 +1,4 @@
-# test_info.py: the command `info`: what it says of a model, and that its JSON is as docs/info.schema.json says.
+# test_info.py: the command `info`: its report about a model; the JSON matches docs/info.schema.json.
 import base64
 import json
 
@@ -56,7 +56,7 @@ class Info(GltfCase):
         self.assertEqual(self.info("none.obj")[0]["names"], [])
 
     def test_measure(self):
-        """Area, and the volume of what is closed, in the model's units where the format names none."""
+        """The area, and the volume of closed objects, in the model's units if the format defines none."""
         for model, area, volume in (("cube.obj", 24, 8), ("cube.stl", 24, 8), ("cube.ply", 24, 8), ("sphere", 12.566, 4.18879), ("plane", 4, None)):
             measure = self.info(model)[0]["measure"]
             self.assertAlmostEqual(measure["area"] / area, 1, 2, model)
@@ -65,24 +65,24 @@ class Info(GltfCase):
             if volume:
                 self.assertAlmostEqual(measure["volume"] / volume, 1, 2, model)
         self.assertIn("area 24 units², closed: volume 8 units³", self.good("info", "cube.obj").stdout.decode())
-        # A triangle that is missing, and one that faces the other side.
+        # A missing triangle, and a triangle that faces the other side.
         faces = (self.folder / "cube.obj").read_text()
         lines = [line for line in faces.splitlines() if line.startswith("f ")]
         for change in ("", " ".join([lines[0].split()[0], *reversed(lines[0].split()[1:])])):
             (self.folder / "open.obj").write_text(faces.replace(lines[0], change))
             self.assertFalse(self.info("open.obj")[0]["measure"]["closed"])
-        # Objects of a scene each count, with their transforms.
+        # Each object of a scene counts, with its transform.
         (self.folder / "two.json").write_text(json.dumps({"lambent": 1, "objects": [{"file": "cube.obj"}, {"file": "cube.obj", "transform": [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]}]}))
         measure = self.info("two.json")[0]["measure"]
         self.assertEqual((measure["area"], measure["volume"]), (24 + 96, 8 + 64))
 
     def test_up_of_a_terrain(self):
-        """A terrain in the plane of x and y is taken as Z up, and said to be; nothing else is, and --up overrides it."""
+        """A terrain in the xy plane is read as Z up, with a message; other models are not, and --up overrides it."""
         def grid(height, floor=False):
             n = 30
             vertices = [(x, y, height(x, y)) for y in range(n) for x in range(n)]
             faces = [(k + 1, k + 2, k + n + 2, k + n + 1) for k in range(n * (n - 1)) if k % n < n - 1]
-            if floor:  # seen from below, as a plate has it
+            if floor:  # seen from below, like a plate
                 vertices += [(x, y, -1) for x, y, _ in vertices]
                 faces += [tuple(n * n + k for k in reversed(face)) for face in faces]
             return "".join("v %g %g %g\n" % v for v in vertices) + "".join("f %d %d %d %d\n" % f for f in faces)
@@ -100,7 +100,7 @@ class Info(GltfCase):
         self.given.add("a.png")
 
     def test_drawing_memory(self):
-        """What drawing takes besides the model: at least the picture, more with more threads; none within a limit that it exceeds."""
+        """The memory for drawing in addition to the model: at least the picture, more with more threads; no estimate if it exceeds the limit."""
         rows = [self.info("teapot", "--threads", n)[0]["drawing"] for n in (1, 3)]
         self.assertEqual([(r["width"], r["height"], r["threads"]) for r in rows], [(1024, 1024, 1), (1024, 1024, 3)])
         self.assertTrue(4 << 20 < rows[0]["memory_bytes"] < rows[1]["memory_bytes"] < 64 << 20, rows)
@@ -108,7 +108,7 @@ class Info(GltfCase):
         self.assertIsNone(self.info("teapot", "--memory-limit", "9M")[0]["drawing"])
 
     def test_required_extensions(self):
-        """What drawing refuses is still looked into."""
+        """Models that cannot be drawn can still be inspected."""
         model = self.model(extensionsUsed=["NO_such"], extensionsRequired=["NO_such"])
         self.bad(3, model, "-o", "a.png", says="NO_such")
         row = self.info(model)[0]
@@ -117,7 +117,7 @@ class Info(GltfCase):
         self.assertIn(b"NO_such: required, unknown", self.good("info", model).stdout)
         self.assertIn(b"--lenient", self.good("info", model).stdout)
         self.assertFalse(self.info(model, "--lenient")[0]["needs_lenient"])
-        # Another reason stays an error.
+        # Other errors remain errors.
         done = self.run_program("info", "--json", self.model(asset={"version": "1.0"}))
         self.assertEqual(done.returncode, 3)
         row = json.loads(done.stdout)
@@ -154,7 +154,7 @@ class Info(GltfCase):
         self.assertEqual((row["counts"]["parts"], row["counts"]["triangles"]), (2, 2))
         material = row["materials"][0]
         self.assertEqual((material["name"], material["kind"], material["specular"], material["shininess"]), ("shiny", "classic", [1, 1, 1], 40))
-        self.assertEqual(material["maps"], [{"slot": "diffuse", "file": "wood.jpg", "texture": None}])  # there is no such file
+        self.assertEqual(material["maps"], [{"slot": "diffuse", "file": "wood.jpg", "texture": None}])  # the file does not exist
         self.assertEqual((teapot["format"], teapot["textures"], teapot["extensions"]), ("shape", [], []))
         text = self.good("info", "two.obj", "teapot").stdout.decode()
         self.assertIn("0 'shiny', classic: diffuse 0.214, specular 1, shininess 40; maps diffuse", text)
@@ -176,7 +176,8 @@ class Info(GltfCase):
         self.assertEqual((color["name"], color["file"], color["format"], color["width"], color["height"]), ("skin", "map.png", "png", 4, 2))
         self.assertEqual((color["slots"], numbers["slots"], glow["slots"]), (["diffuse"], ["metallic", "roughness", "occlusion"], ["emission"]))
         self.assertEqual((glow["file"], glow["format"], unread["file"]), (None, "png", "gone.jpg"))
-        # Without alpha: three bytes a texel at full size, three floats below: 2x1 and 1x1.
+        # Without alpha: three bytes per texel at full size, three floats at smaller levels: 2x1 and
+        # 1x1.
         self.assertEqual(color["memory_bytes"], 4 * 2 * 3 + (2 + 1) * 12)
         self.assertEqual([m["texture"] for m in row["materials"][0]["maps"]], [0, 2, 1, 1, 1])
         text = self.good("info", model).stdout.decode()

@@ -17,7 +17,7 @@ TURNED = [["translate", 0.1, 0.2, 0], ["rotate", 30, 0.2, 0, 1], ["scale", 0.7, 
 
 
 def ball(around=7, along=5, colors=None):
-    """An open piece of a sphere, both sides of which show."""
+    """An open piece of a sphere with both sides visible."""
     vertices, faces = [], []
     for j in range(along + 1):
         for i in range(around + 1):
@@ -46,7 +46,7 @@ def single(x):
 
 class Known(Case):
     def write_mesh(self, name, mesh):
-        """Rounded to floats, as for the reference."""
+        """Rounded to floats, as in the reference."""
         colored = "color" in mesh["vertices"][0]
         for v in mesh["vertices"]:
             for key in v:
@@ -179,7 +179,7 @@ class Known(Case):
 
 
     def test_converges(self):
-        """With twice the segments the error of a sphere falls by 4, and by 2 with one colour per triangle."""
+        """With twice as many segments, the error of a sphere falls by a factor of 4, and by 2 with one colour per triangle."""
         matte = {**BRASS, "shininess": 10}
         lamp = {"type": "point", "position": [1.5, 2.2, 5], "attenuation": [0.5, 0.02, 0.03], "diffuse": [1, 0.8, 0.9], "specular": [0.7, 1, 1]}
         for shading, factor in (("flat", 2), ("gouraud", 4), ("phong", 4)):
@@ -200,7 +200,7 @@ class Known(Case):
                         way = unit(way)
                         b = dot(origin, way)
                         under = b * b - dot(origin, origin) + 1
-                        if under < 0.1:  # beside the ball, or so near its outline that the triangles' one matters
+                        if under < 0.1:  # outside the ball, or so close to its outline that the outline of the triangles decides
                             continue
                         p = add(origin, scale(way, -b - math.sqrt(under)))
                         want = exact.lit(exact.material(matte), p, p, (0.3, 0.5, -0.8), (1, 1, 1))

@@ -12,7 +12,7 @@ DIFFUSE_ONLY = ("--material", "specular=0,ambient=0")
 
 
 def difference(a, b):
-    """The largest difference of a byte of two pictures."""
+    """The largest difference of a byte between two pictures."""
     return max(abs(x - y) for x, y in zip(a[2], b[2]))
 
 
@@ -25,7 +25,7 @@ class UpAxis(Case):
         return light
 
     def test_defaults_turn_with_it(self):
-        """Lights without a position stand before the model, whatever its up axis; what a user gives stays in the model's axes."""
+        """Lights without a position are in front of the model for any up axis; positions given by a user stay in the model's axes."""
         self.good("shape", "cube", "-q", "-o", "part.stl")
         self.given.add("part.stl")
         r = math.sqrt(3)
@@ -40,7 +40,7 @@ class UpAxis(Case):
 
 class Default(Case):
     def test_faces_of_a_cube(self):
-        """From every azimuth the three faces that are seen differ by 20 steps each, for grey meshes and for white physical ones."""
+        """From every azimuth, the three visible faces differ by 20 steps each, for grey meshes and for white physical ones."""
         scene = {"lambent": 1, "objects": [{"shape": "cube", "material": {"diffuse": [1, 1, 1], "metallic": 0}}]}
         (self.folder / "white.json").write_text(json.dumps(scene))
         for ending in ("obj", "stl"):
@@ -61,7 +61,7 @@ class Default(Case):
                     self.assertLessEqual(tones[2], 245) # darker than white paper
 
     def test_dark_models_get_more_light(self):
-        """Their exposure follows from their colours: the same from every side, and none for who chooses an exposure, a colour or lights."""
+        """Their exposure depends on their colours. It is the same from every side, and is not used with a given exposure, colour or light."""
         self.good("shape", "torus-knot", "-q", "-o", "white.obj")
         shape = (self.folder / "white.obj").read_text()
         for name, kd in (("white", 0.8), ("grey", 0.3), ("black", 0.01), ("lamp", 0.01)):
@@ -84,7 +84,7 @@ class Default(Case):
         self.assertAlmostEqual(explained["exposure"], 2 ** black, places=4)
 
     def test_named_metals_mirror_the_studio(self):
-        """A metal's name alone is the physical metal under the default lights, and the classic table's row under all others."""
+        """The name of a metal alone means the physical metal under the default lights, and the row of the classic table under other lights."""
         physical = "diffuse=1/0.782/0.344,metallic=1,roughness=0.2"
         draw = lambda *words: self.png("teapot", "-s", "48", *words)
         self.assertEqual(draw("--material", "gold"), draw("--material", physical))
@@ -101,7 +101,7 @@ class Looks(Case):
         self.assertEqual(self.png("teapot", "-s", "48", "--look", "studio"), default)
         pictures = {self.png("teapot", "-s", "48", "--look", name) for name in listed}
         self.assertEqual(len(pictures), 4)
-        # A printed look is the file of one.
+        # A printed look can be used as a file.
         for name in listed:
             (self.folder / "copy.look").write_bytes(self.good("looks", name).stdout)
             self.given.add("copy.look")
@@ -133,7 +133,7 @@ class Looks(Case):
         self.bad(1, "teapot", "--look", look("--shadows yes\n"), says="takes no value")
         self.bad(1, "teapot", "--look", look("--ao off\0\n"), says="not a look")
         self.bad(1, "teapot", "--look", look("#" * 70000), says="64 KiB")
-        os.mkfifo(self.folder / "pipe.look")  # whose opening would wait for a writer
+        os.mkfifo(self.folder / "pipe.look")  # opening it would wait for a writer
         self.given.add("pipe.look")
         for path in ("pipe.look", "/dev/zero", "."):
             self.bad(1, "teapot", "--look", path, says="not a regular file")
@@ -180,7 +180,7 @@ class Lights(Pictures):
         self.same(("--rig", "headlight"), ("--light", "directional:direction=0/0/-1,frame=camera"))
 
     def test_radii(self):
-        # The sphere's radius is 1 and its centre the origin: radii are the model's units.
+        # The sphere's radius is 1 and its centre is the origin, so radii equal the model's units.
         self.same(("--light", "point:position=2r/1r/3r"), ("--light", "point:position=2/1/3"), 1)
         self.same(("--light", "point:position=0/2r/0"), ("--light", "point:position=0/2/0"), 1)
         self.same(("--light", "point:position=2/1/3,attenuation=1/2.7r/5r"), ("--light", "point:position=2/1/3,attenuation=1/2.7/5"), 1)
@@ -192,7 +192,7 @@ class Lights(Pictures):
         (self.folder / "large.obj").write_text("\n".join(large) + "\n")
         words = ("--light", "point:position=2r/1r/3r,attenuation=0.2/0.1r/0.1r,range=9r", "--light", "spot:position=0/3r/1r,cutoff=30")
         a, b = self.picture(*words, model="cube.obj"), self.picture(*words, model="large.obj")
-        far_off = sum(abs(x - y) > 2 for x, y in zip(a[2], b[2]))  # but for some pixels of the edges
+        far_off = sum(abs(x - y) > 2 for x, y in zip(a[2], b[2]))  # except for some edge pixels
         self.assertLess(far_off, 0.01 * len(a[2]))
         self.assertGreater(max(a[2][0::4]), 60)
 
@@ -215,7 +215,7 @@ class Lights(Pictures):
     def test_spots(self):
         at = "spot:position=0/0/4,target=0/0/0,"
         self.same(("--light", at + "cutoff=10"), ("--light", "spot:position=0/0/4,direction=0/0/-1,cutoff=10"))
-        self.same(("--light", at + "cutoff=10"), ("--light", "spot:position=0/0/4,cutoff=10"))  # aims at the middle
+        self.same(("--light", at + "cutoff=10"), ("--light", "spot:position=0/0/4,cutoff=10"))  # points at the middle
         cones = [self.picture("--light", at + keys)[2] for keys in ("cutoff=10", "cutoff=5", "exponent=60", "inner=5,outer=10",
                                                                      "cutoff=10,exponent=60", "cutoff=180")]
         self.assertEqual(len(set(cones)), len(cones))
@@ -228,7 +228,7 @@ class Lights(Pictures):
         self.same(("--light", world), ("--light", model))
         self.same((*words, "--light", model), (*words, "--light", "point:position=4/0/0"), 1)
         self.same((*words, "--light", model), (*words, "--light", model + ":sphere"), 1)
-        # A light of the camera stands at the eye.
+        # A light in the camera's frame is at the eye.
         eye = "/".join(map(repr, self.report("sphere", "-s", 16)["camera"]["eye"]))
         self.same(("--light", "point:frame=camera"), ("--light", f"point:position={eye}"), 1)
 
@@ -236,14 +236,14 @@ class Lights(Pictures):
         light = ("--light", "directional:direction=-1/-1/-1", *DIFFUSE_ONLY, "--view", "front")
         cube = {r: self.picture(*light, *r, model="cube.obj") for r in (("--rotate", "y:0"), ("--rotate", "y:90"), ("--rotate", "y:30"))}
         still, quarter, between = cube.values()
-        self.assertLessEqual(difference(still, quarter), 1)  # a cube looks the same, lit from there too
+        self.assertLessEqual(difference(still, quarter), 1)  # a cube looks the same, and is lit from there too
         self.assertGreater(difference(still, between), 9)
         both = ("--rotate", "x:90", "--rotate", "y:90"), ("--rotate", "y:90", "--rotate", "x:90")
         a, b = (self.picture(*light, *r, model="teapot") for r in both)
-        self.assertGreater(difference(a, b), 9)  # in the order given
+        self.assertGreater(difference(a, b), 9)  # in the given order
 
     def test_one_camera_for_every_angle(self):
-        """Turned by any angle about an axis, or about several, a model is seen by one camera, and not cut."""
+        """A model rotated by any angle about one axis or several is seen by one camera, and is not cut off."""
         for turns in (["y:0"], ["y:45"], ["y:-100"]), (["x:0", "y:0"], ["x:10", "y:45"], ["y:300", "z:50"]):
             cameras = []
             for turn in turns:
@@ -254,9 +254,9 @@ class Lights(Pictures):
                 rim = alpha[:width] + alpha[-width:] + alpha[::width] + alpha[width - 1::width]
                 self.assertEqual(set(rim), {0}, turn)
             self.assertEqual(cameras[1:], cameras[:1] * 2)
-        # Where the sweep fits, it is the camera of the model as it is.
+        # If the sweep fits, it is the camera of the unrotated model.
         self.assertEqual(*(self.report("sphere", "-s", 64, *words)["camera"] for words in ([], ["--rotate", "y:70"])))
-        # A named or exact camera, and that of a scene file, stay what they are.
+        # A named or exact camera, and the camera of a scene file, do not change.
         self.assertEqual(*(self.report("cube.obj", "-s", 64, "--camera", "eye=1/2/9", *words)["camera"] for words in ([], ["--rotate", "y:70"])))
 
     def test_errors(self):
@@ -297,7 +297,7 @@ class Materials(Pictures):
     def test_named(self):
         brass = "ambient=0.329412/0.223529/0.027451,diffuse=0.780392/0.568627/0.113725,specular=0.992157/0.941176/0.807843,shininess="
         self.same(("--material", "brass", "--color-mode", "raw"), ("--material", brass + "27.8974", "--color", "raw"))
-        # Published as a display showed them: without --color-mode raw they are decoded.
+        # Published values are display values, so they are decoded unless --color-mode raw is given.
         self.same(("--material", "red-rubber"), ("--material", "ambient=0.00393594/0/0,diffuse=0.2140411/0.1328683/0.1328683,"
                                                  "specular=0.4479884/0.00309598/0.00309598,shininess=10"))
         (self.folder / "named.json").write_text('{"lambent": 1, "objects": [{"shape": "sphere", "material": "red-rubber"}]}')
@@ -309,7 +309,7 @@ class Materials(Pictures):
         self.other(("--material", "gold"), ("--material", "ruby"))
 
     def test_keys(self):
-        self.same(("--material", "ambient=0.62,diffuse=0.62,specular=0.12,shininess=32,emission=0"), ())  # the default's numbers
+        self.same(("--material", "ambient=0.62,diffuse=0.62,specular=0.12,shininess=32,emission=0"), ())  # the default values
         self.same(("--material", "color=1/0.5/0,ka=0.2,kd=0.8,specular_color=1,ks=0.3"),
                   ("--material", "ambient=0.2/0.1/0,diffuse=0.8/0.4/0,specular=0.3"))
         self.same(("--material", "kd=0.5"), ("--material", "diffuse=0.31"))
@@ -331,7 +331,7 @@ class Materials(Pictures):
         self.same(("--material", "gold@sphere"), ("--material", "gold"))
 
     def test_materials_of_glb(self):
-        """Its opaque materials become transparent, and a metal's name replaces its textures too."""
+        """The model's opaque materials become transparent, and the name of a metal also replaces its textures."""
         spot = os.path.join(ROOT, "examples", "models", "spot.glb")
         self.assertEqual(pixel(self.picture(model=spot), 32, 32)[3], 255)
         self.assertIn(pixel(self.picture("--opacity", "0.5", model=spot), 32, 32)[3], range(100, 156))
@@ -347,7 +347,7 @@ class Materials(Pictures):
         self.assertGreater(pixel(self.picture("--look", "technical", "--view", "front", model="black.obj"), 25, 40)[0], 150)
 
     def test_color(self):
-        """A colour alone is a material, and --color is the colour of every material."""
+        """A colour alone is a valid material, and --color sets the colour of every material."""
         for color in ("red", "#ff8800", "0.2/0.4/0.1"):
             wanted = ("--material", "color=" + color)
             self.same(("--color", color), wanted)
@@ -359,9 +359,9 @@ class Materials(Pictures):
             self.other(("--color", color), ())
         top = pixel(self.picture("--color", "red"), 32, 20)
         self.assertEqual((top[0] > 150, top[1] < 90, top[2] < 90), (True, True, True), top)
-        self.same(("--rig", "studio", "--material", "silver"), ("--rig", "studio", "--material", "silver,opacity=1"))  # the material, not the colour of HTML
+        self.same(("--rig", "studio", "--material", "silver"), ("--rig", "studio", "--material", "silver,opacity=1"))  # the material, not the HTML colour
         self.other(("--material", "silver"), ("--color", "silver"))
-        # Every material of a model, and a warning where colours of its own multiply.
+        # Every material of a model; a warning appears if colours of the model multiply.
         picture = self.picture("--color", "#00ff00", "--light", "none", "--ambient", "1", "--view", "front", model="cube.obj")
         self.assertEqual(pixel(picture, 32, 32)[:3], (0, 255, 0))
         ply = "ply\nformat ascii 1.0\nelement vertex 3\n" + "".join(
@@ -378,7 +378,7 @@ class Materials(Pictures):
         self.assertEqual(pixel(self.picture(*words, "back", model="one.obj"), 44, 44), (255, 0, 0, 255))
         lit = ("--light", "directional:frame=camera", "--shininess", "3", "--view", "back")
         self.assertEqual(self.picture(*lit, "--back-material", "emission=0", model="one.obj"), self.picture(*lit, model="one.obj"))
-        # Sides: with the unchanged normal the back is dark; culled it disappears.
+        # With the unchanged normal, back faces are dark; with culling, they disappear.
         dark = self.picture(*lit, "--one-sided", *DIFFUSE_ONLY, model="one.obj")
         self.assertEqual(pixel(dark, 44, 44), (0, 0, 0, 255))
         self.assertEqual(dark, self.picture(*lit, "--back-faces", "one-sided", *DIFFUSE_ONLY, model="one.obj"))
@@ -438,7 +438,7 @@ class Materials(Pictures):
         self.assertEqual(answer[[material["name"] for material in answer].index("brass")],
                          {"name": "brass", "ambient": [0.329412, 0.223529, 0.027451], "diffuse": [0.780392, 0.568627, 0.113725],
                           "specular": [0.992157, 0.941176, 0.807843], "shininess": 27.897436})
-        # Without --color-mode raw: the linear numbers that --material and scene files take.
+        # Without --color-mode raw, these are the linear numbers of --material and scene files.
         chrome = self.good("materials").stdout.decode().split("chrome")[1].split()
         self.assertEqual(chrome[3:7], ["0.132868"] * 3 + ["0.561662"])
         answer = json.loads(self.good("materials", "--json").stdout)["materials"]
@@ -451,7 +451,7 @@ class Materials(Pictures):
         self.assertEqual((width, height), (300, 200))
         middles = {pixel(sheet, 25 + 50 * column, y)[:3] for column in range(6) for y in (45, 82, 120, 158)}
         self.assertGreaterEqual(len(middles), 20)
-        # Chrome, silver and white plastic are three materials to the eye: the body's grey or the highlight tells each from each.
+        # Chrome, silver and white plastic look different: the grey of the body or the highlight distinguishes them.
         looks, sheet = [], self.png("materials", "-s", "300x200", "-b", "transparent")
         for column, row in ((2, 1), (5, 1), (4, 2)):
             greys = sorted(pixel(sheet, x, y)[0] for x in range(50 * column, 50 * column + 50) for y in range(20 + 37 * row, 46 + 37 * row)
@@ -459,7 +459,7 @@ class Materials(Pictures):
             looks.append((greys[len(greys) // 2], greys[-len(greys) // 50]))
         for i in range(3):
             self.assertGreater(max(abs(a - b) for a, b in zip(looks[i], looks[i - 1])), 20, looks)
-        # The captions are below the swatches, and nowhere else.
+        # The captions are below the swatches, and only there.
         clear = ("materials", "-s", "300x200", "-b", "transparent")
         words, plain = self.png(*clear), self.png(*clear, "--no-captions")
         differs = [(x, y) for y in range(200) for x in range(300) if pixel(words, x, y) != pixel(plain, x, y)]
@@ -512,7 +512,7 @@ class Methods(Pictures):
             self.assertNotEqual(a, b, words)
         for words in (("--viewer", "local"), ("--flat-normal", "face"), ("--cull", "none")):
             self.same((*shiny, *words), shiny)
-        # Matched: Blinn-Phong at alpha is plain Blinn-Phong at four times alpha.
+        # With matching, Blinn-Phong at alpha equals plain Blinn-Phong at four times alpha.
         self.same((*shiny, "--match-highlights", "--shininess", "8"), (*shiny, "--shininess", "32"))
         for words in (("--viewer", "far"), ("--flat-normal", "edge"), ("--cull", "all")):
             self.bad(1, "sphere", *words, says=["option '" + words[0] + "'", "expected"])
@@ -552,7 +552,7 @@ class Methods(Pictures):
         words = ("--reflection", "kajiya-kay", "--light", "point:position=1/0.2/0.6", "--material", "specular=1", "--view", "front")
         along, across, none = (self.picture(*words, model=f"{n}.obj") for n in ("along", "across", "none"))
         self.assertGreater(difference(along, across), 9)
-        self.assertEqual(along, none)  # the direction field of a plane facing +z runs along x
+        self.assertEqual(along, none)  # the direction field of a plane that faces +z is along x
 
 
 if __name__ == "__main__":
@@ -561,7 +561,7 @@ if __name__ == "__main__":
 
 class Markers(Case):
     def test_show_lights(self):
-        """Markers glow at the lights in their colours; the lighting of the model and the view do not change."""
+        """Markers glow at the lights in the lights' colours; the lighting of the model and the view do not change."""
         words = ["cube.obj", "-s", "120", "--samples", "1", "--zoom", "0.25", "--light",
                  "point:position=0/2r/0,color=lime"]
         plain, marked = self.png(*words), self.png(*words, "--show-lights")
@@ -570,7 +570,7 @@ class Markers(Case):
         self.assertEqual(pixel(plain, 60, 60), pixel(marked, 60, 60))
 
     def test_markers_outside_of_the_picture_are_named(self):
-        """A marker that shows no pixel has a warning, and one that shows some has none."""
+        """A marker without visible pixels causes a warning; a marker with visible pixels causes none."""
         def warned(*words):
             report = self.report("cube.obj", "-s", "120x80", "--samples", "1", "--show-lights", *words)
             return " ".join(w for w in report.get("warnings", []) if "--show-lights" in w)

@@ -1,4 +1,4 @@
-# test_limits.py: limits on files from strangers: small files that claim to be huge, and each limit with its option.
+# test_limits.py: limits for untrusted files: small files that claim to be huge, and each limit with its option.
 import base64
 import json
 import os
@@ -62,7 +62,7 @@ PICTURES = {
 
 
 def gltf(**more):
-    """One triangle whose positions are accessor 0; `more` replaces or adds to the top."""
+    """One triangle whose positions are accessor 0; `more` replaces top-level keys or adds to them."""
     data = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
     tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -142,12 +142,12 @@ MODELS = {
 
 
 class Limits(Case):
-    # The system's largest resident memory counts from before exec(), so a small process starts the program and measures it.
+    # The system counts the peak resident memory from before exec(), so a small process starts the program and measures it.
     MEASURE = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode; "
                "u = resource.getrusage(resource.RUSAGE_CHILDREN); print(code, u.ru_utime + u.ru_stime, u.ru_maxrss / 1000)")
 
     def measured(self, *words, limit=None):
-        """Exit code, message, seconds of the processor, and largest resident memory in MB of a run."""
+        """The exit code, the message, the processor time in seconds, and the peak resident memory in MB of a run."""
         done = subprocess.run([sys.executable, "-S", "-c", self.MEASURE, PROGRAM, *words], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               preexec_fn=limit)
         code, cpu, memory = done.stdout.split()
@@ -159,7 +159,7 @@ class Limits(Case):
             self.assertIn(code, (2, 3, 4), f"{name}: {code} {text}")
             self.assertRegex(text, r"^lambent: (error: )?\S")
             if not SANITIZED:
-                self.assertLess(cpu, 0.5, name)  # of which the program's start has some milliseconds
+                self.assertLess(cpu, 0.5, name)  # which includes some milliseconds for the program's start
                 self.assertLess(memory, 150, name)
 
     def test_models_that_claim_too_much(self):
@@ -172,13 +172,13 @@ class Limits(Case):
         (self.folder / "one.png").write_bytes(png(1, 1))
         for name, data in PICTURES.items():
             (self.folder / name).write_bytes(data)
-            # A WebP picture of one colour has no bits for its pixels, so its size is no mistake: it ends at the limit of memory.
+            # A WebP picture of one colour needs no bits for its pixels, so its size is valid; it ends at the memory limit.
             limit = ["--memory-limit", "500M"] if name == "a.webp" else []
             self.claims(name, "diff", name, name, *limit)
             self.claims(name, "cube.obj", "-s", "16", "--environment", name, "-o", "out.png", *limit)
 
     def unfolding(self):
-        """Files below 100 kB that ask for much work: name, contents, and words of the sentence that refuses them; None: drawn."""
+        """Files below 100 kB that require much work: name, contents, and words of the error message; None: drawn."""
         corners = b" ".join(b"%d" % (i * 7 % 5 + 1) for i in range(48000))
         square = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .2 0\n"
         clear = [{"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}}]
@@ -215,7 +215,7 @@ class Limits(Case):
                     self.assertLess(memory, 1000)
 
     def test_small_files_end_in_time(self):
-        """With the limits that follow from the size raised, the limit of time ends the same files within half a second."""
+        """With higher size-dependent limits, the time limit stops the same files within half a second."""
         (self.folder / "clear.mtl").write_text("newmtl a\nd 0.5\n")
         raised = [word for name in ("object", "layer", "triangle", "expansion") for word in ("--%s-limit" % name, "2000000000")]
         for name, (data, _) in self.unfolding().items():
@@ -259,7 +259,7 @@ class Limits(Case):
         os.remove(self.folder / "deep.png")
         os.remove(self.folder / "cube.png")
         self.bad(4, "deep.gltf", "-s", 8, "--json-depth-limit", "20", says=["deep.gltf", "21 deep", "at most 20", "--json-depth-limit"], leaves={"map.png", "deep.gltf"})
-        # At the deepest limit there is, the parser's own stack holds.
+        # At the deepest allowed nesting, the parser's own stack is sufficient.
         (self.folder / "deep.gltf").write_bytes(gltf(extras=json.loads("[" * 900 + "]" * 900)).replace(b"[" * 800, b"[" * 1899).replace(b"]" * 800, b"]" * 1899))
         self.good("deep.gltf", "-s", 8, "--json-depth-limit", "2000")
 
@@ -271,7 +271,7 @@ class Limits(Case):
         self.bad(1, "check", "none.frag", "--memory-limit", "none", says="--memory-limit", leaves={"cube.png"})
 
     def test_memory_of_address_space(self):
-        """The default is a quarter of RLIMIT_AS: what does not fit is refused, and nothing crashes."""
+        """The default is a quarter of RLIMIT_AS: models that do not fit are refused, and nothing crashes."""
         if SANITIZED:
             self.skipTest("sanitizers take more address space than any limit")
         limit = 2 << 30
@@ -283,7 +283,7 @@ class Limits(Case):
         self.assertEqual(code, 0, text)
 
     def test_memory_of_a_control_group(self):
-        """In a group of 512 MB the default is 128 MB: models that do not fit are refused, and the kernel has nothing to kill."""
+        """In a group of 512 MB, the default is 128 MB: models that do not fit are refused, so the kernel need not kill anything."""
         group = self.control_group(512 << 20)
         if SANITIZED:
             self.skipTest("sanitizers take more memory")
@@ -291,7 +291,7 @@ class Limits(Case):
         code, text, *_ = self.measured("cube.obj", "-s", "7000", "-o", "a.ppm", limit=enter)
         self.assertEqual(code, 4, text)
         self.assertIn("134.2 MB", text)
-        # 24 million numbers: the file alone fits, what is made of it does not.
+        # 24 million numbers: the file fits into memory, the resulting data does not.
         (self.folder / "big.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 4000000 + "v 1 2 3\n" * 4000000)
         code, text, _, memory = self.measured("big.obj", "-s", "64", "-o", "a.ppm", limit=enter)
         self.assertEqual(code, 4, text)

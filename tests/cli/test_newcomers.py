@@ -1,4 +1,4 @@
-# test_newcomers.py: what people type who do not know the program yet: it works, or one sentence says what to write instead.
+# test_newcomers.py: commands that new users type: each works, or an error message states the correct form.
 import os
 
 from harness import Case, covered, read_png
@@ -9,7 +9,7 @@ SIZE = "-s 640x480"
 
 class Sentences(Case):
     def check(self, rows):
-        """`rows`: {command line: (exit code, parts of the sentence)}."""
+        """`rows`: {command line: (exit code, parts of the error message)}."""
         for line, (code, *says) in rows.items():
             with self.subTest(line):
                 self.one_sentence(self.bad(code, *line.split(), says=says, leaves=self.new_files()))
@@ -90,7 +90,7 @@ class Works(Case):
     def test_options_before_a_command(self):
         self.good("-q", "shape", "teapot", "-o", "a.stl")
         self.good("-o", "b.stl", "--segments", "8", "-q", "shape", "teapot")
-        self.good("--ground", "shape", "cube", "-s", 8, "-q")  # a word that the option does not take
+        self.good("--ground", "shape", "cube", "-s", 8, "-q")  # a word that the option does not accept
         self.assertEqual(self.new_files(), {"a.stl", "b.stl", "cube.png"})
         self.bad(2, "--", "shape", says="a command comes first", leaves=self.new_files())
         self.assertIn(b"--sheet", self.good("complete", "--", "-q", "compare", "--sh").stdout)
@@ -102,7 +102,7 @@ class Works(Case):
         self.assertEqual(wide, self.png("cube.obj", "-s", 40, "--camera", "fovy=60"))
         self.assertEqual(wide, self.png("cube.obj", "-s", 40, "--fovy", 60))
         left, top, right, bottom = covered(wide)
-        self.assertGreater(max(right - left, bottom - top), 34)  # it is fitted
+        self.assertGreater(max(right - left, bottom - top), 34)  # it fits the picture
         camera = self.report("cube.obj", "-s", 8, "--camera", "fovy=60", "--azimuth", 10)["camera"]
         self.assertAlmostEqual(camera["fovy_deg"], 60)
         self.good("cube.obj", "-s", 8, "--sweep", "fov=20..60", "--frames", 3, "-o", "{frame}.png")
@@ -129,7 +129,7 @@ class Works(Case):
 
 
 class OtherFolders(Case):
-    """Textures beside the model's folder."""
+    """Textures in a folder next to the model's folder."""
 
     def setUp(self):
         super().setUp()
@@ -153,7 +153,7 @@ class OtherFolders(Case):
         self.assertNotEqual(without.stdout, allowed[".", "off"])
         done = self.good("models/t.obj", "-s", 16, "-o", "-", "--allow-path", "models")
         self.assertIn(b"outside of this folder", done.stderr)
-        # A file alone is allowed too, and no other beside it.
+        # A single file may be allowed, without the other files in its folder.
         done = self.good("models/t.obj", "-s", 16, "-o", "-", "--allow-path", "textures/t.mtl")
         self.assertIn(b"the name is '../textures/t.png', outside of this folder", done.stderr)
         self.assertNotIn(b"t.mtl", done.stderr)

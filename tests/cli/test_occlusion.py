@@ -1,4 +1,4 @@
-# test_occlusion.py: --ao rays and what belongs to it.
+# test_occlusion.py: --ao rays and related options.
 import json
 import unittest
 

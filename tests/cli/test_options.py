@@ -51,7 +51,7 @@ class Picture(Case):
     def test_color_mode(self):
         raw, plain = self.png("cube.obj", "-s", 32, "--color-mode", "raw"), self.png("cube.obj", "-s", 32)
         self.assertNotEqual(raw, plain)
-        # Its former name, for these two words.
+        # The former name of these two options.
         self.assertEqual(self.png("cube.obj", "-s", 32, "--color", "raw"), raw)
         self.assertEqual(self.png("cube.obj", "-s", 32, "--color=raw", "--color", "srgb"), plain)
         self.good("materials", "--color", "raw", "-s", 32, "--no-captions", "-o", "m.png")
@@ -90,7 +90,7 @@ class Picture(Case):
         self.assertLess(size["c.jpg"], size["a.jpg"])
         self.assertLess(size["b.webp"], size["a.webp"])
         self.assertIn(b"equal", self.good("diff", "a.png", "a.webp").stdout)
-        # 90 is near, over the background.
+        # 90 is the near distance, over the background.
         self.assertIn(b"within", self.good("diff", "a.png", "a.jpg", "--tolerance", 40).stdout)
         for name in ("s.jpg", "s.webp"):
             self.good("compare", "cube.obj", "--across", "shading=flat,phong", "-s", "40", "-o", name)
@@ -166,7 +166,7 @@ class View(Case):
     def test_up(self):
         self.assertEqual(self.report("cube.obj", "-s", 16)["model"]["up"], "y")
         self.assertEqual(self.report("cube.stl", "-s", 16)["model"]["up"], "z")
-        # Every direction: what is above, and what is in front.
+        # For every axis, the directions up and front.
         for axis, above, front in (("x", [1, 0, 0], [0, 0, 1]), ("y", [0, 1, 0], [0, 0, 1]), ("z", [0, 0, 1], [0, -1, 0]),
                                    ("-x", [-1, 0, 0], [0, 0, 1]), ("-y", [0, -1, 0], [0, 0, 1]), ("-z", [0, 0, -1], [0, -1, 0])):
             self.assertEqual(self.report("cube.stl", "-s", 16, "--up", axis)["model"]["up"], axis)
@@ -181,12 +181,13 @@ class View(Case):
             self.assertEqual(self.png("torus-knot", "-s", 48, "--up=" + axis.upper()), plain)
             if len(axis) == 1:
                 self.assertEqual(self.png("torus-knot", "-s", 48, "--up", "+" + axis), plain)
-                # The opposite axis from the front is the same picture, turned upside down.
+                # The opposite axis, seen from the front, gives the same picture rotated by 180
+                # degrees.
                 words = ("torus-knot", "-s", 48, "--samples", 1, "--view", "front", "--rig", "none", "--ambient", "1", "--projection", "orthographic", "--up")
                 (_, _, one), (_, _, other) = self.png(*words, axis), self.png(*words, "-" + axis)
                 turned = b"".join(one[i:i + 4] for i in range(len(one) - 4, -4, -4))
                 self.assertLess(sum(a != b for a, b in zip(other, turned)), 0.005 * len(one))
-            # A scene file keeps it.
+            # A scene file stores the value.
             self.good("cube.obj", "-s", 48, "--up", axis, "--save-scene", "up.json", "-o", "a.png")
             self.assertEqual(self.png("up.json"), read_png((self.folder / "a.png").read_bytes()))
             (self.folder / "own.json").write_text(json.dumps({"lambent": 1, "up": axis, "objects": [{"shape": "torus-knot"}]}))
@@ -204,14 +205,15 @@ class View(Case):
         self.assertEqual(self.report("cube.obj", "-s", 16)["camera"]["fovy_deg"], 30)
 
     def test_camera(self):
-        # A cube of half side 1 seen from z = 5 straight on: its near face is 4 away; tan(fovy/2) = 1/2 puts the face's
-        # edge at half of the picture's half height.
+        # A cube of half side 1 is seen from z = 5 straight on: its near face is 4 away; tan(fovy/2) = 1/2 puts the
+        # face's edge at half of the picture's half height.
         degrees = "53.13010235415598"
         picture = self.png("cube.obj", "-s", 200, "--camera", f"eye=0/0/5,target=0/0/0,up=0/1/0,fovy={degrees}")
         self.assertEqual(covered(picture), (50, 50, 150, 150))
         picture = self.png("cube.obj", "-s", 200, "--camera", "eye=0/0/5,ortho=2")
         self.assertEqual(covered(picture), (50, 50, 150, 150))
-        # A far plane that cuts the cube leaves its near face; a near plane behind that face shows the inside.
+        # If the far plane cuts the cube, its near face is visible; a near plane behind that face shows the
+        # inside.
         picture = self.png("cube.obj", "-s", 200, "--camera", "eye=0/0/5,ortho=2,near=1,far=3")
         self.assertEqual(set(picture[2][3::4]), {0})
 
@@ -259,22 +261,22 @@ class Surface(Case):
         self.assertEqual(len({p[2] for p in pictures.values()}), len(names))
         self.assertEqual(self.png(*words, "auto"), pictures["blinn-phong"])
         inside = {pixel(pictures["none"], x, 32) for x in range(20, 44)}
-        self.assertEqual(len(inside), 1)  # unlit: one colour
+        self.assertEqual(len(inside), 1)  # unlit, so one colour
 
     def test_rig(self):
         pictures = {name: self.png("sphere", "-s", 64, "--rig", name) for name in ("auto", "none", "studio", "headlight")}
         self.assertEqual(pictures["auto"], pictures["studio"])
         self.assertEqual(len({p[2] for p in pictures.values()}), 3)
-        self.assertEqual(pixel(pictures["none"], 32, 32), (0, 0, 0, 255))  # no light at all
+        self.assertEqual(pixel(pictures["none"], 32, 32), (0, 0, 0, 255))  # without any light
 
     def test_normals(self):
-        # A sphere's own normals, facet ones, and smooth ones from a cube that has none.
+        # A sphere's own normals, facet normals, and smooth normals of a cube without normals.
         own, facet = (self.png("sphere", "-s", 64, "--normals", n) for n in ("file", "facet"))
         self.assertEqual(own, self.png("sphere", "-s", 64))
         self.assertNotEqual(own, facet)
         smooth = self.png("cube.ply", "-s", 64, "--normals", "smooth", "--crease-angle", "180")
         self.assertNotEqual(smooth, self.png("cube.ply", "-s", 64, "--normals", "facet"))
-        # A cube's sides are split by the default crease angle anyway.
+        # The default crease angle also splits a cube's sides.
         self.assertEqual(self.png("cube.ply", "-s", 64), self.png("cube.ply", "-s", 64, "--normals", "facet"))
 
     def test_crease_angle(self):
@@ -308,7 +310,7 @@ class Work(Case):
             used.append(isa)
             files.add((self.folder / "t.png").read_bytes())
         self.assertIn("scalar", used)
-        self.assertLess(len(used), 5)  # no machine has all of them
+        self.assertLess(len(used), 5)  # no machine supports all of them
         self.assertEqual(len(files), 1)
 
     def test_repeat(self):
@@ -357,7 +359,7 @@ class CommandLine(Case):
             ("--background", "-1/0/0"): "expected a colour", ("--isa", "mmx"): "expected auto, scalar",
             ("--output", ""): "empty", ("--repeat", "0"): "from 1", ("--time-limit", "0"): "from 0.001",
             ("--json=yes",): "takes no value",
-            # Other names of the same things.
+            # Other names with the same meaning.
             ("--light", "distant"): "did you mean 'directional'?", ("--light", "sun:color=red"): "did you mean 'directional'?",
             ("--light", "spotlight"): "did you mean 'spot'?", ("--light", "sky"): "did you mean 'hemisphere'?",
             ("--light", "omni"): "did you mean 'point'?", ("--light", "spot:angle=20"): "did you mean 'cutoff'?",
@@ -380,7 +382,7 @@ class CommandLine(Case):
         for word in ("--output", "-o", "--size", "--camera"):
             self.bad(1, "cube.obj", word, says="needs a value")
         self.bad(1, "cube.obj", "-o", "--json", says="needs a value")
-        for word in ("--color", "--background", "-b", "--material"):  # what a shell leaves of: --color #ff8800
+        for word in ("--color", "--background", "-b", "--material"):  # the part of --color #ff8800 that a shell passes on
             self.bad(1, "cube.obj", word, says="# begins a comment unless it is quoted")
 
     def test_forms(self):
@@ -405,7 +407,7 @@ class CommandLine(Case):
         self.bad(1, "cube.obj", "-", says="single model")
 
     def test_segments(self):
-        """Built-in shapes with as many segments as asked for, also in files of --save-scene."""
+        """Built-in shapes with the requested number of segments, also in files of --save-scene."""
         count = lambda *words: self.report(*words, "-s", 16, "-o", "a.png")["model"]["triangles"]
         self.assertEqual(count("cylinder", "--segments", "8x3"), 8 * 2 * 3 + 2 * 8)
         self.assertEqual(count("sphere", "--segments", "12x6"), 12 * 2 * 5)
@@ -446,7 +448,7 @@ class CommandLine(Case):
         self.assertEqual(self.good("--json", "devices").stdout, self.good("devices", "--json").stdout)
 
     def test_former_names(self):
-        """Options that have become one work as ever; no help and no completion lists them."""
+        """Options that were merged still work; the help and the completion do not list them."""
         for former, now, value in (("views", "view", "front,left"), ("sizes", "size", "16,24")):
             size = [] if now == "size" else ["-s", 16]
             self.good("cube.obj", "--" + former, value, *size, "-q", "-o", former + "/{view}-{size}.png")

@@ -1,4 +1,4 @@
-# test_output.py: the paths of pictures, overwriting, the contents of the streams, the report.
+# test_output.py: the paths of pictures, overwriting, the contents of the streams, and the report.
 import json
 import os
 import pty
@@ -59,7 +59,7 @@ class Names(Case):
         read_png((self.folder / "cube.png").read_bytes())
 
     def test_files_of_the_model_stay(self):
-        """No command replaces a file that it reads: the model, what it names, or a picture that is compared."""
+        """No command replaces a file that it reads: the model, files that it refers to, or a compared picture."""
         self.good("cube.obj", "-s", 8, "-o", "skin.png", "-q")
         (self.folder / "skin.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
         (self.folder / "skin.obj").write_text("mtllib skin.mtl\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
@@ -73,7 +73,7 @@ class Names(Case):
             self.assertNotEqual(done.returncode, 0, words)
             self.assertRegex(done.stderr, b"would replace|same file", words)
             self.assertEqual(kept, {name: (self.folder / name).read_bytes() for name in kept}, words)
-        self.good("s.json", "-s", 8, "-o", "x.png", "--save-scene", "s.json", "-q")  # a scene file may be written anew
+        self.good("s.json", "-s", 8, "-o", "x.png", "--save-scene", "s.json", "-q")  # a scene file may be overwritten
         self.given.add("x.png")
 
     def test_link_is_written_through_or_replaced_whole(self):
@@ -100,7 +100,7 @@ class Names(Case):
         self.bad(1, "cube.obj", "cube.stl", "-o", "out/", says="would both be written to 'out/cube.png'")
 
     def test_missing_folder_is_made(self):
-        """A folder with a trailing slash is made by every command that writes files, once there is something to write."""
+        """Every command that writes files creates a folder given with a trailing slash, as soon as there is something to write."""
         (self.folder / "one.png").write_bytes(self.good("cube.obj", "-s", 16, "-o", "-", "-q").stdout)
         self.given.add("one.png")
         data = (self.folder / "cube.obj").read_bytes()
@@ -111,15 +111,15 @@ class Names(Case):
                              (("shader", "cube.obj", "--host", "c"), {"cube.vert", "cube.frag", "cube.c"}),
                              (("diff", "one.png", "one.png"), {"one-difference.png"})):
             with self.subTest(words[0]):
-                for _ in range(2):  # a file that lambent wrote is replaced
+                for _ in range(2):  # a file written by lambent is replaced
                     self.good(*words, "-o", "deep/new/", stdin=data)
                     self.assertEqual(set(os.listdir(self.folder / "deep" / "new")), names)
                 shutil.rmtree(self.folder / "deep")
         self.bad(1, "cube.obj", "cube.stl", "-o", "deep/new/", says="would both be written")
         self.bad(2, "missing.obj", "-o", "deep/new/", says="missing.obj")
-        self.bad(5, "cube.obj", "-o", "deep/x.png", says="deep")  # a named picture's folder may be a mistake
+        self.bad(5, "cube.obj", "-o", "deep/x.png", says="deep")  # the folder of a named picture may be a typing mistake
         self.bad(1, "cube.obj", "torus", "-o", "deep", says="name a folder, -o pictures/")
-        self.good("-q", "cube.obj", "-o", "deep")  # no ending: a PNG, as thumbnailers name it
+        self.good("-q", "cube.obj", "-o", "deep")  # without an extension, it is a PNG, as thumbnailers name it
         self.assertEqual((self.folder / "deep").read_bytes(), self.good("cube.obj", "-o", "-").stdout)
         self.good("-q", "cube.obj", "-s", 32, "--turntable", 2, "-o", "deep")
         self.assertIn(b"acTL", (self.folder / "deep").read_bytes())
@@ -149,7 +149,7 @@ class Names(Case):
 
 
 class Patterns(Case):
-    """Names of pictures with words in braces."""
+    """Names of pictures with patterns in braces."""
 
     def names(self):
         return {os.path.relpath(os.path.join(path, name), self.folder)
@@ -172,7 +172,7 @@ class Patterns(Case):
         self.good("a/cube.stl", "-s", 16, "-o", "{{{stem}}}.png")
         self.assertIn("{cube}.png", self.names())
         self.good("-", "-s", 16, "-o", "{dir}/in-{stem}.png", stdin=(self.folder / "cube.stl").read_bytes())
-        self.assertIn("in-model.png", self.names())  # not /in-model.png: the folder is empty
+        self.assertIn("in-model.png", self.names())  # not /in-model.png, because the folder is empty
 
     def test_the_folder_stays_below(self):
         for model in ("./a/../a/./cube.stl", self.folder / "a" / "cube.stl", "../" + self.folder.name + "/a/cube.stl"):
@@ -223,7 +223,7 @@ class Streams(Case):
         self.assertEqual((self.folder / "same.png").read_bytes(), done.stdout)
 
     def test_one_text_on_each_stream(self):
-        """With --json and -o - the file goes to standard output, and one line of JSON to standard error, for each command."""
+        """With --json and -o -, every command writes the file to standard output, and one line of JSON to standard error."""
         self.good("cube.obj", "-s", 8, "-o", "a.png", "-q")
         self.given.add("a.png")
         for command, begins in ((["cube.obj", "-s", 8], b"\x89PNG"), (["compare", "cube.obj", "-s", "64x64", "--no-captions"], b"\x89PNG"),
@@ -261,7 +261,7 @@ class Streams(Case):
             self.assertNotIn(b"\033", self.run_program("missing.obj", env=env).stderr)
 
     def on_terminal(self, *words, env):
-        """The output of the program to a terminal as its standard error."""
+        """The program's output if its standard error is a terminal."""
         mine, its = pty.openpty()
         process = subprocess.Popen([PROGRAM, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=its, env={**os.environ, **env})
@@ -287,7 +287,7 @@ class Streams(Case):
             self.assertEqual(b"\033[" in text, colored, env)
 
     def test_progress_bar(self):
-        slow = ("teapot", "-s", 512, "--repeat", 100000, "--time-limit", 1.5)  # still at work after half a second
+        slow = ("teapot", "-s", 512, "--repeat", 100000, "--time-limit", 1.5)  # still working after half a second
         code, text = self.on_terminal(*slow, env={"TERM": "xterm", "NO_COLOR": ""})
         self.assertEqual(code, 4)
         self.assertIn(b"[#" if b"[#" in text else b"[....", text)
@@ -336,7 +336,7 @@ class Report(Case):
         self.assertEqual(self.good("--version").stdout.decode().split()[1], report["lambent"])
 
     def test_dry_run(self):
-        """Says what would be written, and writes nothing; what drawing refuses is refused."""
+        """Prints what would be written, and writes nothing; it also reports the errors of drawing."""
         words = ("cube.obj", "-s", "40x30", "--samples", 2, "--light", "point:position=1/2/3", "--light", "ambient", "-b", "#fff", "--dry-run")
         text = self.good(*words, "-o", "a.jpg").stdout.decode()
         for part in ("cube.obj\n", "obj, 12 triangles", "a.jpg, jpg, 40x30, 2 samples per pixel\n", "camera    eye ", "device    cpu",
@@ -354,7 +354,7 @@ class Report(Case):
                          {"path": "a.png", "format": "png", "width": 40, "height": 30, "samples": 2, "replaces": True})
         self.assertIn({"name": "light", "value": "ambient"}, report["planned"]["options"])
         self.assertIn({"name": "dry-run", "value": None}, report["planned"]["options"])
-        # A scene file's own settings count.
+        # A scene file's own settings are used.
         (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "image": {"size": [33, 22]}, "objects": [{"shape": "cube"}]}))
         self.assertIn(b"png, 33x22, ", self.good("s.json", "--dry-run", "-o", "s.png").stdout)
         self.assertFalse((self.folder / "s.png").exists())
@@ -414,7 +414,7 @@ class Interrupt(Case):
                 sent = time.monotonic()
                 _, text = process.communicate(timeout=20)
                 self.assertLess(time.monotonic() - sent, 15)
-            # The signal ends it: a shell shows 128 + number, and stops its loop.
+            # The signal ends the program: a shell reports 128 + number, and stops its loop.
             self.assertEqual(process.returncode, -number)
             self.assertEqual(text, b"lambent: teapot: interrupted\n")
             self.assertEqual(self.new_files(), set())
@@ -475,12 +475,13 @@ int open64(const char *path, int flags, ...)
 
 
 class Killed(Case):
-    """Whatever ends the program while it reads, draws or writes: its folder has the whole picture or nothing new."""
+    """Whenever the program ends while it reads, draws or writes, its folder contains the complete picture or nothing new."""
 
     def setUp(self):
         super().setUp()
         self.words = [PROGRAM, "teapot", "-s", "700", "-q", "-o", "x.png"]
-        # A sanitizer's own handlers, which take memory, may never end in the middle of an allocation.
+        # A sanitizer's own handlers allocate memory, so they may never end in the middle of an
+        # allocation.
         own = "".join(f":handle_{name}=0" for name in ("segv", "sigbus", "sigill", "sigfpe", "abort", "sigtrap"))
         self.env = dict(os.environ, ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + own)
 
@@ -538,7 +539,7 @@ class Killed(Case):
         self.assertGreater(self.kill_with_all(self.catchable()), 10)
 
     def test_file_size_limit(self):
-        """SIGXFSZ, as its receiver has it by default."""
+        """SIGXFSZ with its default action."""
         done = subprocess.run(["bash", "-c", f'ulimit -f 1; exec "{PROGRAM}" teapot -s 512 -o x.png'], cwd=self.folder,
                               capture_output=True, timeout=30)
         self.assertEqual(done.returncode, 5, done.stderr)
@@ -547,7 +548,7 @@ class Killed(Case):
         for words in (("plot", "spot", "-o", "x.svg"), ("shader", "teapot", "-o", "x"), ("teapot", "--save-scene", "x.json", "-s", "8", "-o", "-")):
             limit = f'ulimit -f 1; exec "{PROGRAM}" {" ".join(words)} > /dev/null'
             done = subprocess.run(["bash", "-c", limit], cwd=self.folder, capture_output=True, timeout=30)
-            self.assertIn(done.returncode, (0, 5), (words, done.stderr))  # 0: the file is small
+            self.assertIn(done.returncode, (0, 5), (words, done.stderr))  # 0 because the file is small
             self.assertFalse([n for n in self.new_files() if "part" in n or n.startswith(".")])
 
 

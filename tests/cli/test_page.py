@@ -1,7 +1,7 @@
-# test_page.py: `lambent MODEL -o page.html`: the page in one file with the model, its companions and the command line in it.
+# test_page.py: `lambent MODEL -o page.html`: the single-file page with the model, its related files and the command line.
 #
-# Most tests fill a small page of their own (LAMBENT_PAGE): what they hold is what the program adds. The real page in a browser is
-# tests/browser.py's.
+# Most tests use a small page of their own (LAMBENT_PAGE); its contents are the additions of the program. tests/browser.py
+# tests the real page in a browser.
 import base64
 import hashlib
 import html
@@ -20,7 +20,7 @@ PAGE = ("<!doctype html>\n<html>\n<head>\n<meta http-equiv=\"Content-Security-Po
 
 
 def files_in(page):
-    """The files that a page holds, by their paths in it."""
+    """The files in a page, by their paths."""
     found = re.findall(r'<script type="text/plain" class="inside-file" data-path="([^"]*)">([A-Za-z0-9+/=]*)</script>', page)
     return {html.unescape(path): base64.b64decode(text) for path, text in found}
 
@@ -44,7 +44,7 @@ class Page(Case):
         return (self.folder / output).read_text(), done
 
     def model(self, folder="m"):
-        """An OBJ with a material library and a texture in a folder below."""
+        """An OBJ with a material library and a texture in a sub-folder."""
         place = self.folder / folder
         (place / "pictures").mkdir(parents=True)
         (place / "quad.obj").write_text("mtllib a b.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl a\nf 1/1 2/2 3/3\n")
@@ -61,7 +61,7 @@ class Page(Case):
         self.assertTrue(page.endswith("</body>" + end))
         scripts = re.findall(r"<script([^>]*)>(.*?)</script>", page, re.S)
         run = [text for kind, text in scripts if "text/plain" not in kind and "application/json" not in kind]
-        self.assertEqual(run, [SCRIPT])  # one script that runs, whose hash the policy has
+        self.assertEqual(run, [SCRIPT])  # one executable script, whose hash is in the policy
         self.assertIn(base64.b64encode(hashlib.sha256(run[0].encode()).digest()).decode(), page)
 
     def test_the_model_and_all_files_that_it_reads(self):
@@ -142,14 +142,14 @@ class Page(Case):
         (place / "a b.mtl").symlink_to("../secret.txt")
         for mode in ("auto", "off"):
             self.bad(3, "m/quad.obj", "-s", "32", "-q", "--sandbox", mode, "-o", "out.html", env=self.env, says=["a b.mtl", "outside the folder"])
-        (self.folder / "link.obj").symlink_to("m/quad.obj")  # the model itself is what the user names
+        (self.folder / "link.obj").symlink_to("m/quad.obj")  # the user names the model itself
         self.given.add("link.obj")
         page, _ = self.make("link.obj", "-s", "32", "-q")
         self.assertIn("/link.obj", files_in(page))
         self.assertNotIn(base64.b64encode(b"# secret").decode()[:8], page)
 
     def scene_text(self, name):
-        """A scene file as --save-scene writes it, with another path of its model."""
+        """A scene file as --save-scene writes it, with another path for its model."""
         self.good("cube.obj", "--size", "32", "--save-scene", "saved.json", "-o", "-")
         text = (self.folder / "saved.json").read_text()
         os.remove(self.folder / "saved.json")
@@ -157,7 +157,7 @@ class Page(Case):
         return text.replace('"cube.obj"', json.dumps(name))
 
     def missing_page(self):
-        """Without a page one sentence names the command that makes it: for the program in a build folder of its sources, and for others."""
+        """Without a page, the error message names the command that builds it, for a program in its build folder and for other programs."""
         place = self.folder / "a b"
         (place / "build").mkdir(parents=True)
         program = shutil.copy(PROGRAM, place / "build" / "lambent")

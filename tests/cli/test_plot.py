@@ -1,4 +1,5 @@
-# test_plot.py: the command `plot`: its numbers against the formulas, its pictures as PNG and SVG.
+# test_plot.py: the command `plot`: its numbers compared with the formulas, its pictures as PNG and
+# SVG.
 import json
 import math
 import xml.etree.ElementTree as xml
@@ -28,13 +29,13 @@ class Plot(Case):
         self.assertRegex(text, r"1/0/1 +below 1/255 from 15\.937\n.*1/0/0 +never below")
 
     def test_axis(self):
-        """Curves fill the axis: the last one falls to a twentieth where it ends."""
+        """Curves fill the axis: the last one falls to a twentieth at its end."""
         for words in ([], ["1/0/1"], ["1/0.1/0", "1/0/1"], ["1/0/0/20", "1/0/1"]):
             curves = self.numbers("attenuation", *words)["curves"]
             self.assertAlmostEqual(max(c["points"][-1][1] for c in curves if c["below_1_255_from"]), 1 / 20, 3)
 
     def test_attenuation_of_lights(self):
-        """Lights as --light takes them, and those of a scene file, are the curves of their numbers."""
+        """Lights in the form of --light, and lights of a scene file, give the curves of their numbers."""
         scene = {"lambent": 1, "objects": [{"shape": "cube"}], "lights": [
             {"type": "point", "name": "key", "attenuation": [1, 0.02, 0.01]}, {"type": "directional"},
             {"type": "spot", "attenuation": [0, 0, 2], "range": 3}]}
@@ -78,7 +79,7 @@ class Plot(Case):
         self.assertEqual(pixel(picture, 0, 0), (255, 255, 255, 255))
         colors = {pixel(picture, x, y) for x in range(100, 1500, 3) for y in range(100, 900, 3)}
         self.assertIn((0, 0x72, 0xb2, 255), colors)
-        # A file that lambent did not write stays.
+        # A file that lambent did not write is not replaced.
         (self.folder / "spot.png").write_bytes(b"mine")
         self.given |= {"attenuation.png", "p.png", "spot.png"}
         self.bad(5, "plot", "spot", says="spot.png")
@@ -91,7 +92,7 @@ class Plot(Case):
         root = xml.parse(self.folder / "p.svg").getroot()
         self.assertEqual((root.tag, root.get("width"), root.get("height")), (SVG + "svg", "900", "500"))
         words = [text.text for text in root.iter(SVG + "text")]
-        # Points beyond the axis are named in the legend.
+        # The legend lists points beyond the axis.
         for word in ("a/b/c = 1/0.54/0.2 (below 1/255 from 34.31)", "a/b/c = 1/0/1 (below 1/255 from 15.94)", "distance d", "0.2", "1/255"):
             self.assertIn(word, words)
         curves = [line for line in root.iter(SVG + "polyline") if line.get("stroke") == "#d55e00"]

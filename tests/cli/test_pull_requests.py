@@ -1,4 +1,4 @@
-# test_pull_requests.py: packaging/ci: the script on a repository of its own, called as GitHub and GitLab call it.
+# test_pull_requests.py: packaging/ci: the script in a repository of its own, called like GitHub and GitLab do.
 import os
 import re
 import shutil
@@ -47,7 +47,7 @@ class PullRequests(Case):
         environment.update({"LAMBENT": PROGRAM, **env})
         done = subprocess.run(command, cwd=cwd or self.repository, env=environment, capture_output=True, text=True)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        self.assertEqual(len(self.git("worktree", "list").splitlines()), 1)  # nothing is left behind
+        self.assertEqual(len(self.git("worktree", "list").splitlines()), 1)  # no files are left behind
         return done
 
     def test_changes(self):
@@ -62,7 +62,7 @@ class PullRequests(Case):
         self.script("main", "models", "-s", "64", LAMBENT_FAIL="true", code=6)
 
     def test_names_that_are_markup(self):
-        """Names stay within the block of the summary, each in one line."""
+        """Names stay within the block of the summary, each on one line."""
         name = "a\n```\n::error::x ````.stl"
         self.good("shape", "cone", "-o", "repository/models/new.stl", "-q")
         os.rename(self.repository / "models" / "new.stl", self.repository / "models" / name)
@@ -74,7 +74,7 @@ class PullRequests(Case):
         self.assertEqual((lines[2], lines[-1]), ("`````", "`````"))
 
     def test_since_the_branch_left(self):
-        """What the base has changed since then does not count."""
+        """Later changes in the base are ignored."""
         self.git("checkout", "--quiet", "main")
         self.good("shape", "torus", "-o", "repository/models/a.stl", "-q")
         self.commit("main goes on")
@@ -82,7 +82,7 @@ class PullRequests(Case):
         self.assertIn("0 changed, 0 failed, 0 added, 0 removed, 3 equal", self.script("main", "models", "-s", "32").stdout)
 
     def test_folders(self):
-        """A folder below the one that the script runs in; a folder that the base does not have."""
+        """A folder below the current one, and a folder that does not exist in the base."""
         self.change()
         self.assertIn("1 equal", self.script("main", "sub", "-s", "32", cwd=self.repository / "models").stdout)
         self.git("mv", "models/sub", "fresh")
@@ -101,7 +101,7 @@ class PullRequests(Case):
         self.script("main", "models", "--no-such-option", code=1)
 
     def test_github(self):
-        """The step of the action, run as GitHub runs it: its inputs filled in, its environment set."""
+        """The step of the action, run like GitHub does, with its inputs and environment."""
         self.change()
         text = (CI / "action.yml").read_text()
         step = text[text.index("- shell: sh"):text.index("- if: always()")]
@@ -127,6 +127,6 @@ class PullRequests(Case):
         self.assertTrue((self.repository / kept).exists())
 
     def test_container_file(self):
-        """Each file that it copies is one of the repository or of `make static`."""
+        """Each file that it copies is in the repository or is built by `make static`."""
         for name in re.findall(r"^COPY (?!--from)(\S+) ", (CI / "Containerfile").read_text(), re.M):
             self.assertTrue(name == "build-static/lambent" or (ROOT / name).is_file(), name)

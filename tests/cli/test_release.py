@@ -1,4 +1,4 @@
-# test_release.py: the version number, and what `make release` says about a release.
+# test_release.py: the version number, and the notes of `make release`.
 import importlib.util
 import pathlib
 import re
@@ -16,7 +16,7 @@ SPEC.loader.exec_module(release)
 
 class Release(Case):
     def test_version(self):
-        """One number, in meson.build; the header, the program and the change log agree with it."""
+        """meson.build contains the version number; the header, the program and the change log agree with it."""
         version = release.version()
         header = (ROOT / "include" / "lambent" / "base.h").read_text()
         numbers = [re.search(rf"LAM_VERSION_{part} +(\d+)", header)[1] for part in ("MAJOR", "MINOR", "PATCH")]
@@ -26,7 +26,7 @@ class Release(Case):
 
     @unittest.skipUnless(shutil.which("nm"), "no nm")
     def test_symbols(self):
-        """The symbols files of the Debian packages have what the libraries export; without that `make deb` stops."""
+        """The symbols files of the Debian packages match the exports of the libraries; otherwise `make deb` would stop."""
         if not list(pathlib.Path(PROGRAM).parent.glob("src/liblambent.so")):
             self.skipTest("this build has no shared library")
         done = subprocess.run([sys.executable, ROOT / "packaging" / "symbols.py", pathlib.Path(PROGRAM).parent, "--check"], capture_output=True, text=True)

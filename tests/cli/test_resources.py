@@ -1,4 +1,4 @@
-# test_resources.py: a small stack, few files at a time and a full disk: the program works or says what there is too little of.
+# test_resources.py: a small stack, few open files and a full disk: the program works or states the missing resource.
 import re
 import resource
 import subprocess
@@ -65,7 +65,7 @@ class Resources(Case):
             self.assertEqual(done.returncode, 0, (words, done.stderr))
 
     def test_few_files(self):
-        """If no further file can be opened, the error says so, and names neither the sandbox nor a permission."""
+        """If no further file can be opened, the error message states this, and names neither the sandbox nor a permission."""
         self.good("cube.obj", "-s", 16, "-o", "a.png")
         for words in (["cube.obj", "-s", "16", "-o", "b.png"], ["info", "cube.obj"], ["compare", "cube.obj", "-s", "16", "-o", "c.png"], ["diff", "a.png", "a.png"],
                       ["batch", "cube.obj", "cube.stl", "-s", "16", "-o", "b/{stem}{ext}.png"],
@@ -92,18 +92,18 @@ class Resources(Case):
         (self.folder / "out" / "lambent.jsonl").symlink_to("/dev/full")
         self.bad(5, "batch", "cube.obj", "-s", 16, "--resume", "-o", "out/{stem}.png", says="lambent.jsonl: cannot write: No space left on device", leaves={"out"})
         self.assertEqual(self.files(), {"lambent.jsonl"})
-        # Models that a killed run was drawing are remembered until a run begins.
+        # Models that a killed run was drawing are recorded until the next run begins.
         running = self.folder / "out" / "lambent.jsonl.running"
         running.write_bytes(bytes(8192))
         self.bad(5, "batch", "cube.obj", "-s", 16, "--resume", "-o", "out/{stem}.png", says="No space left on device", leaves={"out"})
         self.assertEqual(running.read_bytes(), bytes(8192))
 
     def test_full_disk_later(self):
-        """If the journal cannot grow any more, the run ends and leaves no FILE.running."""
+        """If the journal cannot be extended, the run ends and leaves no FILE.running."""
         for i in range(100):
             (self.folder / f"{i}.obj").write_bytes((self.folder / "cube.obj").read_bytes())
         words = "batch . -s 8 -j 2 -o out/{stem}{ext}.png"
-        script = f'ulimit -f 20; trap "" XFSZ; exec "{PROGRAM}" {words}'  # kilobytes of a file
+        script = f'ulimit -f 20; trap "" XFSZ; exec "{PROGRAM}" {words}'  # kilobytes per file
         done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, timeout=60)
         self.assertEqual(done.returncode, 5, done.stderr)
         self.assertIn(b"lambent.jsonl: cannot write: File too large", done.stderr)

@@ -1,4 +1,4 @@
-# test_sandbox.py: --sandbox and --allow-path: what stays within reach, what does not, and what is said of it.
+# test_sandbox.py: --sandbox and --allow-path: accessible files, inaccessible files, and the messages.
 import json
 import os
 import pathlib
@@ -52,7 +52,7 @@ class Sandbox(Case):
         self.assertEqual(self.good("-", "-o", "-", "-s", 8, *REQUIRE, stdin=(self.folder / "cube.stl").read_bytes()).stdout[:4], b"\x89PNG")
 
     def test_files_that_options_name(self):
-        """Files of looks, environments and pictures of a sheet lie anywhere; naming them is enough."""
+        """Files of looks, environments and pictures of a sheet may be anywhere; naming them is sufficient."""
         self.file("models/cube.obj", (self.folder / "cube.obj").read_bytes())
         self.file("else/blue.png", write_png(4, 2, b"\x40\x80\xff\xff" * 8))
         self.file("else/red.png", write_png(4, 2, b"\xff\x40\x20\xff" * 8))
@@ -73,7 +73,7 @@ class Sandbox(Case):
             self.assertEqual(json.loads(done.stdout)["outcome"], "written", done.stdout)
 
     def test_optional_libraries(self):
-        """Libraries that are opened when they are used open in the sandbox too."""
+        """Libraries that are loaded on first use also load in the sandbox."""
         for ending in ("webp", "exr"):
             done = self.run_program("cube.obj", "-s", "32x16", "-o", "a." + ending, *REQUIRE)
             self.assertIn(done.returncode, (0, 3), done.stderr)
@@ -85,7 +85,7 @@ class Sandbox(Case):
         import test_limits
         bad = self.file("damaged.gltf", test_limits.MODELS["draco-sequential.gltf"])
         modes = [self.run_program(bad, "-s", 8, "--sandbox", mode).stderr for mode in ("require", "off")]
-        self.assertEqual(modes[0], modes[1])  # found or missing alike
+        self.assertEqual(modes[0], modes[1])  # whether found or missing
 
     def test_a_model_reads_its_folder_alone(self):
         cube = (self.folder / "cube.obj").read_text()
@@ -101,7 +101,7 @@ class Sandbox(Case):
             for mode in ("require", "off"):
                 done = self.good("shop/a.obj", "-s", 8, "-o", "a.png", "--sandbox", mode)
                 self.assertEqual(b"drawn without this texture" not in done.stderr, good, f"{name} {mode} {done.stderr}")
-        # A link that the user names is the user's.
+        # A link named by the user is followed.
         os.symlink("../cube.obj", self.folder / "shop/mine.obj")
         self.good("shop/mine.obj", "-s", 8, "-o", "a.png", *REQUIRE)
         self.assertTrue(cube)
@@ -136,7 +136,7 @@ class Sandbox(Case):
             self.assertIn(b"sandbox  off; OpenGL", done.stderr)
 
     def test_outputs(self):
-        """An older picture is replaced, a stranger's is not, and a link leads to what is replaced, as without the sandbox."""
+        """As without the sandbox, an older picture is replaced, another program's file is not, and a link leads to the replaced file."""
         self.good("cube.obj", "-s", 8, *REQUIRE)
         self.good("cube.obj", "-s", 8, *REQUIRE)
         self.file("cube.png", b"mine")
@@ -148,7 +148,7 @@ class Sandbox(Case):
         self.assertEqual((self.folder / "real/a.png").read_bytes()[:4], b"\x89PNG")
 
     def test_without(self):
-        """Where something is missing, auto goes on and require is one sentence; under Valgrind nothing is taken away."""
+        """If a method is missing, auto continues and require reports an error; under Valgrind, no privileges are dropped."""
         environment = {"LD_PRELOAD": "vgpreload_not_there.so"}
         done = self.run_program("cube.obj", "-s", 8, "-v", env=environment)
         self.assertEqual(done.returncode, 0)

@@ -1,4 +1,5 @@
-# test_scene.py: scene files: drawn, overridden by options, written and drawn again to the same bytes, and held to their schema.
+# test_scene.py: scene files: drawn, overridden by options, written and drawn again with identical bytes, and checked against
+# their schema.
 import json
 import shutil
 import signal
@@ -16,7 +17,7 @@ KINDS = {"object": dict, "array": list, "string": str, "integer": int, "number":
 
 
 def misfit(value, schema, place="scene"):
-    """The first violation of the schema (the part of JSON Schema that it uses); None: valid."""
+    """The first violation of the schema (the part of JSON Schema that it uses); None means valid."""
     assert set(schema) <= KNOWN, set(schema) - KNOWN
     if "$ref" in schema:
         return misfit(value, SCHEMA["$defs"][schema["$ref"].rsplit("/", 1)[1]], place)
@@ -62,7 +63,7 @@ class Scene(Case):
         (self.folder / name).write_text(scene if isinstance(scene, str) else json.dumps(scene))
 
     def again(self, *words):
-        """Draws with --save-scene and draws the scene file: the bytes are the same."""
+        """Draws with --save-scene and draws the scene file; the bytes are identical."""
         (self.folder / "sub").mkdir(exist_ok=True)
         self.good(*words, "-o", "a.png", "--save-scene", "sub/saved.json")
         self.good("sub/saved.json", "-o", "b.png")
@@ -72,13 +73,13 @@ class Scene(Case):
         return saved
 
     def test_every_field_of_a_material(self):
-        """Each key of the schema is one of --material, is saved, read again, and explained."""
+        """Each key of the schema is a key of --material, and is saved, read again, and explained."""
         for key, field in SCHEMA["$defs"]["material"]["properties"].items():
             word, value = {"boolean": ("yes", True), "number": ("0.5", 0.5)}.get(field.get("type"), ("0.5/0.25/0.125", [0.5, 0.25, 0.125]))
             with self.subTest(key):
                 self.good("sphere", "-s", 8, "--material", f"{key}={word}", "-o", "a.png", "--save-scene", "a.json", "-q")
                 [thing] = json.loads((self.folder / "a.json").read_text())["objects"]
-                opacity = key == "opacity"  # which stands in the colour
+                opacity = key == "opacity"  # which is part of the colour
                 self.assertEqual(thing["material"]["diffuse"][3] if opacity else thing["material"][key], value)
                 thing["material"] = {key: value}
                 (self.folder / "b.json").write_text(json.dumps({"lambent": 1, "objects": [thing]}))
@@ -113,7 +114,7 @@ class Scene(Case):
             saved = self.again(*words, "-s", "120x90")
             self.assertEqual(saved["image"]["size"], [120, 90])
         self.assertEqual(saved["objects"][0]["file"], "../cube.obj")
-        # Written again, the file is the same.
+        # A second saved file is identical.
         self.good("sub/saved.json", "-o", "b.png", "--save-scene", "sub/twice.json")
         self.assertEqual((self.folder / "sub/saved.json").read_bytes(), (self.folder / "sub/twice.json").read_bytes())
 
@@ -126,7 +127,8 @@ class Scene(Case):
             saved = self.again("shape", "--parametric", ripple, *words, "-s", "64")
             [thing] = saved["objects"]
             self.assertEqual(thing["shape"], {"parametric": {"formula": ripple, **want}}, words)
-        # The same surface many times is one mesh; another formula, range or division is another.
+        # Several copies of the same surface are one mesh; another formula, range or division is
+        # another mesh.
         flat = {"parametric": {"formula": "x=u; y=v; z=0", "u": "0..1", "v": "0..1", "segments": [2, 3]}}
         others = [{"parametric": {**flat["parametric"], **change}} for change in ({"u": "0..2"}, {"v": "0..2"}, {"flip": True}, {"segments": [2, 4]}, {"formula": "x=u; y=v; z=1"})]
         scene = {"lambent": 1, "objects": [{"shape": shape} for shape in (flat, flat, *others, flat)]}
@@ -148,7 +150,7 @@ class Scene(Case):
         self.bad(2, "formulas.json", "-s", 8, says="radius", leaves=self.new_files())
 
     def test_implicit_formulas(self):
-        """--save-scene of an implicit surface, its keys, a text in place of the object, and the limit on what a file may have worked out."""
+        """--save-scene of an implicit surface, its keys, a string instead of the object, and the limit on the operations of a file."""
         torus = "a=2; (sqrt(x^2+y^2)-a)^2+z^2-1"
         for words, want in (([], {}), (["--x", "0..3", "--z", "-1..a", "--segments", "30", "--flip"], {"x": "0..3", "z": "-1..a", "segments": 30, "flip": True})):
             saved = self.again("shape", "--implicit", torus, *words, "-s", "64")
@@ -200,7 +202,7 @@ class Scene(Case):
         self.assertEqual(len(rig), 1)
         for light in lights["lights"] + rig:
             self.assertIsNone(misfit(light, SCHEMA["properties"]["lights"]["items"]))
-        # The output consists of keys of a scene file.
+        # The output consists of keys of scene files.
         plain = {k: v for k, v in self.example.items()}
         self.write({**plain, **lights}, "copy.json")
         self.assertEqual(self.png("copy.json"), self.png("scene.json"))
@@ -214,7 +216,7 @@ class Scene(Case):
                  "camera": {"eye": [0, 0, 4]}, "objects": [{"file": "c.ply", "material": {"diffuse": [1, 1, 1]}}]}
         self.write(scene)
         self.assertEqual(self.png("scene.json")[2][160:164], bytes([128, 64, 32, 255]))
-        # Decoded on the way in and encoded on the way out, the bytes are the same.
+        # Colours are decoded and encoded again; the bytes are identical.
         self.assertEqual(self.png("scene.json", "--color-mode", "srgb")[2][160:164], bytes([128, 64, 32, 255]))
         scene["image"]["color"] = "srgb"
         self.write(scene)
@@ -224,7 +226,7 @@ class Scene(Case):
         self.assertAlmostEqual(value, ((128 / 255 + 0.055) / 1.055) ** 2.4, places=5)
 
     def test_models_elsewhere(self):
-        """What a scene file names may lie anywhere; with --files-inside only in its own folder."""
+        """A scene file may refer to files anywhere; with --files-inside, only to files in its own folder."""
         (self.folder / "sub").mkdir()
         self.given.add("sub")
         picture = self.png("scene.json")
@@ -244,7 +246,7 @@ class Scene(Case):
         self.bad(2, "scene.json", "-o", "x.png", says=["/dev/zero: is a device, expected a regular file"])
 
     def test_saved_beside_or_not(self):
-        """A saved scene is drawn again wherever it lies; with --files-inside --save-scene says when it could not be."""
+        """A saved scene can be drawn from any folder; with --files-inside, --save-scene reports if this is impossible."""
         (self.folder / "sub").mkdir()
         self.good("cube.obj", "-s", "8", "-o", "face.png")
         outside = b"warning: the saved scene file names files outside of its folder"
@@ -260,7 +262,7 @@ class Scene(Case):
             self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
 
     def test_schema_and_program_agree(self):
-        """Each wrong key or value fails both."""
+        """Each wrong key or value fails in both."""
         def changed(path, value):
             scene = json.loads(json.dumps(self.example))
             at = scene
@@ -285,7 +287,7 @@ class Scene(Case):
 
 class Environment(Case):
     def test_faces(self):
-        """A scene's environment is the one that the command line would give; without it the picture is another."""
+        """A scene's environment equals the environment given on the command line; without it, the picture differs."""
         names = []
         for i, color in enumerate(("red", "cyan", "white", "#202020", "lime", "blue")):
             names.append(f"face{i}.png")
@@ -308,7 +310,7 @@ class Environment(Case):
                   "--save-scene", "saved.json")
         self.good("saved.json", "-o", "saved.png")
         self.assertEqual(read("saved.png"), read("asked.png"))
-        # A scene file's own environment is turned by the option, and kept so.
+        # The option rotates a scene file's own environment, and the saved file stores the rotation.
         self.good("mirrored.json", "--environment-rotation", "75", "-q", "-o", "asked.png", "--save-scene", "saved.json")
         self.assertEqual(json.loads(read("saved.json"))["environment"]["rotation"], 75)
         self.good("saved.json", "-o", "saved.png")
@@ -333,7 +335,7 @@ class Environment(Case):
         self.given.add(name)
 
     def test_unseen(self):
-        """An environment that nothing reflects gives a warning; one above the memory limit gives an error."""
+        """An environment that nothing reflects causes a warning; an environment above the memory limit causes an error."""
         self.assertIn(b"environment is invisible", self.good("cube.obj", "-s", 20, "--environment", "sky", "-o", "a.png").stderr)
         self.assertNotIn(b"not seen", self.good("cube.obj", "-s", 20, "--environment", "sky", "--reflectivity", 1, "-o", "a.png").stderr)
         self.scene("unseen.json", {"lambent": 1, "environment": {"builtin": "studio"}, "objects": [{"shape": "cube"}]})
@@ -347,7 +349,7 @@ class Environment(Case):
         self.bad(4, "unseen.json", "--environment", "wide.png", "--memory-limit", "11M", "-s", 20, says="memory limit")
 
     def test_exposure(self):
-        """2^stops times the light; the background and alpha stay."""
+        """2^stops times the light; the background and alpha do not change."""
         box = {"lambent": 1, "image": {"size": [24, 24], "samples": 4, "color": "raw", "exposure": 1.5, "background": [0.1, 0.2, 0.3, 0.5]},
                "objects": [{"shape": "sphere"}], "lights": [{"type": "directional", "direction": [0, 0, -1]}]}
         self.scene("bright.json", box)
@@ -361,7 +363,7 @@ class Environment(Case):
         middle = 3 * (12 * 24 + 12)
         for c in range(3):
             self.assertAlmostEqual(bright[middle + c] / plain[middle + c], 2**1.5, 5)
-        # The terms over a clear background add up to the picture over it.
+        # The terms over a transparent background add up to the picture over it.
         self.good("bright.json", "-b", "transparent", "--show", "diffuse", "-o", "diffuse.pfm")
         self.good("bright.json", "-b", "transparent", "--show", "specular", "-o", "specular.pfm")
         self.good("bright.json", "-b", "transparent", "--show", "ambient", "-o", "ambient.pfm")
@@ -390,7 +392,7 @@ class Environment(Case):
         return struct.unpack(f"<{24 * 24 * 3}f", head[3])
 
     def test_warned_of(self):
-        """Warnings about legal but unlikely input: coefficients over 1, the lights of a file without any, a scene file without --show."""
+        """Warnings about valid but unlikely input: coefficients over 1, the lights of a file without lights, a scene file without --show."""
         (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "cube", "material": {"diffuse": [2, 0, 0], "ambient": [0, 0, 0]}}]}))
         self.given.add("s.json")
         self.assertIn(b"diffuse is 2, which reflects more light than it receives", self.good("s.json", "-s", 8).stderr)
@@ -417,7 +419,7 @@ class Environment(Case):
         self.bad(2, "s.json", "-o", "no.png", says="2 objects are named 'a'", leaves={"ok.png"})
 
     def test_limits_while_a_picture_is_read(self):
-        """An environment's picture obeys the limits while it is read, which takes 0.2 s and more."""
+        """Limits apply while an environment's picture is read, which takes 0.2 s and more."""
         wide = write_png(4096, 2048, bytes(4096 * 2048 * 4))
         (self.folder / "wide.png").write_bytes(wide)
         self.scene("wide.json", {"lambent": 1, "environment": {"equirectangular": "wide.png"}, "objects": [{"shape": "cube"}]})

@@ -1,4 +1,5 @@
-# test_settings.py: lambent.json, the user's own defaults: where it is read, where it is not, and what a report says of it.
+# test_settings.py: lambent.json, the user's own defaults: when it is read, when it is ignored, and what reports state
+# about it.
 import json
 import os
 import pathlib
@@ -60,7 +61,7 @@ class Reading(Settings):
         self.assertNotIn("settings", self.report("cube.obj", "-s", "9", "--shadows", env=self.env))
 
     def test_every_setting_of_scene_files(self):
-        """Each key of scene files that is an option can be set, in the form that scene files have, and is printed."""
+        """Each key of scene files that is also an option can be set in the same form, and is printed."""
         schema = json.loads(self.good("generate", "scene-schema").stdout)["properties"]
         models = {"$schema", "lambent", "image", "camera", "ambient", "environment", "up", "materials", "objects", "lights", "ground_color"}
         keys = [key for key in schema if key not in models]
@@ -75,7 +76,7 @@ class Reading(Settings):
             with self.subTest(key=key, value=value):
                 self.write({key: value})
                 found = json.loads(self.good("config", "--json", env=self.env).stdout)["settings"]
-                default = (key, value) == ("stage", "auto")  # which options cannot say
+                default = (key, value) == ("stage", "auto")  # which cannot be expressed as options
                 self.assertEqual([(row["name"], row["line"]) for row in found], [] if default else [(key.replace("_", "-"), 2)])
 
     def test_precedence(self):
@@ -83,7 +84,7 @@ class Reading(Settings):
         self.assertEqual(self.size("cube.obj", "-s", "20"), (20, 20))
         self.good("cube.obj", "--stage", "fragment", "--shading", "phong", "-o", "a.png", env=self.env)
         report = self.report("cube.obj", "--look", "technical", "-s", "9", "--dry-run", env=self.env)
-        self.assertNotIn("settings", report)  # the look decides shading and edges
+        self.assertNotIn("settings", report)  # the look determines shading and edges
         self.assertNotIn("settings", self.report("cube.obj", "--stage", "vertex", "--edges", "none", "-s", "9", env=self.env))
         self.good("cube.obj", "-o", "{stem}-{size}.png", "--sizes", "11,12", env=self.env)
         self.assertEqual(self.new_files(), {"a.png", "cube.png", "cube-11.png", "cube-12.png"})
@@ -123,7 +124,7 @@ class Reading(Settings):
         self.assertIn("neither XDG_CONFIG_HOME nor HOME", self.good("config", env={"HOME": "", "XDG_CONFIG_HOME": "", "CI": ""}).stdout.decode())
 
     def test_thumbnailer(self):
-        """The file manager's size wins; the rest of the settings applies."""
+        """The file manager's size has priority; the other settings apply."""
         self.write({"image": {"size": [40, 30], "background": "#00ff00"}})
         done = self.good("-q", "-s", "64", "--time-limit", "20", "-o", "-", "cube.stl", env=self.env)
         width, height, data = read_png(done.stdout)
@@ -161,7 +162,7 @@ class Unread(Settings):
             self.assertEqual(self.size("cube.obj", env={"CI": "", **env}), (1024, 1024))
 
     def test_page(self):
-        """A page shows the same to everybody, so the file is not even read."""
+        """A page is the same for everybody, so the file is not even read."""
         self.write("{")
         done = self.run_program("cube.obj", "-o", "x.html", env={**self.env, "LAMBENT_PAGE": str(self.folder / "none")})
         self.assertNotIn("lambent.json", done.stderr.decode())
@@ -211,7 +212,7 @@ class Wrong(Settings):
         self.assertEqual(report["error"]["code"], "cannot-read")
 
     def test_files(self):
-        """Links to a file are followed; pipes, folders, devices and huge files are refused at once."""
+        """Links to a file are followed; pipes, folders, devices and huge files are refused immediately."""
         target = self.folder / "dot.json"
         target.write_text('{ "image": { "size": [8, 8] } }')
         self.given.add("dot.json")
@@ -231,7 +232,7 @@ class Wrong(Settings):
             out.truncate(1 << 40)
         self.bad(2, "cube.obj", env=self.env, says="longer than 64 KiB", timeout=10)
         self.file.unlink()
-        self.file.symlink_to(self.file)  # a circle: there is no file
+        self.file.symlink_to(self.file)  # a cycle: there is no file
         self.assertEqual(self.size("cube.obj"), (1024, 1024))
 
     def test_unreadable(self):
@@ -239,7 +240,7 @@ class Wrong(Settings):
         self.write("{}")
         self.file.chmod(0)
         self.bad(2, "cube.obj", env=self.env, user=user, says="cannot read: Permission denied")
-        self.file.parent.chmod(0)  # as in a sandbox: nobody can tell whether there is a file
+        self.file.parent.chmod(0)  # as in a sandbox: it is unknown whether the file exists
         self.good("cube.obj", "-o", "-", "-s", "8", env=self.env, user=user)
         self.file.parent.chmod(0o755)
 
@@ -249,13 +250,13 @@ class Wrong(Settings):
         self.bad(1, "cube.obj", "--config", self.file, "--no-config", says="found --config and --no-config, expected one of them")
 
     def test_hint(self):
-        """A command that the settings make wrong says where they come from."""
+        """If the settings make a command invalid, the error message names their file."""
         self.write({"shadows": True})
         done = self.bad(1, "cube.obj", "--hide", "nothing", env=self.env)
         self.assertIn(f"The settings of {self.file} are in force; --no-config ignores them.", done.stderr.decode())
 
     def test_sandbox(self):
-        """The file is read before the sandbox starts, which hides its folder."""
+        """The file is read before the sandbox starts, because the sandbox hides its folder."""
         self.write({"image": {"size": [8, 8]}})
         self.assertEqual(pathlib.Path(self.file).parent.parent.name, "home")
         self.assertEqual(self.size("cube.obj", "--sandbox", "auto"), (8, 8))

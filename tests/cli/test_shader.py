@@ -15,7 +15,7 @@ def uniforms_of(contract):
     return contract["uniforms"] + [u for draw in contract["draws"] for u in draw["uniforms"]]
 
 
-# --- a small rasterizer, which draws Gouraud-shaded triangles from the colours of their vertices
+# --- a small rasterizer, which draws Gouraud-shaded triangles from their vertex colours
 
 def decoded(x):
     return ((x + 0.055) / 1.055) ** 2.4 if x > 0.04045 else x / 12.92
@@ -46,15 +46,15 @@ def read_obj(text):
 
 
 def tangent_of(normal):
-    """A direction across the normal."""
+    """A direction perpendicular to the normal."""
     x, y, z = normal
     t = [y * 0.5 - z * 0.8, z * 0.3 - x * 0.5, x * 0.8 - y * 0.3]
     return tuple(c / math.sqrt(sum(d * d for d in t)) for c in t)
 
 
 def cover(positions, matrix, size):
-    """The pixels whose centres a triangle covers: (x, y), the weights of its corners, how far inside the centre is, depth, whether it is seen
-    from the front."""
+    """The pixels whose centres a triangle covers: (x, y), the weights of its corners, the centre's distance from the edge, the depth, and whether the
+    front is visible."""
     clip = [[sum(matrix[4 * k + row] * (p + (1,))[k] for k in range(4)) for row in range(4)] for p in positions]
     assert all(c[3] > 0 for c in clip)
     window = [((c[0] / c[3] + 1) * size / 2, (1 - c[1] / c[3]) * size / 2, c[2] / c[3]) for c in clip]
@@ -167,7 +167,7 @@ class Shader(Case):
         return "m.gltf", triangles
 
     def light_vertex(self, contract, strict=True):
-        """Compiles the printed C function; returns it for Python: (draw, position, normal, color) to its front and back colour."""
+        """Compiles the printed C function and returns it as a Python function: (draw, position, normal, color) to its front and back colour."""
         (self.folder / "lit.c").write_text(contract["application"])
         library = self.folder / ("lit%d.so" % len(list(self.folder.glob("lit*.so"))))
         words = ["cc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", *(["-Werror"] if strict else [])]
@@ -190,7 +190,7 @@ class Shader(Case):
         return colors_of
 
     def compare(self, model, triangles, *words, size=96):
-        """Draws with the colours of the C function; returns the share of the picture's pixels that were compared, and the largest difference."""
+        """Draws with the colours of the C function; returns the fraction of compared pixels, and the largest difference."""
         words = [model, "--size", str(size), *words]
         contract = self.contract(*words, "--style", "lecture", "--stage", "application")
         colors_of = self.light_vertex(contract)
@@ -218,7 +218,7 @@ class Shader(Case):
 
     @unittest.skipUnless(shutil.which("cc"), "there is no C compiler `cc` (package gcc)")
     def test_application_stage(self):
-        """The C function compiles without a warning, and its colours make the picture of Gouraud shading."""
+        """The C function compiles without a warning, and its colours give the picture of Gouraud shading."""
         for model, words in (({}, []), ({}, LIGHTS), ({}, ["--reflection", "phong", "--view", "back", *LIGHTS]),
                              ({}, ["--reflection", "lambert", "--one-sided", "--light", "directional:direction=-1/-1/-1"]),
                              ({}, ["--viewer", "infinite", "--light", "directional:direction=-1/-1/-1", "--view", "top"]),
@@ -244,7 +244,7 @@ class Shader(Case):
 
     @unittest.skipUnless(shutil.which("cc"), "there is no C compiler `cc` (package gcc)")
     def test_mistakes_in_the_application_stage(self):
-        """Each mistake that the C function can have changes its colours; the others are refused by a sentence."""
+        """Each mistake that the C function can contain changes its colours; the others are refused with an error message."""
         (_, triangles), scenes = self.model(transform=[["scale", 1, 2, 1]]), [["m.json", "--rotate", "y:30", "--style", "lecture", "--stage", "application", "--material", "shininess=4,specular=0.7",
                                             *more] for more in
                                            ([*LIGHTS, "--light", "spot:position=1/1/2,cutoff=5"], ["--reflection", "phong", "--light", "point:attenuation=1/0.1/0.02,ambient=0.3"])]
@@ -280,7 +280,7 @@ class Shader(Case):
         self.bad(3, "shader", "--mistake", "no-cone", says="mistake 'no-cone': the shader lacks the code that this mistake changes; expected a spotlight")
 
     def test_mistakes(self):
-        """Each mistake edits the text, and says what it is."""
+        """Each mistake edits the text, and has a description."""
         for row in json.loads(self.good("shader", "--mistake", "list", "--json").stdout):
             self.assertEqual(set(row), {"mistake", "wrong", "looks", "needs"})
             self.assertIn(f"{row['mistake']}\n  Wrong: {row['wrong']}.\n  Seen: {row['looks']}\n", self.good("shader", "--mistake", "list").stdout.decode())

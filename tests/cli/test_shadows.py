@@ -1,4 +1,4 @@
-# test_shadows.py: --shadows and what belongs to it.
+# test_shadows.py: --shadows and related options.
 import json
 import struct
 import unittest
@@ -10,7 +10,7 @@ SCENE = {"lambent": 1, "image": {"size": [64, 64], "samples": 1}, "camera": {"ey
          "objects": [{"name": "floor", "shape": "plane", "transform": [["scale", 4, 1, 4]]},
                      {"name": "box", "shape": "cube", "transform": [["translate", 0, 1, 0], ["scale", 0.5, 0.5, 0.5]]}],
          "lights": [{"name": "sun", "type": "directional", "direction": [1, -1, 0]}]}
-SHADOW, LIT = (44, 32), (10, 32)  # beside the box, where its shadow falls and where not
+SHADOW, LIT = (44, 32), (10, 32)  # beside the box, inside and outside its shadow
 
 
 class Shadows(Case):
@@ -57,7 +57,7 @@ class Shadows(Case):
         self.assertNotIn("in the way", self.good("explain", self.scene(shadows=False), "%d,%d" % LIT).stdout.decode())
 
     def test_glass_elsewhere_leaves_a_ground_its_shadow(self):
-        """Where something transmits, light has a tint: a catcher is lit a second time, by lights without any."""
+        """If a material transmits light, light is tinted: lights without shadows light a catcher a second time."""
         box = SCENE["objects"][1]
         glass = {"name": "glass", "shape": "cube", "transform": [["translate", -2.5, 1, -2.5], ["scale", 0.3, 0.3, 0.3]], "material": "glass"}
         materials = {"glass": {"physical": True, "metallic": 0, "roughness": 0.4, "transmission": 1}}
@@ -70,7 +70,7 @@ class Shadows(Case):
         self.assertEqual(*alphas)
 
     def test_glass_colours_its_shadow(self):
-        """What transmits lets its base colour through: a pane once, two panes the product, a volume where light enters it."""
+        """A transmitting surface passes its base colour: a pane once, two panes the product, and a volume at the point where light enters it."""
         def passed(material, shape="plane", floor=None, *words):
             pane = {"name": "pane", "shape": shape, "transform": [["translate", 0.3, 1, 0], ["scale", 0.5, 0.5 if shape == "cube" else 1, 0.5]], "material": "pane"}
             objects = [{**SCENE["objects"][0], "material": "floor"}, pane]
@@ -108,7 +108,7 @@ class Shadows(Case):
         self.assertEqual(pixel(picture, *SHADOW), pixel(picture, *LIT))
 
     def test_ground(self):
-        # Alone, or before a model, it catches shadows; a word or a colour that follows is its value.
+        # Alone, or before a model, it catches shadows; a following word or colour is its value.
         caught = self.png("cube", "-s", "64", "--ground", "--rig", "lecture")
         self.assertEqual(self.png("--ground", "cube", "-s", "64", "--rig", "lecture"), caught)
         self.assertEqual(self.png("cube", "-s", "64", "--ground=shadow", "--rig", "lecture"), caught)
@@ -118,7 +118,7 @@ class Shadows(Case):
         red = self.png("cube", "-s", "64", "--ground", "red", "--rig", "headlight")
         r, g, b, a = pixel(red, 2, 60)
         self.assertTrue(r > 100 and g == b == 0 and a == 255)
-        # A scene file, saved and drawn again.
+        # A saved scene file, drawn again.
         self.given.add("a.png")
         name = self.scene("ground.json", ground="color", ground_color=[0, 0.5, 0], objects=[{"name": "box", "shape": "cube"}])
         self.assertEqual(self.png(name), self.png(self.scene("other.json", objects=[{"name": "box", "shape": "cube"}]), "--ground", "0/0.5/0"))
@@ -139,7 +139,7 @@ class Shadows(Case):
         self.bad(2, self.scene("bad.json", ground="chequer"), says="ground")
 
     def test_lamp_of_an_environment(self):
-        """The studio's brightest lamp casts shadows where it is the light; where nothing is in its way the picture stays."""
+        """The studio's brightest lamp casts shadows if it lights the model; if nothing blocks it, the picture does not change."""
         (self.folder / "even.pfm").write_bytes(b"PF\n16 8\n-1.0\n" + struct.pack("<384f", *[0.5] * 384))
         look = ("--material", "#cccccc,metallic=0,roughness=0.9", "-s", "64x48", "--ao", "off", "--samples", 1, "-q")
         for shape, environment, least, most in (("sphere", "studio", 0, 16), ("torus-knot", "studio", 20, 255), ("torus-knot", "sky", 5, 60),

@@ -32,7 +32,8 @@ class Shape(Case):
         self.assertEqual(read_png((self.folder / "parametric.png").read_bytes())[:2], (32, 32))
 
     def test_implicit(self):
-        """An expression that is zero on the surface: as a model file with the gradient's normals, as a picture, and what is no surface."""
+        """An expression that is zero on the surface: as a model file with the gradient's normals, as a picture, and errors for expressions without a
+        surface."""
         sphere = "x^2+y^2+z^2-1"
         self.good("shape", "--implicit", sphere, "--segments", 20, "-o", "s.obj")
         lines = [line.split() for line in (self.folder / "s.obj").read_text().splitlines()]

@@ -1,4 +1,4 @@
-# test_shards.py: --shard: many machines draw parts of one batch; each model is drawn by one of them, whatever the environment says.
+# test_shards.py: --shard: many machines draw parts of one batch; exactly one machine draws each model, in any environment.
 import json
 import os
 import re
@@ -25,7 +25,7 @@ class Shards(Batch):
             os.environ.pop(name, None)
 
     def models(self, *words, code=0, env={}):
-        """The models of a dry run."""
+        """The models listed by a dry run."""
         done = subprocess.run([PROGRAM, "batch", *map(str, words), "--dry-run"], cwd=self.folder, capture_output=True,
                               env={**os.environ, **{key: str(value) for key, value in env.items()}})
         self.assertEqual(done.returncode, code, done.stderr.decode())
@@ -56,7 +56,7 @@ class Shards(Batch):
             self.assertEqual({n for n in after if "/c/" not in n}, before[k])
 
     def test_names(self):
-        """Below the folder that was given, wherever it lies; of lists and operands as they stand, normalised."""
+        """Relative to the given folder, wherever it is; for lists and operands, the normalised path."""
         self.tree(12)
         for k in (1, 2, 3):
             shard = ["-o", "out/", "--shard", f"{k}/3"]
@@ -102,13 +102,13 @@ class Shards(Batch):
         without = self.slurm(2, 0, 3)
         del without["SLURM_ARRAY_TASK_STEP"]
         self.assertEqual(self.auto(without), expected[2])
-        # Tasks that are submitted again keep their part where its number is given, and are refused where it is not.
+        # Resubmitted tasks keep their part if its number is given, and are refused otherwise.
         again = self.slurm(3, 1, 3, 2)
         self.assertEqual(self.auto(again, "auto/4"), expected[3])
         for env in (self.slurm(17, 17, 17), self.slurm(2, 2, 3), self.slurm(3, 0, 7, 1, 3), self.slurm(9, 0, 3), self.slurm(1, 0, 4, 2),
                     self.slurm(0, 0, 0, 1, 0), self.slurm("x", 0, 3), self.slurm(-1, 0, 3)):
             self.assertIn("--shard", self.auto(env, code=1), env)
-        self.assertIn("is 4, expected 0 to 3", self.auto(self.slurm(4, 1, 4), "auto/4", code=1))  # counted from 1: the first part would be missing
+        self.assertIn("is 4, expected 0 to 3", self.auto(self.slurm(4, 1, 4), "auto/4", code=1))  # counted from 1: otherwise the first part would be missing
         for name in ("SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_COUNT"):
             env = self.slurm(1, 0, 3)
             del env[name]
@@ -129,14 +129,14 @@ class Shards(Batch):
         self.auto({"OMPI_COMM_WORLD_RANK": 2, "OMPI_COMM_WORLD_SIZE": 2}, code=1)
 
     def test_doubt(self):
-        """Nothing and two things are no answer; and without --shard the environment counts for nothing."""
+        """No answer and two answers are errors; without --shard, the environment is ignored."""
         self.assertIn("none of", self.auto({}, code=1))
         both = {**self.slurm(0, 0, 1), "OMPI_COMM_WORLD_RANK": 0, "OMPI_COMM_WORLD_SIZE": 2}
         self.assertIn("both", self.auto(both, code=1))
         self.assertEqual(len(self.models("in", "-o", "out/", env=both)), 30)
 
     def test_kubernetes_example(self):
-        """Its command draws every model once, and a model that cannot be drawn does not make a pod fail."""
+        """Its command draws every model once, and a failed model does not make a pod fail."""
         text = (ROOT / "examples" / "kubernetes-job.yaml").read_text()
         words = [word.strip().strip('"') for word in re.search(r"(?s)command: \[(.*?)\]", text).group(1).split(",")]
         completions = int(re.search(r"completions: (\d+)", text).group(1))
@@ -158,7 +158,7 @@ class Shards(Batch):
                 for k in range(1, count + 1)]
 
     def test_parts_of_a_list(self):
-        """Each name is in one part, in the list's order, wherever the parts' borders are; empty lines count for nothing."""
+        """Each name is in exactly one part, in the list's order, for any borders of the parts; empty lines are ignored."""
         names = sorted(f"{folder}/{'m' * (i % 7)}{i:02}.stl" for folder in ("a", "b") for i in range(20))
         for text in ("".join(n + "\n" for n in names), "\r\n".join(names), "\n\n" + "\n\n\n".join(names) + "\n\n"):
             (self.folder / "list").write_text(text, newline="")
@@ -170,7 +170,7 @@ class Shards(Batch):
         self.assertEqual(self.parts(2), [[], []])
 
     def test_a_part_reads_only_its_bytes(self):
-        """A sparse file of 8 GB: nobody reads all of it in the time of a test."""
+        """A sparse file of 8 GB, which a test cannot read completely in the available time."""
         lines, part = [b"a/%05d.stl\n" % i for i in range(6000)], 1 << 14  # bytes
         with open(self.folder / "list", "wb") as file:
             file.seek((4 << 30) - 2 * part)
@@ -181,7 +181,7 @@ class Shards(Batch):
         self.assertEqual(drawn, [line[:-1].decode() for line in lines[first:-(-(3 * part - 1) // len(lines[0]))]])
 
     def test_the_order_of_a_list(self):
-        """No shard sees all names; that no two pictures have one follows from their order, also at the borders of parts."""
+        """No shard sees all names. Their order guarantees that no two pictures share a name, also at the borders of parts."""
         for lines, says in ((["a/1.stl", "a/3.stl", "a/2.stl", "a/4.stl"], "'out/a/2.png' comes after 'out/a/3.png'"),
                             (["a/1.stl", "a/2.obj", "a/2.stl", "a/4.stl"], "would both be written to 'out/a/2.png'")):
             (self.folder / "list").write_text("\n".join(lines))
@@ -196,7 +196,7 @@ class Shards(Batch):
         self.assertIn("requires --shard", self.models("@list", "--shard-by", "list", code=1))
 
     def test_the_list_of_the_documentation(self):
-        """Its line sorts any names by their pictures; shards of that list draw each once."""
+        """The documented command sorts any names by their pictures; shards of that list draw each model once."""
         names = ["models/b/bolt.stl", "models/b/bolt.m5.stl", "models/b/bolt.a.stl", "models/b/bolt.z.stl", "models/b-c/x.stl", "models/b/bolt-2.stl", "models/a.stl"]
         for name in names:
             self.cube(name)
@@ -225,7 +225,7 @@ class Shards(Batch):
         return json.loads((self.folder / path).read_text().splitlines()[0])
 
     def test_run(self):
-        """Shards give the pictures of one run, each with a journal and a page of its own."""
+        """Shards draw the pictures of one run, each with its own journal and page."""
         names = self.tree(9)
         self.batch("in", "-o", "one/{dir}/{stem}.png")
         for k in (1, 2, 3):
@@ -249,7 +249,7 @@ class Shards(Batch):
         self.assertEqual(self.files("j"), {"log-1-of-2.jsonl", "log-2-of-2.jsonl"})
 
     def test_another_number_of_shards(self):
-        """It would give models to other shards than those that have drawn them."""
+        """The option would assign models to other shards than those that drew them."""
         self.tree(3)
         self.batch("in", "-o", "out/", "--shard", "03/12")
         self.assertTrue((self.folder / "out/lambent-03-of-12.jsonl").exists())
@@ -268,7 +268,7 @@ class Shards(Batch):
         self.batch("in", "-o", "out/", "--shard", f"{empty}/2", "--resume", "--isolate")
 
     def test_render(self):
-        """`lambent A B` is the same loop."""
+        """`lambent A B` uses the same loop."""
         names = self.tree(6)
         for k in (1, 2):
             self.run_program(*names, "-s", 24, "-o", "out/", "--shard", f"{k}/2", "--journal", "log.jsonl")
@@ -277,7 +277,7 @@ class Shards(Batch):
 
 
 class Merge(Batch):
-    """`lambent journal`: the journals of a batch taken together."""
+    """`lambent journal`: combines the journals of a batch."""
 
     def sum(self, *words, code=0):
         done = self.run_program("journal", *words)
@@ -317,7 +317,7 @@ class Merge(Batch):
         text = self.sum("out", code=7)
         self.assertIn("shard 2/4 has no journal\nshard 4/4 has no journal\n", text)
         self.assertEqual(json.loads(self.sum("out", "--json", code=7))["missing_shards"], [2, 4])
-        # A run that was killed has a journal without the line at its end; another line may be torn.
+        # The journal of a killed run has no final line, and another line may be truncated.
         for k in (2, 4):
             self.batch("in", "-o", "out/{dir}/{stem}.png", "--shard", f"{k}/4")
         self.sum("out")
@@ -340,13 +340,13 @@ class Merge(Batch):
         self.assertEqual(json.loads(self.sum("out", "--json", code=7))["written"], 9)  # it counts once
 
     def test_merged(self):
-        """The merged journal is one that a run without shards goes on with."""
+        """A run without shards can continue the merged journal."""
         names = self.shards(broken=())
         self.sum("out", "-o", "out/lambent.jsonl")
         self.assertEqual(sorted(r["model"] for r in self.journal()), sorted(names))
         self.assertIn("0 of 9 pictures written, 9 done before", self.batch("in", "-o", "out/{dir}/{stem}.png", "--resume").stderr.decode())
         self.assertIn("9 unchanged", self.batch("in", "-o", "out/{dir}/{stem}.png", "--skip-same").stderr.decode())
-        self.assertEqual(self.sum("out", "-o", "-").count('"output"'), 9)  # of the shards, not of what they were merged into
+        self.assertEqual(self.sum("out", "-o", "-").count('"output"'), 9)  # the journals of the shards, not the merged one
         self.assertIn("9 of 9", self.sum("out/lambent.jsonl"))
 
     def test_latest_line_counts(self):

@@ -1,4 +1,4 @@
-# test_show.py: --show: terms that add up, numbers with their codes, lights by name.
+# test_show.py: --show: terms that add up, numbers with their encodings, lights by name.
 import struct
 
 from harness import Case, pixel, read_png
@@ -39,7 +39,7 @@ class Show(Case):
         self.assertEqual(middle["n.l"][0], middle["n.l"][2])
 
     def test_glass(self):
-        """glass is a material like the named ones: clear, and changed by keys behind it."""
+        """glass is a material like the named ones: it is transparent, and keys after the name change it."""
         plain = self.png("cube.obj", "-s", 48, "-b", "white", "--material", "white,roughness=0,transmission=1")
         self.assertEqual(plain, self.png("cube.obj", "-s", 48, "-b", "white", "--material", "glass"))
         self.assertEqual(plain, self.png("cube.obj", "-s", 48, "-b", "white", "--material", "red", "--material", "Glass"))
@@ -50,7 +50,7 @@ class Show(Case):
         self.assertIn("--material glass", self.good("help", "glass").stdout.decode())
 
     def test_materials(self):
-        """What a material is: colours by the sRGB curve, numbers as they are; classic materials have no roughness."""
+        """Material properties: colours with the sRGB curve, numbers unchanged; classic materials have no roughness."""
         gold = ("sphere", "--view", "front", "-s", SIZE + 1, "--material", "#ffc356,metallic=0.6,roughness=0.4")
         at = lambda what, *more: pixel(self.png(*gold, "--show", what, *more), 20, 20)
         self.assertEqual(at("base-color"), (255, 195, 86, 255))
@@ -73,7 +73,7 @@ class Show(Case):
         self.assertFalse(said("sphere", "--environment", "sky", "--reflectivity", "0.5"))
 
     def test_vectors_without_maps(self):
-        """Normals and cosines are no colours: a texture does not multiply them, wherever they are computed."""
+        """Normals and cosines are not colours: a texture does not multiply them, wherever they are computed."""
         (self.folder / "red.ppm").write_bytes(b"P6 1 1 255\n\xff\x10\x08")
         (self.folder / "red.mtl").write_text("newmtl a\nmap_Kd red.ppm\n")
         mesh = "usemtl a\nv -1 -1 0\nv 1 -1 0.5\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
@@ -85,7 +85,7 @@ class Show(Case):
                 self.assertEqual(self.floats("red.obj", *words), self.floats("plain.obj", *words), (what, shading))
 
     def test_colors_without_material(self):
-        """A surface with colours of its own and no material returns those colours, from a scene file too; one without returns grey."""
+        """A surface with vertex colours and no material shows these colours, also from a scene file; without colours, it is grey."""
         head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
         tail = "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -104,7 +104,7 @@ class Show(Case):
         self.assertEqual(pixel(self.png("both.json", *look[:-1], "eye=30/0/30,target=30/0/0,fovy=10"), 20, 20), grey)
 
     def test_background(self):
-        """It is the picture's wherever a number is of a surface, and on the sheets; numbers of pixels have no background."""
+        """Quantities of surfaces use the picture's background, also on sheets; quantities of pixels have no background."""
         names = {"normals": 1, "depth": 1, "facing": 1, "ids": 1, "n.l": 1, "n.h": 1, "diffuse": 1, "picture": 1, "coverage": 0, "overdraw": 0}
         for what, shows in names.items():
             for color, bytes4 in (("#506070", (0x50, 0x60, 0x70, 255)), ("#ff800080", (255, 128, 0, 128)), (None, (0, 0, 0, 0))):
@@ -120,7 +120,7 @@ class Show(Case):
         self.assertEqual(pixel(self.png("materials", "-s", 60, "-b", "transparent", "--no-captions"), 1, 1), (0, 0, 0, 0))
 
     def test_depth_range(self):
-        """The nearest vertex is white, and the report tells both ends."""
+        """The nearest vertex is white, and the report contains both ends."""
         report = self.report("cube.obj", "--view", "front", "-s", 33, "--show", "depth", "-o", "d.png")["image"]
         near, far = report["depth_near"], report["depth_far"]
         whole = read_png((self.folder / "d.png").read_bytes())

@@ -1,4 +1,4 @@
-# test_terminal.py: --term: pictures in a terminal, a pseudo-terminal that answers as kitty, xterm or foot do.
+# test_terminal.py: --term: pictures in a terminal, a pseudo-terminal that answers like kitty, xterm or foot.
 import base64
 import ctypes
 import fcntl
@@ -30,7 +30,7 @@ def has_chafa():
 
 
 def kitty_picture(text):
-    """The PNG that kitty's sequences hold, and the keys of the first."""
+    """The PNG in kitty's sequences, and the keys of the first sequence."""
     parts = re.findall(rb"\x1b_G([^;]*);([A-Za-z0-9+/=]*)\x1b\\", text)
     assert parts
     for number, (keys, data) in enumerate(parts):
@@ -43,7 +43,7 @@ def kitty_picture(text):
 
 
 def sixel_picture(text):
-    """The picture of DCS q: width, height, and a pixel's colour (r, g, b) by its place; clear ones are missing."""
+    """The picture in DCS q: width, height, and the colour (r, g, b) of each pixel; transparent pixels are missing."""
     body = re.search(rb'\x1bP[\d;]*q"1;1;(\d+);(\d+)(.*?)\x1b\\', text, re.S)
     width, height, rows = int(body[1]), int(body[2]), body[3].decode()
     colors, pixels, x, y, color = {}, {}, 0, 0, 0
@@ -67,14 +67,14 @@ def sixel_picture(text):
 
 class Terminal(Case):
     def in_terminal(self, *words, answer=None, env=None, size=(80, 24, 800, 480), code=0, stdin=None, at_query=None):
-        """What the program writes to a terminal that gives this answer to the questions; standard error is kept apart."""
+        """The program's output to a terminal that answers the questions in this way; standard error is separate."""
         master, slave = pty.openpty()
         columns, rows, width, height = size
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, width, height))
         before = termios.tcgetattr(slave)
         environment = {k: v for k, v in os.environ.items() if k not in HIDDEN}
         environment.update({"TERM": "xterm-256color", **(env or {})})
-        if answer:  # which comes, however busy this machine is
+        if answer:  # which arrives, even on a busy machine
             environment["LAMBENT_TERM_WAIT"] = "60000"
         process = subprocess.Popen([PROGRAM, *map(str, words)], cwd=self.folder, stdin=stdin or slave, stdout=slave, stderr=subprocess.PIPE,
                                    env=environment, start_new_session=True, preexec_fn=lambda: fcntl.ioctl(1, termios.TIOCSCTTY, 0))
@@ -102,7 +102,7 @@ class Terminal(Case):
         return text
 
     def test_kitty(self):
-        """The terminal gets the bytes of the file, known by its name or by its answer; the file is written as always."""
+        """The terminal, recognised by its name or by its answer, gets the bytes of the file; the file is also written."""
         self.good("torus", "-s", 200, "-o", "named.png")
         want = (self.folder / "named.png").read_bytes()
         text = self.in_terminal("torus", "-s", 200, answer=KITTY)
@@ -117,7 +117,7 @@ class Terminal(Case):
             self.assertTrue(kitty_picture(text)[0] == want)
 
     def test_no_file(self):
-        """-o - shows it and writes no file, raw PNG bytes least of all."""
+        """-o - shows the picture, and writes neither a file nor raw PNG bytes."""
         text = self.in_terminal("torus", "-s", 200, "-o", "-", env={"TERM": "xterm-kitty"})
         self.assertTrue(kitty_picture(text)[0] == self.good("torus", "-s", 200, "-o", "-").stdout)
         self.assertEqual(self.new_files(), set())
@@ -128,12 +128,12 @@ class Terminal(Case):
         self.assertEqual(self.new_files(), set())
 
     def test_size(self):
-        """A picture larger than the window is fitted by the terminal, in its tighter direction, above a line for the prompt."""
+        """A picture larger than the window is scaled down by the terminal to fit both directions, above a line for the prompt."""
         for size, more in (((80, 24, 800, 480), (b"r", b"22")), ((20, 60, 200, 1200), (b"c", b"20")), ((80, 24, 0, 0), (b"r", b"22")),
                            ((300, 100, 3000, 2000), None)):
             _, keys = kitty_picture(self.in_terminal("torus", "-s", "1000", "--term", "kitty", size=size))
             self.assertEqual({k: v for k, v in keys.items() if k in (b"r", b"c")}, dict([more] if more else []), size)
-        # Where the window has no size in pixels, the terminal says how large a cell is.
+        # If the window has no size in pixels, the terminal reports the size of a cell.
         text = self.in_terminal("torus", "-s", 300, size=(80, 24, 0, 0), answer=b"\x1b[6;40;20t" + KITTY)
         self.assertIn(b"\x1b[16t", text)
         self.assertNotIn(b"r", kitty_picture(text.split(ATTRIBUTES)[1])[1])
@@ -151,17 +151,17 @@ class Terminal(Case):
         self.assertIn(b";height=22:", text)
 
     def test_silent(self):
-        """Nothing is sent where nothing is to be seen, and nothing is asked where the answer is no."""
+        """Nothing is sent if nothing would be visible, and the terminal is not queried if the answer is known to be no."""
         for words, env, answer in ((["-o", "a.png"], {}, None), (["--json"], {}, None), (["--quiet"], {}, None), (["--dry-run"], {}, None),
                                    (["--term", "off"], {}, None), (["cube"], {}, None), (["--turntable", "3"], {}, None),
                                    (["--views", "front,left", "-o", "{stem}-{view}.png"], {}, None),
                                    ([], {"TERM": "dumb"}, None), ([], {"TERM": "linux"}, None), ([], {"CI": "1"}, None)):
             text = self.in_terminal("torus", "-s", 16, *words, env=env, answer=answer)
             self.assertNotIn(b"\x1b", text, (words, env))
-        # A text terminal is asked once. tmux hands on kitty's variables, but not its graphics.
+        # A text terminal is queried once. tmux passes on kitty's variables, but not its graphics.
         for env in ({}, {"TERM": "tmux-256color", "TMUX": "/tmp/t,1,0", "KITTY_WINDOW_ID": "1"}):
             self.assertEqual(self.in_terminal("torus", "-s", 16, answer=TEXT, env=env), QUERY + ATTRIBUTES)
-        # No answer: the wait ends.
+        # Without an answer, the wait ends.
         self.assertEqual(self.in_terminal("torus", "-s", 16), QUERY + ATTRIBUTES)
         self.assertTrue((self.folder / "torus.png").exists())
         # A pipe, as in scripts.
@@ -183,7 +183,7 @@ class Terminal(Case):
         self.assertEqual(self.new_files(), left)
 
     def test_signal(self):
-        """Ctrl-C while the terminal is asked: its settings are restored, and the shell sees the signal."""
+        """Ctrl-C during the query: the terminal's settings are restored, and the shell sees the signal."""
         seen = []
 
         def interrupt(process, slave):
@@ -194,7 +194,7 @@ class Terminal(Case):
         self.assertEqual(self.new_files(), set())
 
     def test_commands(self):
-        """Sheets, plots and materials are shown as pictures of models are."""
+        """Sheets, plots and materials are shown like pictures of models."""
         for words, name in ((["compare", "torus", "--sheet", "ambient", "-s", "64"], "torus-ambient.png"), (["plot", "spot", "-s", "160x100"], "spot.png"),
                             (["shape", "torus", "-s", "32"], "torus.png")):
             png, _ = kitty_picture(self.in_terminal(*words, env={"TERM": "xterm-kitty"}))
@@ -207,7 +207,7 @@ class Terminal(Case):
 
     @unittest.skipUnless(has_chafa(), "libchafa is not installed")
     def test_sixel(self):
-        """The sixels are the picture: its size where it fits, its colours, clear where it is clear."""
+        """The sixels equal the picture: its size if it fits, its colours and its transparent pixels."""
         text = self.in_terminal("torus", "-s", "120", "--background", "white", answer=SIXEL)
         width, height, pixels = sixel_picture(text.split(ATTRIBUTES)[1])
         picture = read_png((self.folder / "torus.png").read_bytes())
@@ -217,7 +217,7 @@ class Terminal(Case):
         self.assertLess(sum(off) / len(off), 4)
         self.assertGreater(len(set(pixels.values())), 20)
         width, height, pixels = sixel_picture(self.in_terminal("torus", "-s", "1000x500", "--term", "sixel", answer=TEXT).split(ATTRIBUTES)[1])
-        self.assertEqual((width, height), (792, 396)) # rows of sixels are six pixels high
+        self.assertEqual((width, height), (792, 396)) # sixel rows are six pixels high
         self.assertNotIn((5, 5), pixels)
         self.assertIn((396, 300), pixels)
 

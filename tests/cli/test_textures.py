@@ -1,4 +1,5 @@
-# test_textures.py: textures of OBJ and glTF files: where a picture lands, its options, and what is said of a missing one.
+# test_textures.py: textures of OBJ and glTF files: the position of a picture, its options, and the warning about a
+# missing one.
 import base64
 import json
 import math
@@ -42,14 +43,14 @@ class Textures(Case):
 
     def test_mtl_orientation_and_options(self):
         r, g, b, w = RED[:3], GREEN[:3], BLUE[:3], WHITE[:3]
-        # MTL's t points up: the picture stands as it does in a viewer.
+        # MTL's t points up, so the picture is upright, as in a viewer.
         self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke t.png\n")), [r, g, b, w])
         self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -o 0.5 0 t.png\n")), [g, r, w, b])
         self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -o 0 0.5 t.png\n")), [b, w, r, g])
         self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -s 4 1 t.png\n")), [g, r, w, b])
         self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -clamp on -o 1 0 t.png\n")), [g, g, w, w])
         self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -mm 1 -1 t.png\n"))[0], (0, 255, 255))
-        # illum 0 is the picture itself.
+        # illum 0 shows the picture itself.
         self.assertEqual(self.drawn(self.obj("map_Kd t.png\n")), [r, g, b, w])
 
     def test_mtl_opacity(self):
@@ -134,14 +135,14 @@ class Textures(Case):
             self.assertLessEqual(abs(a - b), 1)
         for other in (glossy((100, 100, 50, 102), [0.5, 0.25, 1], 0.8), glossy((200, 100, 50, 200), [0.5, 0.25, 1], 0.8)):
             self.assertGreater(max(abs(a - b) for a, b in zip(sum(plain, ()), sum(other, ()))), 3)
-        # Lambert's part alone, by the extension's text: diffuse (1 - max specular)(1 - max F), F = f0 but for 2e-5 along the normal.
+        # Only Lambert's part, as in the extension: diffuse (1 - max specular)(1 - max F), F = f0 except for 2e-5 along the normal.
         matt = glossy((255, 255, 255, 255), [0.5, 0.2, 0], 0, diffuseFactor=[1, 1, 1, 1])
         black = glossy((255, 255, 255, 255), [0.5, 0.2, 0], 0, diffuseFactor=[0, 0, 0, 1])
         cosine = 1 / (0.2 ** 2 + 0.3 ** 2 + 1) ** 0.5
         self.assertAlmostEqual(linear(matt[0][2]) - linear(black[0][2]), 0.7 * cosine * 0.5 * 0.5, delta=0.01)
 
     def test_gltf_tangents(self):
-        """Made tangents run along the coordinates after the normal map's transform, in a scene file too; given ones stay as they are."""
+        """Computed tangents follow the texture coordinates after the normal map's transform, also in a scene file; given tangents do not change."""
         bent = write_png(1, 1, bytes((200, 90, 220, 255)))
         for scale, angle in (([1, 1], 0.7), ([-1, 1], 0.7), ([1, -1], 0.7), ([2, -3], 0.7), ([2, 3], 0), ([-1, 1], 0), ([1, -1], 0)):
             # s' = a s + b t, t' = c s + d t, and the square has p = (s, -t)

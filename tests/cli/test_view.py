@@ -1,5 +1,5 @@
-# test_view.py: `lambent view`: what its server answers, and when it ends. Whom it answers is in test_view_requests.py, the page in a browser in
-# tests/browser.py.
+# test_view.py: `lambent view`: the answers of its server, and when it ends. test_view_requests.py tests the access control, and
+# tests/browser.py tests the page in a browser.
 import hashlib
 import http.client
 import json
@@ -96,7 +96,7 @@ class View(ViewCase):
                 self.assertEqual(found, 422, word + " " + path)
 
     def test_named_link(self):
-        """The user may name a link that leads elsewhere; what its model names is looked for beside the link."""
+        """The user may name a link that leads elsewhere; the files of its model are searched next to the link."""
         place = self.textured()
         (self.folder / "other").mkdir()
         (self.folder / "other" / "link.obj").symlink_to(place / "quad.obj")
@@ -152,7 +152,7 @@ class View(ViewCase):
             self.assertEqual((about["width"], about["height"], pixels), read_png(written))
             self.assertEqual(about["triangles"], 12)
             self.assertEqual(len(about["camera"]["eye"]), 3)
-        # Not what was drawn before: the file is another one.
+        # Not the previous picture, because the file is another one.
         (self.folder / "cube.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")
         self.assertEqual(json.loads(server.task("draw", "/cube.obj", "--size=8")[2].split(b"\n")[0])["triangles"], 1)
         (self.folder / "cube.obj").write_text("v 0 0\n")
@@ -161,7 +161,7 @@ class View(ViewCase):
         self.assertEqual(b"lambent: " + body + b"\n", self.run_program("cube.obj", "-s", 8).stderr)
 
     def test_kept_model(self):
-        # A setting of the drawing leaves the model loaded: the time of reading is that of the first picture. Edges need the file's polygons.
+        # A drawing setting keeps the model loaded: the reading time is the same as for the first picture. Edges need the file's polygons.
         server = self.serve("cube.obj")
 
         def read_ms(*words):
@@ -206,7 +206,7 @@ class View(ViewCase):
         self.assertIn(b"--triangle-limit", body)
 
     def test_native(self):
-        """What the page cannot draw is drawn by the program, which says why."""
+        """The program draws what the page cannot draw, and states the reason."""
         (self.folder / "many.obj").write_text("v 0 0 0\n" + "p 1\n" * 2000001)
         server = self.serve("many.obj")
         about = json.loads(server.task("model", "/many.obj")[2])
@@ -214,14 +214,14 @@ class View(ViewCase):
         self.assertIsNone(json.loads(server.task("model", "/cube.obj")[2])["native"])
 
     def test_newer_picture(self):
-        """A page's newer picture ends its older one; that of another page does not."""
+        """A newer picture of a page cancels its older one; a picture of another page does not."""
         server = self.serve("teapot")
         slow = urllib.parse.urlencode([("w", "teapot"), ("w", "--size=3000"), ("w", "--samples=16"), ("w", "--shadows"), ("w", "--ao=rays"), ("w", "--ao-samples=64"), ("c", "test")])
         connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=WAIT)
         self.addCleanup(connection.close)
         connection.request("GET", "/%s/draw?%s" % (server.token, slow))
         while not subprocess.run(["pgrep", "-P", str(server.process.pid)], stdout=subprocess.PIPE).stdout:
-            pass  # until it is being drawn
+            pass  # until drawing starts
         self.assertEqual(server.task("draw", "teapot", "--size=8")[0], 200)
         self.assertEqual(connection.getresponse().status, 409)
 
@@ -244,7 +244,7 @@ class View(ViewCase):
         events.until(b'data: "/quad.mtl"\n\n')
 
     def test_folder_that_is_replaced(self):
-        """Files of a folder that another one replaces count as changed, and are watched from then on."""
+        """If another folder replaces a folder, its files count as changed, and are watched from then on."""
         place = self.textured()
         server = self.serve("models/quad.obj")
         self.assertEqual(server.task("model", "/quad.obj")[0], 200)
@@ -254,7 +254,7 @@ class View(ViewCase):
         (place / "old" / "a.png").write_bytes(b"no longer the model's")
         (place / "pictures").mkdir()
         (place / "pictures" / "a.png").write_bytes(write_png(1, 1, b"\x00\x40\x20\xff"))
-        events.until(b'data: "/pictures/"\n\n')  # it is there again
+        events.until(b'data: "/pictures/"\n\n')  # it exists again
         (place / "pictures" / "a.png").write_bytes(write_png(1, 1, b"\x00\x00\x20\xff"))
         events.until(b'data: "/pictures/a.png"\n\n')
         shutil.rmtree(place / "pictures")
@@ -339,7 +339,7 @@ class View(ViewCase):
         self.assertEqual(len(pictures), 1)
         self.assertEqual(server.task("draw", "/1.obj", "--size=8")[0], 200)
 
-    # --- its end
+    # --- the end
 
     def test_idle(self):
         server = self.serve("cube.obj", "--idle", "0.002")
@@ -351,7 +351,7 @@ class View(ViewCase):
         try:
             events = server.events()
         except (OSError, AssertionError):
-            return  # the machine was so busy that it had ended
+            return  # the machine was so busy that the process had ended
         self.assertFalse(select.select([events.connection], [], [], 1)[0] and not events.connection.recv(1, socket.MSG_PEEK), "the connection has ended")
         self.assertIsNone(server.process.poll())
         events.connection.close()
@@ -369,7 +369,7 @@ class View(ViewCase):
         self.assertEqual(children, b"")
 
     def test_interrupt_with_many_requests(self):
-        """Requests that arrive while the server ends are answered or lost, and it ends as ever."""
+        """Requests that arrive while the server ends are answered or lost, and the server still ends."""
         server = self.serve("teapot")
         query = urllib.parse.urlencode([("w", "teapot"), ("w", "--size=4000"), ("w", "--samples=16")])
         connections = []
@@ -380,14 +380,14 @@ class View(ViewCase):
             connection.sendall(b"GET /%s/draw?%s&c=%d HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n" % (server.token.encode(), query.encode(), i, server.port) +
                                (b"\r\n" if i % 2 else b""))
         server.process.send_signal(signal.SIGINT)
-        for connection in connections[::2]:  # their requests become whole now
+        for connection in connections[::2]:  # their requests become complete now
             try:
                 connection.sendall(b"\r\n")
             except OSError:
                 pass  # it has ended
         self.assertEqual(server.process.wait(timeout=WAIT), 0)
 
-    # --- what it cannot do
+    # --- unsupported cases
 
     def test_errors(self):
         env = {"LAMBENT_PAGE": str(self.page)}

@@ -1,4 +1,4 @@
-# test_view_requests.py: whom the server of `lambent view` answers, and what hostile requests do to it.
+# test_view_requests.py: the access control of `lambent view`, and the effect of hostile requests.
 import contextlib
 import select
 import socket
@@ -8,11 +8,11 @@ import time
 from view_server import WAIT, ViewCase
 
 
-SOON = 20  # seconds: less than the half minute after which the library itself closes a connection that says nothing
+SOON = 20  # seconds: less than the half minute after which the library itself closes a silent connection
 
 
 class Requests(ViewCase):
-    # --- who is answered
+    # --- access control
 
     def test_token(self):
         server = self.serve("cube.obj")
@@ -37,7 +37,7 @@ class Requests(ViewCase):
             self.assertEqual(server.get("files/cube.obj", headers={name: value})[0], status, value)
 
     def test_repeated_headers(self):
-        """Of two headers a relay in between could have checked the other one."""
+        """If there are two headers, a relay could have checked the other one."""
         server = self.serve("cube.obj")
         own = "127.0.0.1:%d" % server.port
         good = {"Host": own, "Origin": "http://" + own, "Sec-Fetch-Site": "same-origin"}
@@ -49,13 +49,13 @@ class Requests(ViewCase):
         self.assertEqual(self.status(server, "files/cube.obj", list(good.items())), 200)
 
     def status(self, server, path, lines):
-        """The status of an answer to exactly these headers."""
+        """The status of the answer to exactly these headers."""
         with socket.create_connection(("127.0.0.1", server.port), timeout=SOON) as connection:
             connection.sendall("".join(["GET /%s/%s HTTP/1.1\r\n" % (server.token, path), *("%s: %s\r\n" % line for line in lines), "\r\n"]).encode())
             return int(connection.recv(4096).split()[1])
 
     def test_zero_bytes(self):
-        """The library decodes %00 to the end of a name, behind which anything may follow."""
+        """The library decodes %00 as the end of a name, so anything could follow it."""
         server = self.serve("cube.obj")
         (self.folder / "cube%00.obj").write_text("v 0 0 0\n")
         for path in ("files/cube.obj%00", "files/cube.obj%00y.obj", "files/%00cube.obj", "files/cube%00.obj", "page%00", "%00", "thumb/cube.obj%00",
@@ -75,7 +75,7 @@ class Requests(ViewCase):
     # --- other users
 
     def test_other_users(self):
-        """A connection of another user is refused, though it has the token; root's is not, since relays are root's."""
+        """A connection of another user is refused even with the token; root's connection is not, because relays belong to root."""
         other = self.plain_user()
         if other is None:
             self.skipTest("runs without the right to become another user")
@@ -92,7 +92,7 @@ class Requests(ViewCase):
         server = self.serve("cube.obj")
         host = b"Host: 127.0.0.1:%d\r\n" % server.port
         waiting = []
-        for i in range(200):  # half requests
+        for i in range(200):  # incomplete requests
             connection = socket.create_connection(("127.0.0.1", server.port), timeout=WAIT)
             self.addCleanup(connection.close)
             connection.sendall([b"GET /", b"", b"GET / HTTP/1.1\r\n" + host, b"GET /%s/ HTTP/1.1\r\nX: " % server.token.encode()][i % 4])
@@ -103,7 +103,7 @@ class Requests(ViewCase):
                      b"GET http://evil.example/ HTTP/1.1\r\n" + host + b"\r\n", b"GET /%ff%fe/../..// HTTP/1.1\r\n" + host + b"\r\n",
                      b"POST / HTTP/1.1\r\n" + host + b"Content-Length: 99999999999999\r\n\r\n", b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 5000 + b"\r\n",
                      b"GET /" + server.token.encode() + b"/draw?" + b"w=a&" * 8000 + b" HTTP/1.1\r\n" + host + b"\r\n"):
-            connection = socket.create_connection(("127.0.0.1", server.port), timeout=1)  # to some there is no answer
+            connection = socket.create_connection(("127.0.0.1", server.port), timeout=1)  # some get no answer
             try:
                 connection.sendall(junk)
                 answer = connection.recv(4096)
@@ -121,12 +121,12 @@ class Requests(ViewCase):
     HALVES = (b"GET /", b"", b"GET / HTTP/1.1\r\nHost: x\r\n", b"POST / HTTP/1.1\r\nX: ")
 
     def test_more_half_requests_than_connections(self):
-        """Whoever holds many half-sent requests open, and opens new ones for those that are closed, keeps nobody out."""
+        """A client that keeps many incomplete requests open, and reopens closed ones, does not keep other clients out."""
         server, begin, waiting = self.serve("cube.obj"), time.monotonic(), []
         self.assertEqual(server.task("model", "/cube.obj")[0], 200)
         events = server.events()
         for _ in range(3):
-            for i in range(600):  # the server accepts 256 at once, and as many wait for it
+            for i in range(600):  # the server accepts 256 at once, and the same number may wait
                 connection = socket.create_connection(("127.0.0.1", server.port), timeout=SOON)
                 self.addCleanup(connection.close)
                 connection.sendall(self.HALVES[i % 4])
@@ -134,12 +134,12 @@ class Requests(ViewCase):
             for path in ("files/cube.obj", "draw?w=/cube.obj&w=--size=8"):
                 self.assertEqual(self.status(server, path, [("Host", "127.0.0.1:%d" % server.port)]), 200)
         closed = [self.is_closed(connection, 0) for connection in waiting[-100:]]
-        if time.monotonic() - begin < 4:  # else they may be so old that they are closed
+        if time.monotonic() - begin < 4:  # otherwise they may be so old that they are closed
             self.assertNotIn(True, closed)
         for connection in waiting[:1000]:  # the oldest
             self.assertTrue(self.is_closed(connection))
         (self.folder / "cube.obj").write_text("v 0 0 0\n")
-        events.until(b'data: "/cube.obj"')  # a page that is open stays connected
+        events.until(b'data: "/cube.obj"')  # an open page stays connected
 
     def is_closed(self, connection, wait=WAIT):
         connection.settimeout(wait)
@@ -151,7 +151,7 @@ class Requests(ViewCase):
             return True
 
     def test_half_requests_end(self):
-        """A request that does not become whole is dropped after some seconds, also if more of it comes all the time."""
+        """An incomplete request is dropped after some seconds, even if more data keeps arriving."""
         server = self.serve("cube.obj")
         self.assertEqual(server.task("model", "/cube.obj")[0], 200)
         events = server.events()
@@ -165,7 +165,7 @@ class Requests(ViewCase):
                 break
             try:
                 last.sendall(b"a")
-            except (BrokenPipeError, ConnectionResetError): # closed since then
+            except (BrokenPipeError, ConnectionResetError): # closed in the meantime
                 break
         else:
             self.fail("it is still waited for")
@@ -184,7 +184,7 @@ class Requests(ViewCase):
         sent = 0
         while sent < 40000 and not select.select(connections, [], [], 0.0001)[0]:  # bytes of each, fewer than the server accepts
             for connection in connections:
-                with contextlib.suppress(BrokenPipeError, ConnectionResetError): # closed since then
+                with contextlib.suppress(BrokenPipeError, ConnectionResetError): # closed in the meantime
                     connection.sendall(b"a")
             sent += 1
         for connection in connections:

@@ -1,5 +1,5 @@
-# test_worker.py: lambent batch --jobs: jobs as lines of JSON and their answers, hostile ones among them (docs/worker.md).
-# Above 600 lines: one test for each key of a job and each way that a worker ends.
+# test_worker.py: lambent batch --jobs: jobs as lines of JSON and their answers, including hostile ones (docs/worker.md).
+# The file has more than 600 lines because it contains one test for each key of a job and for each way to end a worker.
 import base64
 import json
 import os
@@ -17,15 +17,15 @@ import unittest
 from harness import OWN_MODELS, PROGRAM, ROOT, Case, long, read_png, write_png, wait_until_caught, writers_and_others
 from test_batch import xxh64
 
-JOBS = int(os.environ.get("LAMBENT_JOBS", "300"))  # of Many; `make test-long` has 10,000
+JOBS = int(os.environ.get("LAMBENT_JOBS", "300"))  # of Many; `make test-long` uses 10,000
 
 
-# AddressSanitizer would make an exit code of a signal.
+# AddressSanitizer would turn a signal into an exit code.
 SANITIZER = {"ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":handle_segv=0"}
 
 
 class Worker:
-    """A worker whose answers are collected by a thread."""
+    """A worker, and a thread that collects its answers."""
 
     def __init__(self, folder, *words, env=None):
         self.process = subprocess.Popen([PROGRAM, "batch", "--jobs", "-", *map(str, words)], cwd=folder, stdin=subprocess.PIPE,
@@ -96,7 +96,7 @@ class Jobs(Case):
         return worker
 
     def answers(self, *jobs, words=(), code=7, **more):
-        """The answers to jobs, in the order of the jobs where they have ids."""
+        """The answers to jobs, in the order of the jobs if they have ids."""
         worker = self.start(*words, **more)
         worker.say(*jobs)
         self.assertEqual(worker.end(), code, worker.err.decode())
@@ -115,7 +115,7 @@ class Jobs(Case):
 
 class Answers(Jobs):
     def test_same_picture_as_alone(self):
-        """Files and inline pictures have the bytes that `lambent` writes, with every way to say options, and with --isolate."""
+        """Files and inline pictures have the same bytes as from `lambent`, with every form of options, and with --isolate."""
         ways = ({"size": 40, "color": "#f80", "two-sided": True, "wireframe": False, "light": ["point", "+spot"]},
                 ["-s", "40", "--color=#f80", "--two-sided", "--light", "point", "--light", "+spot"], ["-s", 40, "--color", "#f80", "--two-sided",
                                                                                                     "--light=point", "--light=+spot"])
@@ -143,7 +143,7 @@ class Answers(Jobs):
                              {"id": 3, "data": self.data("cube.obj"), "name": "cube.obj", "options": {"size": 32}},
                              {"id": 4, "data": base64.b64encode(b"solid x\nfacet no").decode(), "name": "bad.stl"}, words=["--isolate"])
         self.assertEqual([base64.b64decode(a["data"]) for a in found[:2]], [alone, alone])
-        self.assertEqual(found[2]["outcome"], "written")  # without its material library, of which it warns
+        self.assertEqual(found[2]["outcome"], "written")  # without its material library, which causes a warning
         self.assertIn("cube.mtl", found[2]["warnings"][0])
         self.assertEqual((found[3]["outcome"], found[3]["class"], found[3]["exit"]), ("failed", "cannot-read", 2))
         self.assertTrue(found[3]["error"].startswith("bad.stl:"), found[3]["error"])
@@ -161,7 +161,7 @@ class Answers(Jobs):
             self.assertEqual(same, {(self.folder / "alone.png").read_bytes()})
             pictures.append(same.pop())
         self.assertEqual((worker.end(), len(set(pictures))), (0, 2))
-        # More environments than are kept, one of them no picture.
+        # More environments than the cache keeps; one of them is not a picture.
         names = [*(f"in/{i}.png" for i in range(6)), "sky", "studio", "in/cube.stl"]
         for i in range(6):
             (self.folder / f"in/{i}.png").write_bytes(write_png(8, 4, bytes([40 * i, 90, 40, 255]) * 32))
@@ -197,7 +197,7 @@ class Answers(Jobs):
         self.assertEqual([a["width"] for a in found], [12, 20])
 
     def test_end(self):
-        """No line end after the last line, no jobs at all, empty lines, a file of jobs."""
+        """No line end after the last line, no jobs, empty lines, a file of jobs."""
         worker = self.start()
         worker.process.stdin.write(b"\r\n \n" + json.dumps({"id": 1, "model": "in/cube.stl", "options": {"size": 8}}).encode())
         self.assertEqual((worker.end(), [a["outcome"] for a in worker.answers]), (0, ["written"]))
@@ -211,7 +211,7 @@ class Answers(Jobs):
     def test_journal_and_skip_same(self):
         jobs = [{"id": i, "model": "in/cube.stl", "options": {"size": 8 + i}, "output": f"out/{i}.png"} for i in range(3)]
         jobs.append({"id": 9, "model": "in/none.stl", "output": "out/9.png"})
-        time.sleep(0.02)  # a file changed within a tick of the clock before its reading has no key
+        time.sleep(0.02)  # a file changed within a clock tick before it was read has no key
         for more in ([], ["--isolate"]):
             self.answers(*jobs, words=["--journal", "log/j.jsonl", *more])
             lines = [json.loads(line) for line in (self.folder / "log/j.jsonl").read_text().splitlines()]
@@ -302,7 +302,8 @@ class Refusals(Jobs):
                 self.assertEqual(answer["outcome"], "refused", (more, job, answer))
                 self.assertEqual(answer["exit"], 5 if job["id"].startswith("out") else 2, (more, job, answer))
                 self.assertIn("regular file" if job.get("output") == "out/pipe.png" else "is outside", answer["error"], job)
-            # What a model names stays in the model's folder; a pipe is not opened; a folder is no model.
+            # Files of a model must be in the model's folder; a pipe is not opened; a folder is not a
+            # model.
             found = self.answers({"id": 1, "model": "in/mtl.obj"}, {"id": 2, "model": "in/scene.json"}, {"id": 3, "model": "in/pipe.stl"}, {"id": 4, "model": "in"},
                                  words=more)
             self.assertIn("x.mtl", found[0]["warnings"][0])
@@ -324,7 +325,7 @@ class Refusals(Jobs):
         self.assertTrue((self.folder / "out/a/b.png").exists())
 
     def test_ids(self):
-        """An id may be used again once it was answered, and not before."""
+        """An id may be used again after its answer, but not before."""
         worker = self.start("-j", "1")
         worker.say({"id": "a", "model": "teapot", "options": {"size": 3000, "samples": 16}}, {"id": "a", "model": "teapot", "options": {"size": 8}},
                    {"id": 1, "model": "teapot", "options": {"size": 8}}, {"id": "1", "model": "teapot", "options": {"size": 8}})
@@ -360,13 +361,13 @@ class Flow(Jobs):
     SLOW = {"model": "teapot", "options": {"size": 3000, "samples": 16}}
 
     def test_backpressure(self):
-        """One job is drawn, two wait, one is read; the rest stays in the pipe."""
+        """One job is being drawn, two wait, one is read; the others stay in the pipe."""
         for more in ([], ["--isolate"]):
             worker = self.start("-j", "1", "--ahead", "2", *more)
             worker.say({"id": "slow", "model": "teapot", "options": {"size": 6000, "samples": 16}})
             time.sleep(0.3)
             os.set_blocking(worker.process.stdin.fileno(), False)
-            line = json.dumps({"id": 0, "model": "in/cube.stl", "x": "y" * 4000}).encode() + b"\n"  # refused at once when it is read
+            line = json.dumps({"id": 0, "model": "in/cube.stl", "x": "y" * 4000}).encode() + b"\n"  # refused as soon as it is read
             good = [json.dumps({"id": i, "model": "in/cube.stl", "options": {"size": 8}}).encode() + b"\n" for i in range(3)]
             sent = 0
             for piece in [*good, *[line] * 40]:
@@ -375,7 +376,7 @@ class Flow(Jobs):
                 except BlockingIOError:
                     break
             time.sleep(0.5)
-            self.assertLess(sent, 43)  # the pipe is full: nobody reads
+            self.assertLess(sent, 43)  # the pipe is full because nobody reads
             with worker.came:
                 self.assertEqual(worker.answers, [])
             os.set_blocking(worker.process.stdin.fileno(), True)
@@ -411,7 +412,7 @@ class Flow(Jobs):
             self.assertLess(time.time() - start, 30)
 
     def test_crashes_and_hangs(self):
-        """With --isolate a process that crashes, or that does nothing any more, costs its own job."""
+        """With --isolate, a process that crashes or hangs affects only its own job."""
         for number, outcome, says in ((signal.SIGSEGV, "crashed", "ended by signal 11"), (signal.SIGKILL, "crashed", "ended by signal 9"),
                                       (signal.SIGSTOP, "limit", "the time limit of 1 s was reached")):
             worker = self.start("-j", "1", "--isolate", "--time-limit", "1" if number == signal.SIGSTOP else "60")
@@ -429,7 +430,7 @@ class Flow(Jobs):
             self.assertEqual(os.listdir(self.folder / "out"), [])
 
     def test_interrupt(self):
-        """Ctrl-C and SIGTERM: every job is answered, nothing half is left, within a second or so."""
+        """After Ctrl-C or SIGTERM, every job is answered and no partial files remain, within about a second."""
         for number in (signal.SIGINT, signal.SIGTERM):
             for more in ([], ["--isolate"]):
                 worker = self.start("-j", "2", *more)
@@ -444,7 +445,7 @@ class Flow(Jobs):
                 self.assertEqual(os.listdir(self.folder / "out"), [])
 
     def test_interrupt_while_nobody_reads(self):
-        """Answers that nobody takes do not keep the worker from ending."""
+        """Unread answers do not prevent the worker from ending."""
         process = subprocess.Popen([PROGRAM, "batch", "--jobs", "-", "-j", "2"], cwd=self.folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         for i in range(6):
             process.stdin.write(json.dumps({"id": i, "model": "teapot", "options": {"size": 600}}).encode() + b"\n")
@@ -477,7 +478,7 @@ class Flow(Jobs):
                 process.stderr.close()
 
     def test_socket(self):
-        """Standard input and output may be a socket, as inetd and systemd give one."""
+        """Standard input and output may be a socket, as from inetd and systemd."""
         here, there = socket.socketpair()
         process = subprocess.Popen([PROGRAM, "batch", "--jobs", "-", "-q"], cwd=self.folder, stdin=there, stdout=there)
         there.close()
@@ -491,7 +492,7 @@ class Flow(Jobs):
 
 
 def hostile(random, number, folder):
-    """A line that is wrong in some way, and the outcomes that its answer may have; the id, or None where it has none to be answered by."""
+    """A malformed line, the possible results in its answer, and its id, or None if it has none."""
     job = {"id": number, "model": "in/cube.stl", "options": {"size": 16}}
     claims = b"\0" * 80 + struct.pack("<I", 4000000000) + b"\0" * 50
     ply = b"ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n\0\0"
@@ -527,7 +528,7 @@ def hostile(random, number, folder):
 
 
 class Many(Jobs):
-    """Hundreds of jobs, hostile ones between them; `make test-long` has 10,000: nothing lost, nothing stuck, memory flat."""
+    """Hundreds of jobs, including hostile ones; `make test-long` has 10,000: nothing is lost, nothing hangs, and memory use is constant."""
 
     def prepare(self):
         folder = self.folder
@@ -552,7 +553,8 @@ class Many(Jobs):
         self.good("in/cube.stl", "-s", "24", "-o", "alone24.png")
         alone = {size: (self.folder / name).read_bytes() for size, name in ((16, "alone.png"), (24, "alone24.png"))}
         expected, good, lines, sizes, cancels = {}, {}, 0, [], []
-        # What a process keeps for reuse grows with the largest job; these are as large as any below.
+        # The memory that a process keeps for reuse grows with the largest job; these jobs are as
+        # large as any below.
         for number in range(-8, 0):
             worker.say({"id": number, "model": "teapot", "options": {"size": 4000, "samples": 16}, "timeout_s": 0.3}, b"z" * 200000)
             expected[number] = {"failed", "written"}
@@ -577,10 +579,10 @@ class Many(Jobs):
             worker.say(line)
             if cancels and rng.random() < 0.3:
                 worker.say({"cancel": cancels[-1]})
-                lines += 1  # at most: it is answered where the job was done
+                lines += 1  # at most: it is answered if the job was already done
                 cancels.pop()
             if number % 50 == 49:
-                worker.answer(max(expected), 120)  # those before it may still be drawn
+                worker.answer(max(expected), 120)  # earlier jobs may still be drawn
                 sizes.append(self.resident(worker))
         self.assertEqual(worker.end(300), 7, worker.err[-2000:])
         by_id = {}
@@ -605,7 +607,7 @@ class Many(Jobs):
         if self.sanitized():
             return
         self.assertLess(late, 200000)
-        if JOBS >= 3000:  # each kind of job has come often by then
+        if JOBS >= 3000:  # each kind of job has occurred often by then
             self.assertLess(late, early * 1.05 + 4000)
 
     def sanitized(self):

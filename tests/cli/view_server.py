@@ -12,11 +12,11 @@ from harness import PROGRAM, Case
 POLICY = "default-src 'none'; script-src 'sha256-x'; img-src blob: data:; base-uri 'none'; form-action 'none'"
 PAGE = ("<!doctype html>\n<html>\n<head>\n<meta http-equiv=\"Content-Security-Policy\" content=\"%s\">\n</head>\n<body>\n<main></main>\n"
         "</body>\n</html>\n" % POLICY)
-WAIT = 60  # seconds, after which what should have come will not
+WAIT = 60  # seconds after which an expected result counts as missing
 
 
 class Server:
-    """A viewer that runs."""
+    """A running viewer."""
 
     def __init__(self, case, *words):
         self.case = case
@@ -37,7 +37,7 @@ class Server:
         self.process.stderr.close()
 
     def raw(self, path, method="GET", headers=None, body=None):
-        """An answer to an address from its root: status, headers, body."""
+        """The answer to a request: status, headers, body."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=WAIT)
         try:
             connection.request(method, path, body=body, headers=headers or {})
@@ -53,7 +53,7 @@ class Server:
         return self.get(word + "?" + urllib.parse.urlencode([("w", w) for w in words] + [("c", "test"), *more.items()]))
 
     def events(self):
-        """A connection that hears of changes, after its first line."""
+        """A connection that receives change events, after its first line."""
         connection = socket.create_connection(("127.0.0.1", self.port), timeout=WAIT)
         self.case.addCleanup(connection.close)
         connection.sendall(b"GET /%s/events HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n\r\n" % (self.token.encode(), self.port))

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""fuzz.py [time=SECONDS] [runs=N] [jobs=N] [TARGET …]: builds the fuzz targets with libFuzzer and sanitizers, and runs them one
-after the other, a minute each unless told otherwise.
+"""fuzz.py [time=SECONDS] [runs=N] [jobs=N] [TARGET …]: builds the fuzz targets with libFuzzer and sanitizers, and runs them one after another, for a
+minute each by default.
 
-Inputs that reach something new are kept in build-fuzz/corpus/TARGET, so that the next run goes on from there; those that end
-badly are written to build-fuzz/finds, and their names are printed. One line for each target: executions, coverage at the
-beginning and at the end, finds. Exit code 1: there is one.
+Inputs that reach new code are kept in build-fuzz/corpus/TARGET, so that the next run continues from there; failing inputs are written to
+build-fuzz/finds, and their names are printed. One line for each target: executions, coverage at the
+beginning and at the end, finds. The exit code is 1 if there is a find.
 """
 import glob
 import os
@@ -18,8 +18,8 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 OUT = os.path.join(ROOT, "build-fuzz")
 MODELS = os.path.join(ROOT, "..", "shared", "models")
 
-# Where a target's inputs begin, besides its corpus: folders and the endings of files in them. Those below `MODELS` are used
-# where they are there. A format that has no row here begins with the files of its name in tests/models and tests/pictures.
+# A target's initial inputs, besides its corpus: folders and file extensions. Folders below `MODELS` are used if they
+# exist. A format without a row here starts with its files in tests/models and tests/pictures.
 SEEDS = {
     "obj": [("tests/models", ".obj"), ("MODELS/obj", ".obj")], "mtl": [("tests/models", ".mtl"), ("MODELS/obj", ".mtl")],
     "ply": [("tests/models", ".ply"), ("MODELS/ply", ".ply")], "stl": [("tests/models", ".stl"), ("MODELS/stl", ".stl")],
@@ -29,7 +29,8 @@ SEEDS = {
 }
 SEED_BYTES = 16384
 
-# Words of a format are the string literals of the files that read it, by default those of its folder in src/import; other dictionaries lie in dictionaries/.
+# The words of a format are the string literals of the files that read it, by default the files in its folder in src/import; other dictionaries are in
+# dictionaries/.
 WORDS = {
     "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
     "3mf": ["src/import/threemf"],
@@ -38,11 +39,12 @@ WORDS = {
 }
 NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", "job", "formula")
 
-# A slow input is a find too: SECONDS on a busy machine, under sanitizers, for an input of at most 16 KB.
+# A slow input also counts as a find: SECONDS on a busy machine, with sanitizers, for an input of at most
+# 16 KB.
 LIMITS = ["-timeout=10", "-rss_limit_mb=1200", "-malloc_limit_mb=600", "-max_len=%d" % SEED_BYTES, "-report_slow_units=5"]
 ENVIRONMENT = {
     "ASAN_OPTIONS": "detect_leaks=1:allocator_may_return_null=1:intercept_tls_get_addr=0:max_allocation_size_mb=2000"
-                    ":quarantine_size_mb=16",  # as much as some inputs take: more would only be new pages to clear
+                    ":quarantine_size_mb=16",  # the size of the largest inputs; more would only be new pages to clear
     "LSAN_OPTIONS": "suppressions=%s:print_suppressions=0" % os.path.join(ROOT, "tests", "leaks.supp"),
     "UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1",
 }
@@ -58,7 +60,7 @@ def build(jobs):
     draco = ["lambent-draco.so"] if "\nlambent-draco.so: " in listed else []
     subprocess.run(["ninja", "-C", OUT, "-j", str(jobs)] + ["tests/fuzz/fuzz-" + name for name in names] + draco, check=True,
                    stdout=subprocess.DEVNULL)
-    # The module is looked for beside the program and one folder above.
+    # The module is searched next to the program and in the parent folder.
     link = os.path.join(OUT, "tests", "lambent-draco.so")
     if draco and not os.path.lexists(link):
         os.symlink("../lambent-draco.so", link)
@@ -87,12 +89,12 @@ def dictionary(target):
 
 
 def seeds(target):
-    """Copies a target's first inputs into one folder; returns it."""
+    """Copies a target's initial inputs into one folder and returns it."""
     folder = os.path.join(OUT, "seeds", target)
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     places = [(os.path.join("tests/fuzz/corpus", target), "")] + SEEDS.get(target, [("tests/models", "." + target), (os.path.join("tests/pictures", target), "")])
-    if target == "render": # every model and scene file, behind options: zeros, and others
+    if target == "render": # every model and scene file, after options: zeros, and others
         places += [(os.path.join("tests/fuzz/corpus", name), "") for name in ("obj", "ply", "stl", "gltf", "glb", "scene")]
     count = 0
     for place, ending in places:
@@ -112,7 +114,7 @@ def seeds(target):
 
 
 def fuzz(target, seconds, runs):
-    """Runs one target. Returns executions, coverage first and last, features last, and the names of finds."""
+    """Runs one target. Returns the executions, the first and last coverage, the last features, and the names of finds."""
     corpus, finds = os.path.join(OUT, "corpus", target), os.path.join(OUT, "finds")
     os.makedirs(corpus, exist_ok=True)
     os.makedirs(finds, exist_ok=True)

@@ -1,6 +1,6 @@
-// mutate.h: shared by the mutators of formats whose files carry checksums or lengths. A mutator takes a file apart, changes one
-// part, and puts it together so that the reader gets past the checks. libFuzzer calls it (LLVMFuzzerCustomMutator), and so does
-// replay.c.
+// mutate.h: functions shared by the mutators of formats whose files contain checksums or lengths. A mutator splits a
+// file into parts, changes one part, and reassembles the file so that it passes the reader's checks. libFuzzer calls it
+// (LLVMFuzzerCustomMutator), and so does replay.c.
 #ifndef MUTATE_H
 #define MUTATE_H
 
@@ -10,16 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Changes `size` bytes in place, to at most `capacity`; returns the new size. libFuzzer's, or replay.c's.
+// Changes `size` bytes in place, to at most `capacity`; returns the new size. Defined by libFuzzer or by replay.c.
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t capacity);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t capacity, unsigned seed);
 
 enum { PARTS_MAX = 64, PART_BYTES = 1 << 16 };
 
-// One part of a file. `name` is what tells its kind: a chunk's type, a marker.
+// One part of a file. `name` identifies its kind: a chunk's type, a marker.
 struct part {
     uint8_t name[4];
-    uint8_t *bytes; // from malloc, PART_BYTES of them
+    uint8_t *bytes; // allocated with malloc, PART_BYTES of them
     size_t size;
 };
 
@@ -35,7 +35,7 @@ static inline uint32_t random_below(struct parts *parts, uint32_t limit)
     return limit ? (uint32_t)(parts->random >> 33) % limit : 0;
 }
 
-// False: there is no place for it.
+// Returns false if there is no room for it.
 static inline bool add_part(struct parts *parts, const uint8_t *name, size_t name_size, const uint8_t *bytes,
                             size_t size)
 {
@@ -66,7 +66,7 @@ static inline void mutate_part(struct part *part)
     part->size = LLVMFuzzerMutate(part->bytes, part->size, capacity);
 }
 
-// Leaves out, doubles or swaps parts.
+// Omits, doubles or swaps parts.
 static inline void rearrange(struct parts *parts)
 {
     if (parts->count < 2)
@@ -88,7 +88,7 @@ static inline void rearrange(struct parts *parts)
     }
 }
 
-// A file that is put together; what does not fit is left out.
+// A file under construction; parts that do not fit are omitted.
 struct joined {
     uint8_t *bytes;
     size_t size, capacity;

@@ -1,6 +1,6 @@
-// mutate_chunks.h: a mutator for files of chunks with a length of 32 bits, little-endian: binary glTF and WebP. The includer
-// defines HEAD, the bytes before the first chunk; NAME_FIRST, whether a chunk's name stands before its length; ROUND, to what
-// chunks are padded; PADDING, the byte; head_put, which writes the head of a file of `size` bytes.
+// mutate_chunks.h: a mutator for files of chunks with a length of 32 bits, little-endian: binary glTF and WebP. The
+// includer defines HEAD, the bytes before the first chunk; NAME_FIRST, whether a chunk's name precedes its length;
+// ROUND, the alignment of chunks; PADDING, the byte; head_put, which writes the head of a file of `size` bytes.
 #include "mutate.h"
 
 static bool split(struct parts *parts, const uint8_t *data, size_t size)

@@ -1,4 +1,4 @@
-// mutate_glb.c: changes the JSON or the buffer of a binary glTF file and makes the sizes anew.
+// mutate_glb.c: changes the JSON or the buffer of a binary glTF file and updates the sizes.
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>

@@ -1,10 +1,10 @@
-// mutate_jpeg.c: changes a segment of a JPEG file, or the coded pixels after a start of scan, and makes the segments' lengths
-// anew. Zero bytes follow 255 in coded pixels, as the format wants it. One file in eight is changed without repair.
+// mutate_jpeg.c: changes a segment of a JPEG file, or the coded pixels after a start of scan, and updates the segments'
+// lengths. Zero bytes follow 255 in coded pixels, as the format requires. One file in eight is changed without repair.
 #include "mutate.h"
 
-enum { SOI = 0xd8, EOI = 0xd9, SOS = 0xda, CODED = 0 }; // CODED: not a marker, coded pixels
+enum { SOI = 0xd8, EOI = 0xd9, SOS = 0xda, CODED = 0 }; // CODED: coded pixels, not a marker
 
-// Markers that no length follows.
+// Markers without a length.
 static bool stands_alone(int marker) { return marker == 1 || (marker >= 0xd0 && marker <= EOI); }
 
 static bool is_frame(int marker)
@@ -18,7 +18,7 @@ static bool split(struct parts *parts, const uint8_t *data, size_t size)
         return false;
     for (size_t at = 0; at + 2 <= size;) {
         if (data[at] != 0xff || data[at + 1] == 0 || (data[at + 1] >= 0xd0 && data[at + 1] <= 0xd7)) {
-            size_t end = at + 1; // to the next marker that is no restart
+            size_t end = at + 1; // to the next marker that is not a restart marker
             while (end < size && !(data[end - 1] == 0xff && data[end] != 0 && (data[end] < 0xd0 || data[end] > 0xd7)))
                 end++;
             end -= end < size;

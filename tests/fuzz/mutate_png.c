@@ -1,5 +1,5 @@
-// mutate_png.c: changes a chunk of a PNG file, or the pixels inside of its compressed stream, and makes lengths, CRCs and the
-// stream anew. One file in eight is changed as it is, without repair.
+// mutate_png.c: changes a chunk of a PNG file, or the pixels in its compressed stream, and updates lengths, CRCs and
+// the stream. One file in eight is changed without repair.
 #include "mutate.h"
 
 #include <zlib.h>
@@ -12,7 +12,7 @@ static bool split(struct parts *parts, const uint8_t *data, size_t size)
         return false;
     for (size_t at = SIGNATURE; size - at >= 8;) {
         size_t length = u32_big(data + at), left = size - at - 8;
-        length = length < left ? length : left; // one that is cut off
+        length = length < left ? length : left; // a truncated chunk
         struct part *last = parts->count ? &parts->list[parts->count - 1] : NULL;
         if (last && memcmp(last->name, "IDAT", 4) == 0 && memcmp(data + at + 4, "IDAT", 4) == 0 &&
             last->size + length <= PART_BYTES) {
@@ -46,14 +46,15 @@ static void change_header(struct parts *parts, struct part *header)
     }
 }
 
-// Changes the bytes inside of the stream: filters and pixels.
+// Changes the bytes in the stream: filters and pixels.
 static void change_pixels(struct parts *parts, struct part *pixels)
 {
     struct part raw = {.bytes = malloc(PART_BYTES)};
     uLongf size = PART_BYTES, compressed = PART_BYTES;
     if (raw.bytes) {
         int code = uncompress(raw.bytes, &size, pixels->bytes, pixels->size);
-        raw.size = code == Z_OK ? size : random_below(parts, 300); // for a broken stream a new one, of anything
+        raw.size = code == Z_OK ? size : random_below(parts, 300); // a new stream with any contents replaces a broken
+                                                                   // one
         if (code != Z_OK)
             memset(raw.bytes, 0, raw.size);
         mutate_part(&raw);
@@ -86,7 +87,7 @@ static size_t join(struct parts *parts, uint8_t *data, size_t capacity)
     put_bytes(&out, "\x89PNG\r\n\x1a\n", SIGNATURE);
     for (int i = 0; i < parts->count; i++) {
         const struct part *part = &parts->list[i];
-        // Pixels in one chunk or in two.
+        // Writes the pixels in one chunk or in two.
         size_t first = memcmp(part->name, "IDAT", 4) == 0 && random_below(parts, 8) == 0
                            ? random_below(parts, (uint32_t)part->size)
                            : part->size;

@@ -1,4 +1,4 @@
-// mutate_render.c: changes the options or the file of an input of target_render.c, and never shifts one into the other.
+// mutate_render.c: changes the options or the file of an input of target_render.c, without shifting one into the other.
 #include "mutate.h"
 
 enum { OPTIONS = 24 };

@@ -1,4 +1,4 @@
-// mutate_webp.c: changes a chunk of a WebP file and makes the sizes anew.
+// mutate_webp.c: changes a chunk of a WebP file and updates the sizes.
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>

@@ -1,9 +1,9 @@
-// replay.c: plays a corpus through a fuzz target in the normal test run, without libFuzzer.
+// replay.c: runs a corpus through a fuzz target in the normal test run, without libFuzzer.
 //
 // The target gets every file of the folder CORPUS unchanged, truncated after each of its bytes, and in CHANGES
-// mutations, the same in every run; a target that has a mutator of its own (mutate.h) makes half of them. An input that
-// crashes the program is saved in the current folder as "fuzz-failure". A target may add a file of its own (fuzz_seed), and needs no
-// folder then.
+// mutations, the same in every run; a target with its own mutator (mutate.h) makes half of them. An input that crashes
+// the program is saved in the current folder as "fuzz-failure". A target may add a file of its own (fuzz_seed), and
+// then needs no folder.
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#ifndef CORPUS // by hand, from the root of the sources
+#ifndef CORPUS // for a call by hand, from the root of the sources
 #define CORPUS "tests/fuzz/corpus/obj"
 #endif
 
@@ -26,7 +26,7 @@ void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak)
 enum {
     SEEDS_MAX = 64,
     SEED_BYTES = 16384,
-#ifndef CHANGES     // fewer for targets that take long
+#ifndef CHANGES     // fewer for slow targets
     CHANGES = 2000, // mutations of each file
 #endif
     CUTS_MAX = CHANGES / 4 * 3, // truncations of a longer file
@@ -66,7 +66,7 @@ static void run(const uint8_t *bytes, size_t size)
     running = copy;
     running_size = size;
     LLVMFuzzerTestOneInput(copy, size);
-    running = NULL; // a leak is found at the end, when no input runs
+    running = NULL; // leaks are detected at the end, when no input runs
     running_size = 0;
     free(copy);
 }
@@ -105,13 +105,13 @@ static void change(struct seed *seed, uint64_t *random)
         if (size)
             seed->bytes[at] = (uint8_t[]){0, 1, 127, 128, 255}[below(random, 5)];
         break;
-    case 2: // an end cut off
+    case 2: // a truncated end
         seed->size = at;
         break;
-    case 3: // a run left out
+    case 3: // an omitted run
         put_in_place(seed, at, length, piece, 0);
         break;
-    case 4: { // a word put in
+    case 4: { // an inserted word
         const char *word = words[below(random, sizeof words / sizeof *words)];
         put_in_place(seed, at, below(random, 2) * strlen(word), (const uint8_t *)word, strlen(word));
         break;
@@ -124,7 +124,7 @@ static void change(struct seed *seed, uint64_t *random)
     }
 }
 
-// The change that a target's own mutator makes to a part of a file.
+// The change of a part of a file by a target's own mutator.
 static uint64_t part_random = 2;
 
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t capacity)

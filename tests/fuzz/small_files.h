@@ -1,5 +1,5 @@
-// small_files.h: the files that a fuzz target's input names: a few bytes for each kind of file, the same for every name of that
-// kind. None has a name with "none" in it.
+// small_files.h: the files that a fuzz target's input may name: a few bytes for each kind of file, the same for every
+// name of that kind. A file whose name contains "none" does not exist.
 #ifndef SMALL_FILES_H
 #define SMALL_FILES_H
 
@@ -10,7 +10,7 @@
 
 // The files of one input.
 struct small_files {
-    const void *materials; // any MTL file; NULL: one with a map
+    const void *materials; // any MTL file; NULL means one with a map
     size_t materials_size;
 };
 
@@ -23,7 +23,7 @@ static inline bool give_bytes(const void *from, size_t size, struct lam_bytes *b
     return bytes->data != NULL;
 }
 
-// A lam_open_fn whose user data are a struct small_files, or NULL.
+// A lam_open_fn whose user data is a struct small_files, or NULL.
 static inline bool open_small(void *user, const char *name, struct lam_bytes *bytes, lam_error *error)
 {
     static const char model[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";

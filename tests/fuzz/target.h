@@ -11,8 +11,8 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-// Libraries from packages are not instrumented: libFuzzer sees how far an input came in them by the sentence that it ended
-// with, whose letters (numbers are left out) choose one of these counters. Elsewhere nothing reads them.
+// Libraries from packages are not instrumented. libFuzzer therefore measures the progress in them by the error message:
+// its letters (without numbers) select one of these counters. Other code does not read them.
 enum { SENTENCES = 4096 };
 __attribute__((section("__libfuzzer_extra_counters"), used)) static uint8_t sentences[SENTENCES];
 
@@ -26,7 +26,7 @@ static inline void note_sentence(const char *text)
     sentences[hash % SENTENCES] = 1;
 }
 
-// Invariant for every input: a valid scene, or an error with a sentence. Frees the scene.
+// Invariant for every input: a valid scene, or an error with a message. It frees the scene.
 static inline void check_scene(lam_scene *scene, const lam_error *error)
 {
     note_sentence(scene ? "" : error->text);

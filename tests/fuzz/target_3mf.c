@@ -1,5 +1,5 @@
-// target_3mf.c: fuzz target for 3MF. An input is the text of the model part, which the target packs; "%%" on a line of its own begins another part,
-// 3D/second.model. An input that begins as a ZIP archive is read as it is.
+// target_3mf.c: fuzz target for 3MF. An input is the text of the model part, which the target packs; "%%" on a separate
+// line begins another part, 3D/second.model. An input that begins like a ZIP archive is read unchanged.
 #include "target.h"
 
 #include <string.h>
@@ -31,7 +31,7 @@ static uint8_t *put(uint8_t *at, uint64_t value, int bytes)
     return at;
 }
 
-// The fields that the header of a file and its row in the list of entries have in common.
+// The fields that the header of a file and its row in the list of entries share.
 static uint8_t *put_common(uint8_t *at, const char *name, const uint8_t *bytes, size_t size)
 {
     at = put(at, 20, 2); // version

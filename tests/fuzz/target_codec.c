@@ -1,4 +1,4 @@
-// target_codec.c: fuzz target for reading one format of pictures, TARGET_CODEC.
+// target_codec.c: fuzz target that reads one picture format, TARGET_CODEC.
 
 #include "codec.h"
 #include "pixels.h"
@@ -10,12 +10,13 @@
 
 size_t fuzz_seed(uint8_t *data, size_t capacity);
 
-// Keeps a library open that reading opens each time: that takes longer than most inputs.
+// Keeps open a library that reading would load each time, because loading takes longer than most inputs.
 static void keep_open(const char *library) { dlopen(library, RTLD_NOW | RTLD_NODELETE); }
 
-// Invariant for every input: a picture, or an error with a sentence and no picture. Memory and time are limited. A format that
-// keeps more than 8 bits is read both ways. Small files can claim many pixels, and to clear their memory takes a thousand times
-// as long as to read them: one input in 16 (by its size) may have as many as the memory takes, the others PIXELS.
+// Invariant for every input: a picture, or an error with a message and no picture. Memory and time are limited. A
+// format with more than 8 bits is read in both ways. Small files can claim many pixels, and clearing their memory takes
+// a thousand times as long as reading them. One input in 16 (by its size) may have as many pixels as the memory limit
+// allows, the others PIXELS.
 enum { PIXELS = 1 << 16 };
 
 static void read_picture(const struct codec *codec, const uint8_t *data, size_t size, const char *name)
@@ -33,7 +34,7 @@ static void read_picture(const struct codec *codec, const uint8_t *data, size_t 
         if (ok ? !image.pixels || is_wide != (wide && image.format == LAM_RGBA32F) : image.pixels || !error.text[0])
             abort();
         const size_t count = (size_t)image.width * (size_t)image.height;
-        if (ok) // its last byte is there
+        if (ok) // its last byte exists
             (void)((const volatile uint8_t *)image.pixels)[pixel_bytes(image.format) * count - 1];
         note_sentence(ok ? "" : error.text);
         picture_free(&call, &image);
@@ -56,7 +57,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     return 0;
 }
 
-// A picture that the format itself writes.
+// A picture written by the format's own encoder.
 size_t fuzz_seed(uint8_t *data, size_t capacity)
 {
     lam_image image;

@@ -1,6 +1,6 @@
-// target_formula.c: fuzz target for surfaces written as formulas (lam_formula, docs/shapes.md). An input is the text, and after a zero
-// the range of u, and after another one that of v. After a first '?' the text is an implicit surface, with the ranges of
-// x and z.
+// target_formula.c: fuzz target for surfaces given as formulas (lam_formula, docs/shapes.md). An input is the text, and
+// after a zero byte the range of u, and after another one the range of v. If it begins with '?', the text is an
+// implicit surface, with the ranges of x and z.
 #include "target.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         words[i] = words[i - 1] + strlen(words[i - 1]) + 1;
     const char *first = *words[1] ? words[1] : NULL, *second = first && *words[2] ? words[2] : NULL, *cut = "-2..2";
     lam_formula formula = {.text = words[0], .u = first, .v = second, .u_segments = 9, .v_segments = 6};
-    if (*words[0] == '?') // z is searched for with one range alone: a search takes longer than all else
+    if (*words[0] == '?') // z is searched with only one range, because a search takes longer than everything else
         formula = (lam_formula){.text = words[0] + 1,
                                 .implicit = true,
                                 .x = first ? first : cut,

@@ -1,5 +1,5 @@
-// target_job.c: fuzz target for the lines of `lambent batch --jobs` (docs/worker.md). Nothing is drawn: a line is read, with the options,
-// the plan and the model's bytes that it asks for. Its files may lie in an empty folder.
+// target_job.c: fuzz target for the lines of `lambent batch --jobs` (docs/worker.md). Nothing is drawn: it reads a
+// line, with the options, the plan and the model's bytes that the line requests. Its files may be in an empty folder.
 #include "target.h"
 
 #include <string.h>
@@ -25,7 +25,7 @@ static struct options *worker(struct job_roots *roots)
     return &options;
 }
 
-// Invariant for every line: a job that is as it must be to be drawn, the id of one to be cancelled, or a sentence.
+// Invariant for every line: a valid job, the id of a job to cancel, or an error message.
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static struct job_roots roots;

@@ -1,4 +1,4 @@
-// target_model.c: fuzz target for model files of one format, whose ending NAME has.
+// target_model.c: fuzz target for model files of one format, given by the extension of NAME.
 #include "target.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

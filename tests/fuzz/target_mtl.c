@@ -1,4 +1,4 @@
-// target_mtl.c: fuzz target for MTL files, read beside a model that uses two materials and has texture coordinates.
+// target_mtl.c: fuzz target for MTL files, read with a model that uses two materials and has texture coordinates.
 #include "small_files.h"
 #include "target.h"
 

@@ -1,10 +1,10 @@
-// target_picture.c: fuzz target for drawing: triangles with any coordinates, pictures of at most 48×48 pixels. Two instruction
-// sets must draw the same bytes; a sanitizer sees what overflows.
+// target_picture.c: fuzz target for drawing: triangles with any coordinates, pictures of at most 48×48 pixels. Two
+// instruction sets must draw the same bytes; a sanitizer detects overflows.
 //
-// The first bytes of an input are the picture's width and height less one, and flags; then follow numbers of 16 bits
-// each, little-endian, the upper halves of floats: three for the camera's eye, then nine for each triangle. How often the
-// largest side goes into a byte of the size chooses an instruction set; where both bytes choose the same one, it is
-// drawn beside C without vectors, and C without vectors beside the next one.
+// The first bytes of an input are the picture's width and height minus one, and flags. 16-bit numbers follow,
+// little-endian, the upper halves of floats: three for the camera's eye, then nine for each triangle. The quotient of a
+// byte of the size by the largest side selects an instruction set. If both bytes select the same one, it is compared
+// with C without vectors, and C without vectors is compared with the next one.
 #include "target.h"
 
 #include <string.h>
@@ -50,7 +50,7 @@ static lam_scene *scene_of(const uint8_t *data, size_t size, int flags)
     return NULL;
 }
 
-// The instruction sets that run here, in turn.
+// The instruction sets that run here, in rotation.
 static lam_isa isa_of(int number)
 {
     lam_isa usable[LAM_ISA_COUNT];

@@ -1,6 +1,6 @@
-// target_render.c: fuzz target for the whole way: loads a model or a scene file of any format and draws it, at most 48×48 pixels,
-// with options from the input. Where an option says so it is drawn twice, with other instruction sets and threads: the
-// pictures must have the same bytes.
+// target_render.c: fuzz target for complete rendering: loads a model or a scene file of any format and draws it, at
+// most 48×48 pixels, with options from the input. If an option requests it, the model is drawn twice, with other
+// instruction sets and threads; the pictures must have the same bytes.
 //
 // The first OPTIONS bytes of an input are the options in the order of read_options; the rest is the file. Bytes after a zero
 // byte of a text file are its MTL file.
@@ -100,7 +100,7 @@ static struct options read_options(const uint8_t *o)
     return options;
 }
 
-// Six faces of 2×2 floats, made once: what it takes to light with them is made by the first frame and kept.
+// Six faces of 2×2 floats, made once; the first frame computes the data for lighting with them and keeps it.
 static const lam_environment *small_environment(void)
 {
     static lam_environment *environment;
@@ -144,7 +144,7 @@ static lam_camera camera_of(const lam_scene *scene, const struct options *option
     lam_camera camera = lam_camera_fit(scene, options->image.width, options->image.height, &options->view);
     lam_vec3 low, high;
     if (options->addition & FILE_CAMERA)
-        lam_scene_camera(scene, 0, &camera); // without one: the default camera
+        lam_scene_camera(scene, 0, &camera); // without one, the default camera
     else if (options->addition & CAMERA_INSIDE && lam_scene_bounds(scene, &low, &high))
         camera.eye =
             (lam_vec3){low.x + 0.5 * (high.x - low.x), low.y + 0.4 * (high.y - low.y), low.z + 0.6 * (high.z - low.z)};
@@ -162,7 +162,7 @@ static bool draw(const lam_scene *scene, const lam_camera *camera, const struct 
         abort();
     lam_image image = options->image;
     image.pixels = pixels;
-    // Many bytes: what makes a frame of 48×48 pixels hold more than that is a fault.
+    // A frame of 48×48 pixels that uses more than this many bytes is a fault.
     const lam_control control = {.memory_limit_bytes = 256 << 20};
     bool ok = lam_draw(*device, scene, camera, &options->draw, &image, &control, &error);
     if (!ok && (error.code == LAM_OK || !error.text[0]))
@@ -211,7 +211,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     note_sentence(scene ? "" : error.text);
     if (!scene)
         return 0;
-    // The built-in environments take most of a second: no input waits for one.
+    // The built-in environments take most of a second, so no input uses them.
     if (options.addition & ENVIRONMENT || options.draw.rig == LAM_RIG_AUTO || lam_scene_environment(scene))
         lam_scene_set_environment(scene, small_environment(), 0.3, NULL);
     if (options.addition & MAPS)

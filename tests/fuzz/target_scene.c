@@ -1,4 +1,4 @@
-// target_scene.c: fuzz target for scene files; the models and pictures that they name are those of small_files.h.
+// target_scene.c: fuzz target for scene files; they can refer to the models and pictures in small_files.h.
 #include "small_files.h"
 #include "target.h"
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""contract.py PROGRAM [--every N] [CASE...]: the shaders and the C code of `lambent shader` draw the picture of `lambent`.
+"""contract.py PROGRAM [--every N] [CASE...]: tests that the shaders and the C code of `lambent shader` draw the same picture as `lambent`.
 
-For each case the printed C code is compiled into contract_host.c, which does not link lambent. The test compares its picture
-with the CPU device's at one sample a pixel: at least 99.9 % of the pixels differ by at most 1/255; a pixel may differ by more
-than 2/255 only if its 3x3 neighbourhood contains an edge of the model, an object, a side or a light's cone, or the line n.l = 0
-of a light. Without a compiler, EGL or OpenGL the cases are skipped, with a sentence.
+For each case the printed C code is compiled into contract_host.c, which does not link lambent. The test compares its picture with the CPU device's
+picture at one sample per pixel. At least 99.9 % of the pixels differ by at most 1/255; a pixel may differ by more than 2/255 only if its 3x3
+neighbourhood contains an edge of the model, an object, a side or a light's cone, or the line n.l = 0 of a light. Without a compiler, EGL or OpenGL,
+the cases are skipped with a message.
 """
 import ctypes
 import json
@@ -71,7 +71,7 @@ def bowl(u, v):
 
 
 class Model:
-    """Two parts with a material each; `corners` are (position, normal, color) of every triangle in the file's order."""
+    """Two parts, each with a material; `corners` are (position, normal, color) of every triangle in the file's order."""
 
     def __init__(self, folder, colors=False):
         self.path = folder / ("colors.obj" if colors else "model.obj")
@@ -98,7 +98,7 @@ class Model:
 
 
 def vertices(model, contract, front):
-    """Returns the vertex buffer with the contract's attributes. `front` computes the colours of the stage application."""
+    """Returns the vertex buffer with the contract's attributes. `front` computes the colours for the stage application."""
     names = [a["name"] for a in contract["attributes"]]
     old_flat = contract["flat"] and contract["glsl"] == "120"
     out = bytearray()
@@ -166,7 +166,7 @@ def picture(folder, model, words):
 
 
 def mask_of(folder, model, words, lights):
-    """Returns the pixels at edges of the model and its sides, and where the light of one lamp begins: at n.l = 0 and at cones."""
+    """Returns the pixels at edges of the model and between its sides, and at the border of each light: at n.l = 0 and at cones."""
     geometry = [w for w in words]
     mask = edges(picture(folder, model, geometry + ["--show", "facing"]))
     depth = picture(folder, model, geometry + ["--show", "depth"])
@@ -203,7 +203,7 @@ def draw(folder, name, model, words, shader_words, cube):
     assert built.returncode == 0, built.stdout.decode()
     kd = [(0.8, 0.3, 0.2), (0.2, 0.4, 0.8)]
 
-    def front(draw, position, normal, color):  # lit by the application: the vertex colour times the material's
+    def front(draw, position, normal, color):  # with lighting in the application: the vertex colour times the material's
         light = [a * decoded(b) for a, b in zip(color[:3], kd[draw])] + [1.0]
         return light, light
     if contract["application"]:
@@ -227,7 +227,7 @@ def draw(folder, name, model, words, shader_words, cube):
 
 
 def compare(folder, model, words, lights, drawn):
-    """Returns the fraction of pixels within 1/255, the number of pixels beyond 2/255, and those of them outside the mask."""
+    """Returns the fraction of pixels within 1/255, the number of pixels beyond 2/255, and the number of those outside the mask."""
     width, height, wanted = picture(folder, model, words)
     far, within = [], 0
     for i in range(width * height):

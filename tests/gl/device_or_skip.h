@@ -1,4 +1,4 @@
-// device_or_skip.h: a device of OpenGL for a test, which is skipped where this machine has none.
+// device_or_skip.h: an OpenGL device for a test; the test is skipped if this machine has none.
 #ifndef DEVICE_OR_SKIP_H
 #define DEVICE_OR_SKIP_H
 

@@ -65,7 +65,7 @@ static void single_choices(struct visitor *v, const struct glsl_choices *base)
         call(v, &c);
         c.reflection = LAM_REFLECTION_NONE;
         call(v, &c);
-        memset(c.groups, 0, sizeof c.groups); // ambient light and hemispheres only
+        memset(c.groups, 0, sizeof c.groups); // only ambient light and hemispheres
         c.group_count = c.light_count = 0;
         c.reflection = LAM_REFLECTION_BLINN_PHONG;
         call(v, &c);

@@ -114,7 +114,7 @@ static void test_one_call(void **state)
     demo.camera = lam_camera_fit(demo.scene, 64, 64, &view);
     lam_device *cpu = lam_device_cpu(NULL, &error);
     for (int method = 0; method < 5; method++) {
-        lam_draw_params params = {.samples = 1, .occlusion = LAM_OCCLUSION_OFF}; // which draws the distances first
+        lam_draw_params params = {.samples = 1, .occlusion = LAM_OCCLUSION_OFF}; // which first draws the distances
         params.shading = method == 0 ? LAM_SHADING_PHONG : method < 3 ? LAM_SHADING_GOURAUD : LAM_SHADING_FLAT;
         params.stage = method == 1 || method == 3 ? LAM_STAGE_APPLICATION : LAM_STAGE_AUTO;
         lam_image a = {0}, b = {0};
@@ -139,7 +139,7 @@ static void test_one_call(void **state)
     stop(device);
 }
 
-// State that a caller may have set and that OpenGL can be queried for.
+// State that a caller may have set, and that can be queried.
 static const GLenum queried[] = {GL_CURRENT_PROGRAM,
                                  GL_VERTEX_ARRAY_BINDING,
                                  GL_DRAW_FRAMEBUFFER_BINDING,

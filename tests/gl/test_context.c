@@ -1,5 +1,5 @@
-// test_context.c: OpenGL at run time: contexts of each profile, the caller's context restored, and the errors for a missing
-// library, function or device.
+// test_context.c: OpenGL at run time: contexts of each profile, restoring the caller's context, and the errors for a
+// missing library, function or device.
 #include "context.h"
 
 #include <setjmp.h>
@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-// Skips the test where this machine has no OpenGL.
+// Skips the test if this machine has no OpenGL.
 static void make_or_skip(struct gl_context *context, enum gl_profile profile, bool debug)
 {
     lam_error error = {0};

@@ -1,5 +1,5 @@
-// test_device.c: the OpenGL device against the CPU device beyond the demonstration scenes: the three stages, all outputs,
-// exponents up to 1000, more lights than a uniform block holds, pictures in parts, several samples, limits.
+// test_device.c: compares the OpenGL device with the CPU device beyond the demonstration scenes: the three stages, all
+// outputs, exponents up to 1000, more lights than fit in a uniform block, pictures in parts, several samples, limits.
 #include "card.h"
 #include "context.h"
 #include "device_or_skip.h"
@@ -107,8 +107,8 @@ static void test_stages(void **state)
     lam_device_free(gl);
 }
 
-// Tangents along the normals: there is none (conventions, rule 10), on both devices and in every stage. Rounding leaves
-// a different direction at every point of a tilted square.
+// Tangents along the normals have no direction on the surface (conventions, rule 10), on both devices and in every
+// stage. Rounding leaves a different direction at every point of a tilted square.
 static void test_tangents_along_normals(void **state)
 {
     static const float corners[4][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -170,7 +170,7 @@ static void test_shows(void **state)
         build(names[n], &demo);
         lam_draw_params params = demo.params;
         params.samples = 1;
-        params.background = (lam_rgba){1, 0.5f, 0, 0.4f}; // seen in 8 bits where there is no triangle
+        params.background = (lam_rgba){1, 0.5f, 0, 0.4f}; // visible in 8 bits in pixels without a triangle
         for (int show = 0; show < LAM_OUTPUT_COUNT; show++)
             for (int shading = 0; shading <= (n ? 0 : LAM_SHADING_FLAT); shading++) {
                 params.output = (lam_output)show;
@@ -191,7 +191,7 @@ static void test_sharp_highlights(void **state)
     (void)state;
     lam_device *gl = device_or_skip(LAM_GL_CORE);
     struct demo demo;
-    build("inside", &demo); // no silhouette: all pixels are compared
+    build("inside", &demo); // no silhouette, so all pixels are compared
     lam_error error = {0};
     for (int shininess = 1; shininess <= 1000; shininess *= 10)
         for (int model = LAM_REFLECTION_NONE; model < LAM_REFLECTION_COUNT; model++) {
@@ -214,7 +214,7 @@ static void test_sharp_highlights(void **state)
     lam_device_free(gl);
 }
 
-// More lights than a uniform block holds: textures store them.
+// More lights than fit in a uniform block; textures store them.
 static void test_many_lights(void **state)
 {
     (void)state;
@@ -260,7 +260,7 @@ static void test_parts_and_samples(void **state)
     assert_true(compare(gl, &demo, &params).share <= 0.001);
     demo.width = 160;
     demo.height = 120;
-    // OpenGL lights each sample, the CPU each triangle of a pixel: colours differ a little, coverage does not.
+    // OpenGL lights each sample, and the CPU each triangle in a pixel, so colours differ slightly; coverage does not.
     for (int samples = 2; samples <= 16; samples *= 2) {
         params.samples = samples;
         params.output = LAM_OUTPUT_COVERAGE;

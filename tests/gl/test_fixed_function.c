@@ -1,5 +1,5 @@
-// test_fixed_function.c: scene files with "gl1" against OpenGL's fixed-function lighting (glLight, glMaterial, glLightModel)
-// of the same triangles, as linear floats.
+// test_fixed_function.c: compares scene files with "gl1" with OpenGL's fixed-function lighting (glLight, glMaterial,
+// glLightModel) of the same triangles, as linear floats.
 #include "card.h"
 #include "context.h"
 
@@ -71,7 +71,7 @@ struct light {
     const char *frame;               // "world", "camera"
     float position[4], direction[3]; // w = 0: towards the light
     float ambient[3], diffuse[3], specular[3];
-    float attenuation[3], cutoff, exponent; // cutoff 180: no spot
+    float attenuation[3], cutoff, exponent; // cutoff 180: not a spot
 };
 
 struct classic_case {
@@ -89,9 +89,9 @@ static const float front[4][4] = {
     {0.3F, 0.2F, 0.25F, 1}, {0.7F, 0.5F, 0.2F, 1}, {0.6F, 0.7F, 0.8F, 1}, {0.02F, 0.01F, 0.03F, 1}};
 static const float back[4][4] = {{0.1F, 0.2F, 0.4F, 1}, {0.1F, 0.3F, 0.9F, 1}, {0.9F, 0.2F, 0.1F, 1}, {0, 0.05F, 0, 1}};
 
-// --- the mesh: an open piece of a sphere, so that both sides show
+// --- the mesh: an open piece of a sphere, so that both sides are visible
 
-static float corners[CORNERS][3]; // positions, and their normals too
+static float corners[CORNERS][3]; // positions, which are also the normals
 static unsigned indices[AROUND * ALONG * 2][3];
 static char ply[CORNERS * 110 + AROUND * ALONG * 2 * 24 + 400];
 
@@ -394,7 +394,7 @@ static void test_fixed_function(void **state)
          .count = 1},
         {"shininess 128", .turn = 20, .scale = ONE, .shininess = 128, .two_sided = true, .lights = {POINT_LIGHT, SUN},
          .count = 2},
-        // Not 0: Mesa has a special case that omits 0^0.
+        // Not 0, because Mesa has a special case that omits 0^0.
         {"shininess 0.01", .turn = 20, .scale = ONE, .shininess = 0.01F, .two_sided = true, .lights = {FADING},
          .count = 1},
         {"flat", EVENLY, .flat = true, .two_sided = true, .lights = {POINT_LIGHT, SPOT}, .count = 2},

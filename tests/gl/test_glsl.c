@@ -44,7 +44,7 @@ static void test_only_needed_code(void **state)
     assert_false(has(text.fragment, "struct hemisphere"));
     assert_true(has(text.fragment, "LIGHT_POINT, FALLOFF_DISTANCE"));
     assert_false(has(text.vertex, "phong"));
-    // Words of the dialect have been replaced.
+    // The dialect's words have been replaced.
     assert_false(has(text.fragment, "STRUCT"));
     assert_false(has(text.fragment, "FN "));
     assert_false(has(text.fragment, "num_of"));
@@ -87,7 +87,7 @@ static void test_exclusive_choices(void **state)
     }
 }
 
-// Branches with a known condition, and members that are then never read, are not in the text.
+// The text does not contain branches with a known condition, and members that are then never read.
 static void test_unread_members_are_removed(void **state)
 {
     (void)state;
@@ -191,11 +191,11 @@ static void test_unread(void **state)
     assert_null(strstr(by, "a.chain"));
     assert_null(strstr(by, "a.other"));
     assert_non_null(strstr(by, "    a.used = 1;\n"));
-    assert_non_null(strstr(by, "    b.chain = 3;\n")); // of another struct
+    assert_non_null(strstr(by, "    b.chain = 3;\n")); // from another struct
     assert_non_null(strstr(by, "a.used + b.chain"));
 }
 
-// Copies a text without what was erased.
+// Copies a text without the erased parts.
 static const char *remaining(char *to, const char *from)
 {
     char *at = to;
@@ -235,9 +235,9 @@ static void write_file(const char *folder, int number, const char *ending, const
             fail_msg("%s: a byte that is not ASCII", path);
 }
 
-// Each different text is compiled once. All choices take minutes (LAMBENT_EVERY_SHADER=1, in `make test-long`), so the test makes
-// every n-th, a prime, which covers every loop of glsl_combinations; of these, one in PAIR_SHARE as a pair. The texts do not depend on
-// the compiler of this program: one build has a smaller step.
+// Compiles each different text once. All choices take minutes (LAMBENT_EVERY_SHADER=1, in `make test-long`), so the
+// test makes every n-th, with a prime n that covers every loop of glsl_combinations; one in PAIR_SHARE of these is
+// linked as a pair. The texts do not depend on this program's compiler, so only one build uses a smaller step.
 #ifdef EVERY_TEXT
 enum { STEP = 31 };
 #else
@@ -309,7 +309,7 @@ static void test_reference_compiler_accepts(void **state)
     assert_true(writing->pairs > count / writing->step / PAIR_SHARE / 2);
     print_message("%d choices, %d texts, %d pairs\n", count, writing->texts, writing->pairs);
     free(writing);
-    // All texts in one process, then vertex and fragment shaders in pairs, which checks their interface.
+    // Compiles all texts in one process, then vertex and fragment shaders in pairs, which checks their interface.
     snprintf(command, sizeof command, "cd %s/single && glslangValidator *.vert *.frag > ../log 2>&1", folder);
     int refused = system(command);
     snprintf(command, sizeof command, "grep -B2 ERROR %s/log | head -20 >&2", folder);

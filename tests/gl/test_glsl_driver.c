@@ -1,4 +1,5 @@
-// test_glsl_driver.c: a driver compiles and links the shaders; the sizes of their blocks are those of glsl_pack_….
+// test_glsl_driver.c: a driver compiles and links the shaders, and the sizes of their blocks equal the sizes of
+// glsl_pack_….
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,8 +14,9 @@
 #include "glsl_combinations.h"
 #include "glsl_rows.h"
 
-// All choices take minutes (LAMBENT_EVERY_SHADER=1), so the test takes every STEP-th; glslangValidator compiles more of them
-// (test_glsl.c). The step is a prime, so that it covers every loop of glsl_combinations. One build has a smaller step.
+// All choices take minutes (LAMBENT_EVERY_SHADER=1), so the test uses every STEP-th; glslangValidator compiles more of
+// them (test_glsl.c). The step is a prime, so that it covers every loop of glsl_combinations. One build uses a smaller
+// step.
 #ifdef EVERY_TEXT
 enum { STEP = 37 };
 #else

@@ -1,5 +1,5 @@
-// test_shadows.c: what the OpenGL device keeps of shadows from frame to frame: a picture is always that of a device which draws
-// it first.
+// test_shadows.c: the shadow data that the OpenGL device keeps from frame to frame: a picture always equals the first
+// picture of a new device.
 #include "device_or_skip.h"
 #include "scenes.h"
 
@@ -39,7 +39,7 @@ static bool same_picture(const lam_image *a, const lam_image *b)
     return difference.maximum == 0;
 }
 
-// A device that has drawn another scene before each of its pictures: it keeps nothing of them.
+// A device that has drawn another scene before each of its pictures, so it keeps nothing of them.
 static lam_image draw_anew(lam_device *device, const struct demo *demo)
 {
     struct demo other = {.width = 8, .height = 8, .params = demo->params};
@@ -65,7 +65,7 @@ static void add_object(lam_scene *scene, const char *shape, int detail, double x
     assert_true(object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
 }
 
-// A large ball, on which others cast their shadows.
+// A large ball, on which other objects cast their shadows.
 static struct demo ball(void)
 {
     struct demo demo = {.width = 64, .height = 64, .params = {.samples = 1, .shadows = true}};
@@ -79,8 +79,8 @@ static struct demo ball(void)
     return demo;
 }
 
-// A frame that finds no memory for its upload leaves the old shadows in the texture; the next frame sends its own, although
-// nothing has moved since the hierarchy was built.
+// If memory is insufficient for a frame's upload, the old shadows stay in the texture; the next frame uploads its own,
+// although nothing has moved since the hierarchy was built.
 static void a_failed_upload_leaves_no_shadow(void **state)
 {
     (void)state;
@@ -101,7 +101,7 @@ static void a_failed_upload_leaves_no_shadow(void **state)
         lam_image with = draw(device, &demo), expected = draw_anew(other, &demo);
         lam_frame_report report;
         lam_device_report(device, &report);
-        failed_later += !drawn && report.hierarchy_ms == 0; // it was built in the frame that failed
+        failed_later += !drawn && report.hierarchy_ms == 0; // it was built in the failed frame
         assert_true(same_picture(&with, &expected));
         assert_false(same_picture(&with, &without));
         lam_image_free(&without);
@@ -119,7 +119,7 @@ struct devices {
     lam_image before;
 };
 
-// Draws a scene that has changed with both devices, and once more without a change.
+// Draws a changed scene with both devices, and once more without a change.
 static void check_change(struct devices *d, const struct demo *demo, const char *change)
 {
     lam_image kept = draw(d->kept, demo), expected = draw_anew(d->other, demo);
@@ -138,7 +138,7 @@ static void check_change(struct devices *d, const struct demo *demo, const char 
     d->before = kept;
 }
 
-// What lets light through is sent again when any of it has changed, and not otherwise.
+// Surfaces that transmit light are uploaded again after a change, and not otherwise.
 static void surfaces_are_sent_when_they_change(void **state)
 {
     (void)state;
@@ -169,13 +169,13 @@ static void surfaces_are_sent_when_they_change(void **state)
         material.alpha_cutoff = 0.5F;
         assert_true(lam_scene_set_material(demo.scene, i, &material, &error));
         check_change(&d, &demo, "opacity");
-        // Red is everywhere 1; blue and green are not.
+        // Red is 1 everywhere; blue and green are not.
         uint8_t bytes[16] = {255, 255, 0, 255, 255, 0, 255, 255, 255, 255, 255, 255, 255, 255, 0, 255};
         lam_image picture = {.width = 2, .height = 2, .format = LAM_RGBA8, .stride = 8, .pixels = bytes};
         map = (lam_texture_map){.texture = lam_texture_make(&picture, LAM_TEXTURE_NUMBERS, NULL, &error)};
         assert_non_null(map.texture);
         assert_true(lam_scene_set_material(demo.scene, i, &material, &error));
-        lam_texture_free((lam_texture *)(uintptr_t)map.texture); // the scene has it now
+        lam_texture_free((lam_texture *)(uintptr_t)map.texture); // the scene owns it now
         check_change(&d, &demo, "another picture");
         map.channel = 1;
         assert_true(lam_scene_set_material(demo.scene, i, &material, &error));

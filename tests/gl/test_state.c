@@ -1,6 +1,6 @@
-// test_state.c: the OpenGL calls of the device. A frame of an unchanged scene creates no objects, uploads nothing, and sets
-// no state or uniform to its current value; after a change only the changed data are uploaded. The context reports errors
-// and performance warnings, and either fails the frame.
+// test_state.c: the OpenGL calls of the device. A frame of an unchanged scene creates no objects, uploads nothing, and
+// sets no state or uniform to its current value; after a change only the changed data are uploaded. The context reports
+// errors and performance warnings, and either makes the frame fail.
 #include "device_or_skip.h"
 #include "floor_scene.h"
 #include "gl_device.h"
@@ -18,7 +18,7 @@
 #include <cmocka.h>
 
 static struct gl real;
-static int created, uploaded, drawn, calls, again; // again: state set to its current value
+static int created, uploaded, drawn, calls, again; // `again` counts state that is set to its current value
 static char first_again[64];
 
 // --- the last value of each state
@@ -28,16 +28,16 @@ enum state {
     STATE_ARRAY,
     STATE_FRAMEBUFFER,
     STATE_UNIT,
-    STATE_TEXTURE, // of a unit and a target
-    STATE_BUFFER,  // of a target
-    STATE_BLOCK,   // of a point
-    STATE_SWITCH,  // of a capability
+    STATE_TEXTURE, // for a unit and a target
+    STATE_BUFFER,  // for a target
+    STATE_BLOCK,   // for a point
+    STATE_SWITCH,  // for a capability
     STATE_BLEND,
     STATE_CULLED,
     STATE_FRONT,
     STATE_VIEWPORT,
     STATE_PIXELS,
-    STATE_UNIFORM, // of a program and a location
+    STATE_UNIFORM, // for a program and a location
 };
 
 static struct known {
@@ -241,7 +241,7 @@ static void test_unchanged(void **state)
             for (int method = 0; method < 3; method++) {
                 lam_draw_params params = demo.params;
                 params.samples = api ? 4 : 1;
-                params.occlusion = LAM_OCCLUSION_OFF; // which is sent again for each frame
+                params.occlusion = LAM_OCCLUSION_OFF; // which is uploaded again for each frame
                 params.stage = stages[method];
                 params.shading = method == 2 ? LAM_SHADING_PHONG : LAM_SHADING_GOURAUD;
                 frame(device, &demo, &params);
@@ -332,7 +332,7 @@ static EGLBoolean EGLAPIENTRY refuse_current(EGLDisplay display, EGLSurface draw
     return EGL_FALSE;
 }
 
-// A device whose context cannot be made current any more frees what it holds: the texture is the test's alone again.
+// A device whose context can no longer be made current frees its memory, and the texture then belongs only to the test.
 static void test_lost_context(void **state)
 {
     (void)state;

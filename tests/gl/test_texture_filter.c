@@ -1,5 +1,5 @@
-// test_texture_filter.c: textures filtered by the graphics card (lam_gl_params.hardware_filter): how far they are from exact
-// ones, every wrap and filter, anisotropy, formats, uploads, samplers that stay bound, printed shaders.
+// test_texture_filter.c: textures filtered by the graphics card (lam_gl_params.hardware_filter): the difference from
+// exact filters, every wrap and filter, anisotropy, formats, uploads, samplers that stay bound, printed shaders.
 #include "card.h"
 #include "floor_scene.h"
 #include "scenes.h"
@@ -19,7 +19,7 @@
 
 enum { SIZE = 96, MODES_MAX = 32 };
 
-static lam_device *cpu, *exact[2], *hardware[2]; // OpenGL 3.3, OpenGL ES 3.0; NULL: not available
+static lam_device *cpu, *exact[2], *hardware[2]; // OpenGL 3.3 and OpenGL ES 3.0; NULL if not available
 static const lam_draw_params plain;
 
 // The mean and the largest difference of encoded channels in 0…1.
@@ -49,7 +49,7 @@ static struct difference difference_of(const lam_image *a, const lam_image *b)
     return d;
 }
 
-// Textured scenes, and how far their pictures may be from the CPU device's: the bounds of docs/opengl.md.
+// Textured scenes, and the limits of their difference from the CPU device's pictures, as in docs/opengl.md.
 static const struct {
     const char *name;
     double mean, worst;
@@ -99,7 +99,7 @@ static void scenes_are_near(void **state)
     }
 }
 
-// Each way of wrapping and filtering is nearest to itself: to the CPU device's picture of it, of those of all ways.
+// Each way of wrapping and filtering is closest to the CPU device's picture with the same way.
 static void modes_are_kept(void **state)
 {
     (void)state;
@@ -154,7 +154,7 @@ static double variance_of(const lam_image *image)
     return squares - sum * sum;
 }
 
-// More probes are sharper where the driver has them, and one sampler serves frames of different numbers.
+// More probes give sharper pictures if the driver supports them, and one sampler serves frames with different numbers.
 static void anisotropy(void **state)
 {
     (void)state;
@@ -186,7 +186,7 @@ static void anisotropy(void **state)
     lam_texture_free(texture);
 }
 
-// Floats beyond 0…1, and beyond what 16 bits hold.
+// Floats beyond 0…1, and beyond the range of 16 bits.
 static void large_numbers(void **state)
 {
     (void)state;
@@ -217,7 +217,7 @@ static void large_numbers(void **state)
     lam_texture_free(huge);
 }
 
-// Texels of 8 bits are sent as such, once.
+// 8-bit texels are uploaded unchanged, once.
 static void uploads(void **state)
 {
     (void)state;
@@ -241,7 +241,7 @@ static void uploads(void **state)
     lam_texture_free(texture);
 }
 
-// A ground's ambient occlusion lies in the unit of the first map: the sampler of a map must not stay there.
+// A ground's ambient occlusion uses the unit of the first map, so the sampler of a map must not stay there.
 static void ground_after_maps(void **state)
 {
     (void)state;
@@ -260,7 +260,7 @@ static void ground_after_maps(void **state)
             if (!lam_image_make(&images[i], demo.width, demo.height, LAM_RGBA32F, &error) ||
                 !lam_draw(i ? hardware[g] : exact[g], demo.scene, &demo.camera, &demo.params, &images[i], NULL, &error))
                 fail_msg("%s", error.text);
-        // The ground alone: black, with the shadow's share as opacity.
+        // Only the ground: black, with the shadow's fraction as opacity.
         size_t count = (size_t)demo.width * (size_t)demo.height, shadow = 0;
         for (size_t i = 0; i < count; i++) {
             const float *p = (const float *)images[0].pixels + 4 * i;
@@ -277,7 +277,7 @@ static void ground_after_maps(void **state)
     lam_scene_free(demo.scene);
 }
 
-// Printed shaders: two ways to wrap fit into one text, since the graphics card knows them.
+// Printed shaders: one text supports two wrap modes, because the graphics card implements them.
 static void printed_shaders(void **state)
 {
     (void)state;

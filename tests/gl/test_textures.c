@@ -1,4 +1,5 @@
-// test_textures.c: textures of the OpenGL device: every wrap and filter against the CPU device, numbers beyond 0…1, uploads.
+// test_textures.c: textures of the OpenGL device: compares every wrap and filter with the CPU device, numbers beyond
+// 0…1, uploads.
 #include "card.h"
 #include "floor_scene.h"
 
@@ -18,9 +19,9 @@
 
 enum { SIZE = 192, SIDE = 20 };
 
-static lam_device *cpu, *gl[2]; // OpenGL 3.3, OpenGL ES 3.0; NULL: not available
+static lam_device *cpu, *gl[2]; // OpenGL 3.3 and OpenGL ES 3.0; NULL if not available
 
-static lam_draw_params more; // shading, stage and output of what is drawn
+static lam_draw_params more; // shading, stage and output of the picture
 
 static lam_image draw(lam_device *device, const lam_scene *scene, int anisotropy)
 {
@@ -61,7 +62,7 @@ static void wraps_and_filters(void **state)
     for (int wrap = 0; wrap < LAM_WRAP_COUNT * LAM_WRAP_COUNT; wrap++)
         for (int how = 0; how < 4 * LAM_MIP_COUNT; how++, count++) {
             char name[64];
-            if (wrap % 4 && how % 5) // all ways alone, some of their products
+            if (wrap % 4 && how % 5) // all ways alone, and some combinations
                 continue;
             lam_texture_map map = {.texture = texture,
                                    .wrap_s = (lam_wrap)(wrap % 3),
@@ -100,7 +101,7 @@ static void transforms_floats_and_anisotropy(void **state)
     lam_texture_free(plain);
 }
 
-// A texture is uploaded once, and leaves with its scene.
+// A texture is uploaded once, and removed with its scene.
 static void uploads(void **state)
 {
     (void)state;
@@ -129,8 +130,8 @@ static void uploads(void **state)
     lam_scene_free(next);
 }
 
-// Maps of diffuse colour, opacity and emission where light is evaluated at vertices, in every stage: opaque, masked, blended; and
-// a map of opacity alone.
+// Maps of diffuse colour, opacity and emission if lighting is computed at vertices, in every stage: opaque, masked,
+// blended; and only an opacity map.
 static void lit_at_vertices(void **state)
 {
     (void)state;
@@ -155,7 +156,7 @@ static void lit_at_vertices(void **state)
         m.alpha_cutoff = 0.5f;
         m.emission = (lam_rgb){0.2f, 0.4f, 0.1f};
         m.maps[LAM_MAP_EMISSION] = &emission;
-        m.maps[LAM_MAP_OPACITY] = &map; // by its red
+        m.maps[LAM_MAP_OPACITY] = &map; // by its red channel
         if (i == 3) {
             m.maps[LAM_MAP_DIFFUSE] = m.maps[LAM_MAP_EMISSION] = NULL;
             m.ambient = m.specular = (lam_rgb){0.1f, 0.5f, 0.2f};
@@ -180,7 +181,7 @@ static void lit_at_vertices(void **state)
     lam_texture_free(glow);
 }
 
-// Numbers of masked surfaces leave the holes out that the picture has; those of blended ones are whole.
+// Quantities of masked surfaces omit the holes, like the picture; quantities of blended surfaces are complete.
 static void values_of_masked(void **state)
 {
     (void)state;
@@ -197,7 +198,7 @@ static void values_of_masked(void **state)
                 m.alpha_mode = (lam_alpha_mode)mode;
                 m.alpha_cutoff = 0.4f;
                 m.diffuse.a = 0.9f;
-                m.maps[LAM_MAP_OPACITY] = &map; // by its red
+                m.maps[LAM_MAP_OPACITY] = &map; // by its red channel
                 assert_true(lam_scene_set_material(scene, 0, &m, NULL));
                 more = (lam_draw_params){.shading = (lam_shading)shading};
                 lam_image picture = draw(cpu, scene, 1);
@@ -226,7 +227,7 @@ static void values_of_masked(void **state)
     lam_texture_free(texture);
 }
 
-// Twelve different textures, on the front and the back of one surface: more than the least number of texture units holds.
+// Twelve different textures, on the front and the back of one surface: more than the minimum number of texture units.
 static void many_textures(void **state)
 {
     (void)state;
@@ -279,8 +280,8 @@ static const lam_shader_uniform *find(const lam_shader_draw *run, const char *na
     return NULL;
 }
 
-// Printed shaders: the sampler of a map names its texture; a run without the map has the value 1 whatever is bound; two ways to
-// wrap are too many for one text.
+// Printed shaders: the sampler of a map names its texture; a run without the map has the value 1 for any bound texture;
+// one text cannot support two wrap modes.
 static void printed_shaders(void **state)
 {
     (void)state;

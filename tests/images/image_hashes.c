@@ -1,9 +1,9 @@
-// image_hashes.c: prints the hashes of the image table as this build draws it, for machines that the tests' own framework is not
-// built for (tests/web.py compares them with tests/images/expected/hashes.txt):
+// image_hashes.c: prints the hashes of the image table as this build draws it, for machines on which the test framework
+// does not run (tests/web.py compares them with tests/images/expected/hashes.txt):
 //
 //   image-hashes [NUMBER OF [THREADS]]    lines "ISA NAME PIXELS FILE"; with two numbers, scenes NUMBER, NUMBER + OF, ...; one thread
 //
-// Ends with 1 and a sentence where something cannot be drawn.
+// It exits with 1 and a message if something cannot be drawn.
 #include "picture_hash.h"
 
 #include <stdio.h>

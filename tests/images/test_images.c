@@ -1,9 +1,9 @@
 // test_images.c: every demonstration scene, drawn with every instruction set and thread count, has exactly the recorded
-// bytes. `make test` draws each scene with each instruction set, with a thread count that changes from one to the next, and
-// slow builds with a third of the instruction sets; the test long-images draws all.
+// bytes. `make test` draws each scene with each instruction set, with a varying thread count, and slow builds with a
+// third of the instruction sets; the test long-images draws all combinations.
 //
 //   test-images              compares with tests/images/expected/
-//   test-images --update     records what the plain kernels draw now (look at the pictures before you commit them)
+//   test-images --update     records the pictures of the plain kernels (look at the pictures before you commit them)
 //
 // A failure leaves NAME.actual.png and NAME.difference.png in the working directory.
 #include "picture_hash.h"
@@ -19,7 +19,7 @@
 
 #include <cmocka.h>
 
-#ifndef EXPECTED // by hand, from the root of the sources
+#ifndef EXPECTED // for a call by hand, from the root of the sources
 #define EXPECTED "tests/images/expected"
 #endif
 
@@ -39,7 +39,7 @@ static bool recorded(const char *name, struct hashes *hashes)
     return is;
 }
 
-// Leaves pictures that show what is different.
+// Writes pictures that show the difference.
 static void leave_pictures(const char *name, const lam_image *actual)
 {
     lam_image expected = {0};
@@ -138,7 +138,7 @@ int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "--update") == 0)
         return update();
-    printf("# instruction sets:"); // tests/emulated.py asks whether all that it expects are there
+    printf("# instruction sets:"); // tests/emulated.py checks that all expected ones are listed
     for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++) {
         if (lam_isa_usable((lam_isa)isa))
             printf(" %s", lam_isa_name((lam_isa)isa));
@@ -147,7 +147,7 @@ int main(int argc, char **argv)
     struct CMUnitTest *tests = calloc((size_t)demo_count, sizeof *tests);
     for (int i = 0; i < demo_count; i++)
         tests[i] = (struct CMUnitTest){demos[i].name, check_scene, NULL, NULL, (void *)(uintptr_t)&demos[i]};
-    // Not the macro: the table's length is not known to the compiler.
+    // The macro cannot be used, because the compiler does not know the table's length.
     int failed = _cmocka_run_group_tests("images", tests, (size_t)demo_count, NULL, NULL);
     free(tests);
     return failed;

@@ -1,4 +1,4 @@
-// exact_cover.h: what a triangle covers, decided in whole numbers, for tests of coverage.
+// exact_cover.h: computes the coverage of a triangle in integers, for tests of coverage.
 #ifndef EXACT_COVER_H
 #define EXACT_COVER_H
 

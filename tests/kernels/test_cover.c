@@ -1,4 +1,4 @@
-// test_cover.c: coverage and depth against a pixel-by-pixel reference in 64-bit integers and double, for every
+// test_cover.c: compares coverage and depth with a pixel-by-pixel reference in 64-bit integers and double, for every
 // instruction set.
 //
 // The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to
@@ -71,7 +71,7 @@ static lam_scene *scene_of(const struct soup *soup, lam_cull cull)
     return scene;
 }
 
-// The number of the triangle that each pixel shows, 0 for none.
+// The number of the triangle visible in each pixel, 0 for none.
 static void draw(const lam_scene *scene, lam_isa isa, int samples, float out[SIZE * SIZE])
 {
     lam_error error = {0};
@@ -93,7 +93,8 @@ static void draw(const lam_scene *scene, lam_isa isa, int samples, float out[SIZ
     lam_device_free(device);
 }
 
-// What a pixel should show: a triangle's number, 0 for none, and whether the second is too near to call in floats.
+// The expected pixel: a triangle's number, 0 for none, and whether the second triangle is too close to decide in
+// floats.
 struct reference {
     int number[SIZE * SIZE];
     bool close[SIZE * SIZE];
@@ -136,7 +137,7 @@ static void compare(const struct reference *reference, lam_isa isa, const float 
         fail_msg("%s: %d of %d covered pixels differ from the reference", lam_isa_name(isa), wrong, covered);
 }
 
-// `exact`: depths are such that floats tell them all apart, or equal.
+// `exact`: floats distinguish all depths, or the depths are equal.
 static void check(struct soup *soup, bool exact)
 {
     static float drawn[SIZE * SIZE];
@@ -197,7 +198,7 @@ static void test_huge(void **state)
 {
     (void)state;
     seed = 4;
-    struct soup soup = random_soup(40, 8000); // still inside of the guard band: exact
+    struct soup soup = random_soup(40, 8000); // still within the guard band, so exact
     check(&soup, false);
 }
 
@@ -213,8 +214,8 @@ static void test_on_centres(void **state)
     check(&soup, false);
 }
 
-// Backs of all sizes before, in and behind a wall of fronts with holes: those behind it are dropped early,
-// and only those. Of equal depths the lower number is seen, whichever side it shows.
+// Back faces of all sizes in front of, inside and behind a wall of front faces with holes. Those behind it are dropped
+// early, and only those. At equal depths the lower number is visible, with either side.
 static void test_backs(void **state)
 {
     (void)state;
@@ -247,7 +248,7 @@ static void test_backs(void **state)
     check(&soup, true);
 }
 
-// A jittered grid of triangles covers every sample exactly once: no holes at 1, 4 and 16 samples, seen by alpha.
+// A jittered grid of triangles covers every sample exactly once: alpha shows no holes at 1, 4 and 16 samples.
 static void test_watertight(void **state)
 {
     (void)state;
@@ -257,7 +258,7 @@ static void test_watertight(void **state)
     double cell = (double)(SIZE + 20) / CELLS;
     for (int j = 0; j <= CELLS; j++)
         for (int i = 0; i <= CELLS; i++) {
-            grid[j][i][0] = i * cell - 10 + random_between(-0.4, 0.4) * cell; // off the snapping grid on purpose
+            grid[j][i][0] = i * cell - 10 + random_between(-0.4, 0.4) * cell; // deliberately off the snapping grid
             grid[j][i][1] = j * cell - 10 + random_between(-0.4, 0.4) * cell;
         }
     struct soup soup = {2 * CELLS * CELLS, malloc(2 * CELLS * CELLS * 9 * sizeof(double))};
@@ -287,7 +288,7 @@ static void test_watertight(void **state)
         lam_image image = {0};
         assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
         assert_true(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
-        // Inside of the jittered border everything is covered.
+        // Inside the jittered border, everything is covered.
         for (int y = 8; y < SIZE - 8; y++)
             for (int x = 8; x < SIZE - 8; x++)
                 assert_true(((float *)image.pixels)[4 * (y * SIZE + x) + 3] == 1.0f);
@@ -298,7 +299,7 @@ static void test_watertight(void **state)
     free(soup.corners);
 }
 
-// The winding, y up, decides between front and back; each culling mode leaves the other side.
+// The winding (y up) distinguishes front and back; each culling mode keeps the other side.
 static void test_culling(void **state)
 {
     (void)state;
@@ -327,8 +328,9 @@ static void test_culling(void **state)
     free(soup.corners);
 }
 
-// A tetrahedron of any size up to the largest floats, fitted into a picture of odd size: every instruction set draws the
-// same coverage, and up to 1e33 that of size 1. (Beyond, products of coordinates leave the range of floats.)
+// A tetrahedron of any size up to the largest floats, fitted into a picture of odd size: every instruction set draws
+// the same coverage, and up to 1e33 the coverage of size 1. (Beyond, products of coordinates leave the range of
+// floats.)
 static void test_sizes(void **state)
 {
     (void)state;

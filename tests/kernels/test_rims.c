@@ -1,8 +1,8 @@
-// test_rims.c: on a closed surface, the picture with back faces is the picture without them.
+// test_rims.c: on a closed surface, the picture with back faces equals the picture without them.
 //
-// Every back face of a closed surface lies behind a front one. At the outline the two meet in an edge, and a sample near
-// it shows the back if the depth planes of the two disagree about which is nearer. A sample exactly on the edge is at
-// one depth on both, and rounding decides: one pixel in some forty frames, none of these at 1 sample.
+// Every back face of a closed surface is behind a front face. At the outline, the two meet in an edge, and a sample
+// near it shows the back face if the depth planes of the two disagree about which is nearer. A sample exactly on the
+// edge has the same depth on both, and rounding decides: one pixel in some forty frames, none of these at 1 sample.
 #include <lambent/lambent.h>
 
 #include "share.h"
@@ -60,7 +60,7 @@ static lam_image draw(lam_device *device, const lam_scene *scene, const lam_view
     return image;
 }
 
-// How many pixels have a channel that differs by more than VISIBLE.
+// The number of pixels with a channel that differs by more than VISIBLE.
 static int pixels_off(const lam_image *a, const lam_image *b)
 {
     const uint8_t *p = a->pixels, *q = b->pixels;
@@ -74,7 +74,7 @@ static int pixels_off(const lam_image *a, const lam_image *b)
     return count;
 }
 
-// The mean over models and views of how many pixels of a frame are off.
+// The mean number of different pixels per frame, over models and views.
 static double mean_off(int samples)
 {
     lam_error error = {0};

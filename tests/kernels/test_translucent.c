@@ -1,9 +1,9 @@
-// test_translucent.c: translucent surfaces against a reference that sorts and blends every sample's fragments in
+// test_translucent.c: compares translucent surfaces with a reference that sorts and blends every sample's fragments in
 // double, for every instruction set and several thread counts.
 //
 // The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to
-// itself. Colours are painted unlit. The reference is written from docs/lighting.md alone.
-// Above 600 lines: the reference in double and every way to reach it stand together.
+// itself. Colours are painted unlit. The reference follows only docs/lighting.md. The file has more than 600 lines
+// because it contains the reference in double and every path that is compared with it.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -20,7 +20,8 @@
 
 enum { SIZE = 96, SAMPLES_MAX = 16 };
 
-// Triangles, each of one colour. `opaque` ones are drawn as an object of their own whose colours have no alpha below 1.
+// Triangles with one colour each. `opaque` triangles are drawn as a separate object whose colours have no alpha below
+// 1.
 struct soup {
     int count;
     double (*corners)[3][3]; // x, y (pixels, y down), z (larger is nearer)
@@ -59,7 +60,7 @@ static lam_material white(void)
     return material;
 }
 
-// Adds the triangles of one kind, in the order given, as one object.
+// Adds the triangles of one kind, in the given order, as one object.
 static void add_object(lam_scene *scene, const struct soup *soup, const int *order, bool opaque)
 {
     float *positions = malloc((size_t)soup->count * 9 * sizeof *positions);
@@ -119,7 +120,7 @@ struct way {
     lam_pixel_format format;
 };
 
-// Draws a scene; the number of points that were lit.
+// Draws a scene and returns the number of lit points.
 static uint64_t draw_seen(const lam_scene *scene, const lam_camera *seen, const struct way *way, void *out)
 {
     lam_error error = {0};
@@ -149,8 +150,8 @@ struct hit {
     int triangle;
 };
 
-// Farthest first; of equals the later one first, so that the first stays in front. Translucent ones come before opaque
-// ones.
+// Farthest first; among equal depths the later one first, so that the first stays in front. Translucent fragments
+// precede opaque ones.
 static int farther(const void *a, const void *b)
 {
     const struct hit *x = a, *y = b;
@@ -161,12 +162,12 @@ static int farther(const void *a, const void *b)
 
 struct reference {
     double pixel[SIZE * SIZE][4]; // premultiplied
-    bool close[SIZE * SIZE];      // an order that floats cannot tell
+    bool close[SIZE * SIZE];      // an order that floats cannot distinguish
 };
 
 static void refer(const struct soup *soup, int samples, lam_rgba background, struct reference *out)
 {
-    // Direct3D's standard patterns, 1/16 pixel, by number of samples.
+    // Direct3D's standard patterns, in 1/16 pixel, by number of samples.
     static const int where[17][SAMPLES_MAX][2] = {
         [1] = {{0, 0}},
         [2] = {{4, 4}, {-4, -4}},
@@ -244,7 +245,7 @@ static void compare(const struct reference *reference, const float *drawn, doubl
     print_message("%d pixels, %d too close to call, worst %.2g\n", covered, close, worst);
 }
 
-// Draws in every way: all the same bytes, and the reference's picture.
+// Draws in every way; all pictures have the same bytes, and equal the reference's picture.
 static void check(const struct soup *soup, const int *order, int samples, lam_rgba background, double tolerance)
 {
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
@@ -271,7 +272,7 @@ static void check(const struct soup *soup, const int *order, int samples, lam_rg
 
 // --- random triangles
 
-// Overlapping triangles of all sizes; every fifth is opaque, some are wholly clear or have an alpha of 1.
+// Overlapping triangles of all sizes; every fifth is opaque, some are fully transparent or have an alpha of 1.
 static struct soup random_soup(int count, double opaque_share)
 {
     struct soup soup = soup_make(count);
@@ -303,8 +304,8 @@ static void test_random(void **state)
     }
 }
 
-// Triangles of one colour look the same under every shading method, also where a tile has more points to light than
-// there is room for at once.
+// Triangles of one colour look the same under every shading method, even if a tile has more points to light than fit at
+// once.
 static void test_methods(void **state)
 {
     (void)state;
@@ -328,7 +329,7 @@ static void test_methods(void **state)
     soup_free(&soup);
 }
 
-// The picture does not depend on the order in which triangles are given: only depth decides.
+// The picture does not depend on the order of the triangles: only depth decides.
 static void test_order(void **state)
 {
     (void)state;
@@ -363,7 +364,7 @@ static void set(struct soup *soup, int i, const double corners[3][3], const floa
     soup->opaque[i] = opaque;
 }
 
-// Two squares that go through each other along a diagonal, and an opaque one through both.
+// Two squares that intersect along a diagonal, and an opaque one through both.
 static void test_intersecting(void **state)
 {
     (void)state;
@@ -403,7 +404,7 @@ static void test_cyclic(void **state)
     soup_free(&soup);
 }
 
-// At the same depth the triangle that came first is in front, as among opaque ones.
+// At the same depth, the first triangle is in front, as among opaque triangles.
 static void test_equal_depth(void **state)
 {
     (void)state;
@@ -419,7 +420,8 @@ static void test_equal_depth(void **state)
 
 // --- bounds
 
-// Far more fragments than a thread holds: the tile is done in parts, down to few pixels, and the picture is the same.
+// Far more fragments than fit into a thread's memory: the tile is drawn in parts, down to few pixels, and the picture
+// is the same.
 static void test_many_layers(void **state)
 {
     (void)state;
@@ -449,8 +451,8 @@ static void test_many_layers(void **state)
         assert_memory_equal(first, other, sizeof first);
     }
     refer(&soup, 4, (lam_rgba){0, 0, 0, 0}, &reference);
-    // So many layers lie closer together than floats tell here and there: two that change places move a pixel by less
-    // than their alphas' product.
+    // So many layers are sometimes closer together than floats can distinguish; exchanging two of them changes a pixel
+    // by less than the product of their alphas.
     for (int i = 0; i < SIZE * SIZE; i++)
         for (int c = 0; c < 4; c++)
             assert_true(fabs((double)first[4 * i + c] - reference.pixel[i][c]) < (reference.close[i] ? 1e-3 : 1e-5));
@@ -459,7 +461,7 @@ static void test_many_layers(void **state)
     soup_free(&soup);
 }
 
-// As many layers over one pixel as can be put in order, and one more.
+// The maximum number of layers that can be sorted over one pixel, and one more.
 static void test_limit(void **state)
 {
     (void)state;
@@ -487,7 +489,7 @@ static void test_limit(void **state)
             assert_false(drawn);
             assert_int_equal(error.code, LAM_LIMIT);
             assert_non_null(strstr(error.text, "65536"));
-            // The device is still good for other frames.
+            // The device still works for other frames.
             lam_scene *empty = lam_scene_make(&error);
             assert_true(lam_draw(device, empty, &seen, &params, &image, NULL, &error));
             lam_scene_free(empty);
@@ -499,7 +501,7 @@ static void test_limit(void **state)
     }
 }
 
-// The memory that layers need is charged to the call's budget.
+// The memory for layers is counted in the call's budget.
 static void test_memory(void **state)
 {
     (void)state;
@@ -526,9 +528,9 @@ static void test_memory(void **state)
     soup_free(&soup);
 }
 
-// --- clipping, sides, where alpha comes from
+// --- clipping, sides, sources of alpha
 
-// A square across the view, its corners' alphas given.
+// A square across the view with given alphas at its corners.
 static int add_square(lam_scene *scene, const float corners[4][3], const float alphas[4], lam_error *error)
 {
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
@@ -545,7 +547,7 @@ static int add_square(lam_scene *scene, const float corners[4][3], const float a
     return lam_scene_add_mesh(scene, &mesh, error);
 }
 
-// A slanted ground that reaches behind the eye is clipped into pieces whose seams cross the picture: each sample still
+// A slanted ground that extends behind the eye is clipped into pieces whose seams cross the picture. Each sample still
 // gets each triangle once, and a pixel on a seam is lit once.
 static void test_clipped(void **state)
 {
@@ -583,7 +585,7 @@ static void test_clipped(void **state)
     assert_true(covered > 24 * 2000);
 }
 
-// Alpha is the material's times the colour's, interpolated as the shading method does with colours.
+// Alpha is the material's times the colour's, interpolated like colours in the shading method.
 static void test_shading(void **state)
 {
     (void)state;
@@ -606,8 +608,8 @@ static void test_shading(void **state)
             drawn);
         for (int y = 20; y < 76; y++)
             for (int x = 20; x < 76; x++) {
-                // Flat: the last vertex's colour; the lower triangle (y up) ends in a corner of alpha 1, the upper in
-                // one of 0.
+                // Flat: the last vertex's colour; the lower triangle (y up) ends in a corner with alpha 1, the upper
+                // one in a corner with 0.
                 bool lower = x - 16 > 79 - y, edge_pixel = abs((x - 16) - (79 - y)) < 2;
                 double expected = 0.5 * (shading == LAM_SHADING_FLAT ? lower : (x + 0.5 - 16) / 64);
                 const float *pixel = drawn + 4 * (y * SIZE + x);
@@ -621,7 +623,7 @@ static void test_shading(void **state)
     lam_scene_free(scene);
 }
 
-// A back material has its own alpha, whichever side is the translucent one; culled sides are not there.
+// A back material has its own alpha, whichever side is translucent; culled sides are omitted.
 static void test_sides(void **state)
 {
     (void)state;
@@ -648,7 +650,7 @@ static void test_sides(void **state)
     }
 }
 
-// Colours that could be clear but are not: as the opaque picture, and one clear colour that nothing uses changes
+// Colours that could be transparent but are not give the opaque picture, and an unused transparent colour changes
 // nothing.
 static void test_as_opaque(void **state)
 {
@@ -679,7 +681,7 @@ static void test_as_opaque(void **state)
     soup_free(&soup);
 }
 
-// Eight bits hold the colour divided by alpha.
+// 8-bit pictures store the colour divided by alpha.
 static void test_straight(void **state)
 {
     (void)state;

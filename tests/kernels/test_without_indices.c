@@ -1,5 +1,5 @@
 // test_without_indices.c: a mesh without indices draws the same bytes as the same mesh with the indices 0, 1, 2 …, with
-// every instruction set, whichever way its triangles take; and no vertex of it is stored.
+// every instruction set and on every path of its triangles; and none of its vertices is stored.
 #include <lambent/lambent.h>
 
 #include <setjmp.h>
@@ -99,7 +99,7 @@ static void test_same_bytes(void **state)
     uint32_t *indices = malloc(3 * TRIANGLES * sizeof *indices);
     for (uint32_t i = 0; i < 3 * TRIANGLES; i++)
         indices[i] = i;
-    // The second object's triangles follow the first one's: neither kind disturbs the other.
+    // The second object's triangles follow the first one's; neither kind disturbs the other.
     lam_mesh with = mesh_of(positions, indices, TRIANGLES), without = mesh_of(positions, NULL, TRIANGLES),
              half = mesh_of(positions + 9 * 1500, indices, 1501);
     for (size_t v = 0; v < sizeof variants / sizeof *variants; v++) {
@@ -130,13 +130,13 @@ static void test_same_bytes(void **state)
     free(positions);
 }
 
-// The device holds no memory for a corner.
+// The device uses no memory for its corners.
 static void test_memory(void **state)
 {
     enum { TRIANGLES = 1000000 };
     (void)state;
     static const struct variant plain = {.alpha = 1, .samples = 1};
-    float *positions = calloc(9 * TRIANGLES, sizeof *positions); // no area: nothing is binned
+    float *positions = calloc(9 * TRIANGLES, sizeof *positions); // no area, so nothing is binned
     assert_non_null(positions);
     uint64_t bytes[2];
     for (int i = 0; i < 2; i++) {
@@ -149,7 +149,7 @@ static void test_memory(void **state)
         lam_image_free(&image);
         lam_scene_free(scene);
     }
-    assert_true(bytes[1] - bytes[0] < TRIANGLES / 10); // the list of pieces of work
+    assert_true(bytes[1] - bytes[0] < TRIANGLES / 10); // the list of tasks
     free(positions);
 }
 

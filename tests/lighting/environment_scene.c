@@ -1,4 +1,4 @@
-// environment_scene.c: spheres under an environment that is a formula.
+// environment_scene.c: spheres under an environment given by a formula.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

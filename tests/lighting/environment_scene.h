@@ -1,5 +1,5 @@
-// environment_scene.h: spheres under an environment that is a formula, a sky over a ground and three discs with soft edges, for
-// tests that hold environment light against sums in double precision.
+// environment_scene.h: spheres under an environment given by a formula (a sky over a ground, and three discs with soft
+// edges), for tests that compare environment light with sums in double precision.
 #ifndef ENVIRONMENT_SCENE_H
 #define ENVIRONMENT_SCENE_H
 
@@ -17,10 +17,10 @@ enum { ACROSS = 7, DOWN = 5, CELL = 44 };
 extern const float roughnesses[ACROSS];
 extern const double base_color[3];
 
-// Spheres of all roughnesses, from left to right, and metalnesses, from dielectric to metal, CELL pixels each.
+// Spheres of all roughnesses, from left to right, and of all metalnesses, from dielectric to metal, CELL pixels each.
 lam_scene *make_spheres(const lam_environment *environment, lam_rgb color);
 
-// Their picture of linear floats, one sample a pixel, seen along −z without perspective.
+// Their picture in linear floats, with one sample per pixel, seen along −z without perspective.
 lam_image draw_spheres(const lam_scene *scene, lam_draw_params params, int threads, lam_isa isa);
 
 // In a uniform environment of 1, white metals return all of its light, whatever their roughness.

@@ -1,4 +1,4 @@
-// points.h: points to light, one array for each input, as the tables of widths.h want them.
+// points.h: points to light, with one array for each input, as the tables of widths.h require.
 #ifndef POINTS_H
 #define POINTS_H
 
@@ -11,14 +11,14 @@ struct points {
     float in[INPUTS][POINTS], out[OUTPUTS][POINTS];
 };
 
-// Points about the origin of a scene 4 units in front of the eye, lights 0.5 to 10 away, everything a program may ask
-// for: normals and tangents of any length, the exponents of the project's accuracy promise in turn.
+// Points around the origin of a scene 4 units in front of the eye, lights at distances of 0.5 to 10, and all inputs of
+// a program: normals and tangents of any length, and the exponents of the project's accuracy promise in rotation.
 static inline void points_fill(struct points *p, uint64_t seed)
 {
     static const float exponents[] = {0, 1, 27.8f, 50, 128, 500, 1000, 10000};
     struct random r = {seed}, own = {~seed};
     for (int i = 0; i < POINTS; i++) {
-        float unit[4][3]; // directions: light, axis, up, and the point's place
+        float unit[4][3]; // directions: light, axis, up, and the point's position
         for (int k = 0; k < 4; k++) {
             float *u = unit[k], square;
             do {
@@ -44,7 +44,7 @@ static inline void points_fill(struct points *p, uint64_t seed)
             for (int at = IN_SKY; at <= IN_ENVIRONMENT; at += 3)
                 p->in[at + c][i] = random_between(&r, 0, 1);
         }
-        // Axes about towards the point, so that most points are in the cone.
+        // Axes approximately towards the point, so that most points are in the cone.
         float axis[3], square = 0, spread = random_between(&r, 0, 1.5f);
         for (int c = 0; c < 3; c++) {
             axis[c] = -unit[0][c] + spread * unit[1][c] * 0.7f;
@@ -63,7 +63,7 @@ static inline void points_fill(struct points *p, uint64_t seed)
         for (int k = IN_PARAMETERS; k < INPUTS; k++)
             p->in[k][i] = random_between(&own, 0, 1.5f);
         p->in[IN_SHININESS][i] = exponents[i % 8];
-        for (int c = 0; i % 32 == 9 && c < 3; c++) // along the normal, as far as floats can say
+        for (int c = 0; i % 32 == 9 && c < 3; c++) // along the normal, within the precision of floats
             p->in[IN_TANGENT + c][i] = p->in[IN_NORMAL + c][i] * 0.7f;
     }
 }

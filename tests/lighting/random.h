@@ -17,7 +17,7 @@ static inline uint32_t random_bits(struct random *r)
     return (uint32_t)((r->state * 0x2545f4914f6cdd1dull) >> 32);
 }
 
-// Evenly from low to high.
+// A number evenly distributed from low to high.
 static inline float random_between(struct random *r, float low, float high)
 {
     return low + (high - low) * ((float)(random_bits(r) >> 8) * 0x1p-24f);

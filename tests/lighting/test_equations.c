@@ -1,8 +1,8 @@
-// test_equations.c: src/lighting against the textbook version in double (textbook.c): random points, then every
-// degenerate case that the conventions name.
+// test_equations.c: compares src/lighting with the textbook version in double (textbook.c): random points, then every
+// degenerate case in the conventions.
 //
-// The promise: each term within 2e-6 + 4e-7·α of its largest value. Where a light's own law enlarges the last digits of
-// the cosine it is given (a spot's exponent, a narrow cone), that factor is added, as docs/lighting.md says.
+// The promise: each term is within 2e-6 + 4e-7·α of its largest value. If a light's own law amplifies the last digits
+// of its cosine (a spot's exponent, a narrow cone), that factor is added, as described in docs/lighting.md.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -33,7 +33,7 @@ static void point_inputs(const struct points *p, int i, float in[INPUTS])
         in[k] = p->in[k][i];
 }
 
-// Largest error of each output as a share of what is allowed.
+// The largest error of each output, relative to the allowed error.
 static double worst[OUTPUTS];
 
 static void compare(const struct points *p, const struct modes *m, int i)
@@ -42,8 +42,8 @@ static void compare(const struct points *p, const struct modes *m, int i)
     point_inputs(p, i, in);
     struct textbook t = textbook_light(m, in);
     double alpha = (double)in[IN_SHININESS], lobe = 2e-6 + 4e-7 * alpha, matt = 2e-6, base = 2e-6;
-    // Where one last digit decides between all and nothing, either is right. Of tangents that lie nearly along the
-    // normal, rounding decides the direction; of those that lie along it there is none.
+    // If one last digit decides between everything and nothing, either is right. For tangents nearly along the normal,
+    // rounding determines the direction; tangents exactly along it have none.
     if (m->model != LAM_REFLECTION_LAMBERT && fabs(t.out[OUT_N_DOT_L]) < 1e-6)
         return;
     if (m->kind == LIGHT_SPOT_CUTOFF && fabs(t.cone_cosine - (double)in[IN_COS_CUTOFF]) < 1e-6)
@@ -51,12 +51,12 @@ static void compare(const struct points *p, const struct modes *m, int i)
     if (lam_reflection_describe((lam_reflection)m->model)->tangents && t.tangent_sine < 0.3 && t.tangent_sine > 0.99e-4)
         return;
     if (m->model == LAM_REFLECTION_BLINN_PHONG &&
-        t.half_length < 0.1) {       // light from straight behind: what is left of l + v
-        lobe *= 0.1 / t.half_length; // is the roundings of l and v
+        t.half_length < 0.1) {       // light from straight behind: the remainder of l + v
+        lobe *= 0.1 / t.half_length; // consists of the rounding errors of l and v
         base *= 0.1 / t.half_length;
     }
 
-    // S of microfacets has no upper bound: its digits count. Its peak is as narrow as alpha = roughness².
+    // S of microfacets has no upper bound, so its relative error counts. Its peak is as narrow as alpha = roughness².
     double S = 1, roughness = fmax((double)in[IN_PARAMETERS + 3], 0.045);
     if (lam_reflection_describe((lam_reflection)m->model)->microfacet) {
         S = fmax(t.out[OUT_S], 1);
@@ -96,7 +96,7 @@ static void compare(const struct points *p, const struct modes *m, int i)
     }
 }
 
-// Environment light: the split sum and Fresnel's factor, with the light that mirrors send to one another.
+// Environment light: the split sum and Fresnel's factor, with the light between microfacets.
 static void test_environment_light(void **state)
 {
     (void)state;
@@ -112,7 +112,7 @@ static void test_environment_light(void **state)
                 double out[ENVIRONMENT_OUTPUTS], n_dot_v;
                 point_inputs(p, i, in);
                 textbook_environment(viewer, in, out, &n_dot_v);
-                // The tables are even in the root of n.v, which has few digits where n.v is small.
+                // The tables are evenly spaced in the root of n.v, which has few digits if n.v is small.
                 double allowed = 4e-6 + 2e-6 / sqrt(fmax(n_dot_v, 1e-5));
                 for (int k = 0; k < ENVIRONMENT_OUTPUTS; k++) {
                     double error = fabs((double)p->out[k][i] - out[k]) / allowed;
@@ -155,7 +155,7 @@ static void test_random_points(void **state)
     free(p);
 }
 
-// One point, everything plain: eye at the origin, point 4 in front, normal and light towards the eye, white.
+// One simple point: eye at the origin, point 4 in front, normal and light towards the eye, white.
 static void plain_point(float in[INPUTS])
 {
     for (int k = 0; k < INPUTS; k++)
@@ -186,8 +186,8 @@ static void light_one(const struct modes *m, const float in[INPUTS], float out[O
     free(p);
 }
 
-// A case that must add nothing, in every model but `none`, at α = 0 too (0⁰ = 1 must not leak through).
-enum { SURFACES = 1, THREADS = 2, ALL = 3 }; // models that read the normal alone, or the tangent
+// A case that must add nothing, in every model except `none`, also at α = 0 (0⁰ = 1 must have no effect).
+enum { SURFACES = 1, THREADS = 2, ALL = 3 }; // models that read only the normal, or the tangent
 static void adds_nothing(const float in[INPUTS], int kind, int falloff, int which, int diffuse_too)
 {
     for (int model = LAM_REFLECTION_LAMBERT; model < LAM_REFLECTION_COUNT; model++) {
@@ -238,7 +238,7 @@ static void test_degenerate_points(void **state)
     in[IN_TANGENT + 2] = 3;
     adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, THREADS, 1);
 
-    // Tilted, so that rounding leaves something of it. From 1e-4 on there is one again.
+    // A tilted tangent, of which rounding leaves a remainder. From 1e-4 on, there is a direction again.
     plain_point(in);
     static const float tilted[3] = {0.36f, 0.48f, 0.8f};
     static const struct {
@@ -251,7 +251,7 @@ static void test_degenerate_points(void **state)
                 in[IN_NORMAL + c] = tilted[c];
                 in[IN_TANGENT + c] = tilted[c] * length;
             }
-            in[IN_TANGENT] -= 0.8f * near[i].sine * length; // along (-0.8, 0.6, 0), across the normal
+            in[IN_TANGENT] -= 0.8f * near[i].sine * length; // along (-0.8, 0.6, 0), perpendicular to the normal
             in[IN_TANGENT + 1] += 0.6f * near[i].sine * length;
             if (!near[i].there)
                 adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, THREADS, 1);
@@ -264,7 +264,7 @@ static void test_degenerate_points(void **state)
     in[IN_POSITION + 2] = 5;
     adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, ALL, 0);
 
-    plain_point(in); // light from behind: gated, but for fibres and the lecture's form
+    plain_point(in); // light from behind: gated, except for fibres and the lecture's form
     in[IN_POSITION] = 4;
     in[IN_POSITION + 2] = -4.5f;
     adds_nothing(in, LIGHT_POINT, FALLOFF_NONE, SURFACES, 1);
@@ -279,7 +279,7 @@ static void test_degenerate_points(void **state)
     in[IN_CONSTANT] = 0;
     adds_nothing(in, LIGHT_POINT, FALLOFF_DISTANCE, ALL, 1);
 
-    plain_point(in); // beyond the range, far beyond, and exactly there
+    plain_point(in); // beyond the range, far beyond, and exactly at it
     in[IN_INVERSE_RANGE] = 0.25f;
     for (float z = 0; z < 1e15f; z = z * 10 + 1) {
         in[IN_POSITION + 2] = z;
@@ -287,7 +287,7 @@ static void test_degenerate_points(void **state)
     }
 }
 
-// Lengths from 1e-15 to 1e15 make the same picture.
+// Lengths from 1e-15 to 1e15 give the same picture.
 static void test_scale(void **state)
 {
     (void)state;
@@ -320,7 +320,7 @@ static void test_known_answers(void **state)
 {
     (void)state;
     float in[INPUTS], out[OUTPUTS];
-    plain_point(in); // head on, light at the eye: everything 1
+    plain_point(in); // head on, light at the eye: all terms are 1
     for (int model = LAM_REFLECTION_PHONG; model <= LAM_REFLECTION_BLINN_PHONG; model++) {
         light_one(&(struct modes){LIGHT_POINT, FALLOFF_NONE, model, 0, 0}, in, out);
         assert_true(out[OUT_D] == 1 && out[OUT_S] == 1 && out[OUT_DISTANCE] == 4 && out[OUT_ATTENUATION] == 1);
@@ -333,7 +333,7 @@ static void test_known_answers(void **state)
     light_one(&(struct modes){LIGHT_POINT, FALLOFF_RANGE, LAM_REFLECTION_LAMBERT, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_ATTENUATION] - 0.157232704f * 0.9375f) < 1e-7f);
 
-    // Light 60° off the normal, the eye on it: D = ½; Phong (½)^10; Blinn–Phong cos(30°)^10 = (¾)^5.
+    // The light is 60° off the normal, and the eye is on it: D = ½; Phong (½)^10; Blinn–Phong cos(30°)^10 = (¾)^5.
     plain_point(in);
     in[IN_DIRECTION] = -0.8660254f;
     in[IN_DIRECTION + 2] = -0.5f;
@@ -341,7 +341,8 @@ static void test_known_answers(void **state)
     assert_true(fabsf(out[OUT_D] - 0.5f) < 1e-6f && fabsf(out[OUT_S] - 0.0009765625f) < 1e-7f);
     light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, LAM_REFLECTION_BLINN_PHONG, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_S] - 0.2373046875f) < 2e-6f);
-    // A thread across: t·l = sin 60°, t·v = 0: D = ½, mirror cone's base ½. A thread upright: both 1.
+    // A thread across: t·l = sin 60°, t·v = 0, D = ½, and the base of the mirror cone is ½. For an upright thread, both
+    // are 1.
     light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, LAM_REFLECTION_KAJIYA_KAY, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_D] - 0.5f) < 1e-6f && fabsf(out[OUT_BASE] - 0.5f) < 1e-6f);
     in[IN_TANGENT] = 0;
@@ -349,7 +350,7 @@ static void test_known_answers(void **state)
     light_one(&(struct modes){LIGHT_DIRECTIONAL, 0, LAM_REFLECTION_KAJIYA_KAY, 0, 0}, in, out);
     assert_true(fabsf(out[OUT_D] - 1) < 1e-6f && fabsf(out[OUT_S] - 1) < 1e-5f);
 
-    // Mirror cone and the lecture's form differ in the sign: l and v at 45° on either side of the normal.
+    // The mirror cone and the lecture's form differ in the sign: l and v are at 45° on either side of the normal.
     plain_point(in);
     in[IN_POINT] = -4;               // the eye is at 45° to the right of the normal
     in[IN_DIRECTION] = -0.70710678f; // and so is the light
@@ -360,7 +361,7 @@ static void test_known_answers(void **state)
     assert_true(fabsf(out[OUT_BASE] - 1) < 1e-6f);
 }
 
-// The edge of a cone is lit, however the cosines were rounded; a little outside is dark.
+// The edge of a cone is lit for any rounding of the cosines; slightly outside, it is dark.
 static void test_cone_edge(void **state)
 {
     (void)state;
@@ -383,7 +384,7 @@ static void test_cone_edge(void **state)
             assert_true(fabs((double)out[OUT_SPOT] - want) < 3e-6);
         }
     }
-    // No cutoff and exponent 0 is a point light: 0⁰ = 1, behind the spot too.
+    // Without a cutoff and with exponent 0, a spot is a point light: 0⁰ = 1, also behind the spot.
     plain_point(in);
     in[IN_DIRECTION + 2] = 1;
     light_one(&(struct modes){LIGHT_SPOT_EXPONENT, 0, LAM_REFLECTION_LAMBERT, 0, 0}, in, out);
@@ -393,7 +394,7 @@ static void test_cone_edge(void **state)
     assert_true(out[OUT_SPOT] == 0);
 }
 
-// Every model has a twin in textbook.c, a word of its own and a summary; the properties agree with the formulas.
+// Every model has a counterpart in textbook.c, a name and a summary; the properties agree with the formulas.
 static void test_table(void **state)
 {
     (void)state;

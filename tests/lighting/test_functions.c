@@ -1,6 +1,6 @@
-// test_functions.c: power, exp2, log2, inverse root and the sRGB curves against libm in double, to the errors that
-// functions.h and encoding.h promise, and at their edges. Every width gives the same bits (test_widths.c), so one is
-// enough here.
+// test_functions.c: compares power, exp2, log2, inverse root and the sRGB curves with libm in double, within the errors
+// promised in functions.h and encoding.h, and at their limits. Every width gives the same bits (test_widths.c), so one
+// is enough here.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -32,8 +32,8 @@ static float of(enum function function, float a, float b)
     return out[0];
 }
 
-// The largest relative error of base^exponent over bases with bits first, first + step, … last, where the true result
-// is a normal number.
+// The largest relative error of base^exponent over bases with bits first, first + step, … last, if the true result is a
+// normal number.
 static double power_error(enum function function, float first, float last, uint32_t step, float exponent)
 {
     static float base[BLOCK], exponents[BLOCK], out[BLOCK];
@@ -119,7 +119,7 @@ static void test_power_edges(void **state)
     }
 }
 
-// No result lies between 0 and the smallest normal number, but for the last digit of that number itself.
+// No result is between 0 and the smallest normal number, except for the last digit of that number itself.
 static void test_no_denormals(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void test_rsqrt(void **state)
     (void)state;
     static float x[BLOCK], out[BLOCK];
     double worst = 0;
-    for (uint32_t bits = bits_of_float(1); bits < bits_of_float(4); bits += 3 * BLOCK) { // two binades: all there is
+    for (uint32_t bits = bits_of_float(1); bits < bits_of_float(4); bits += 3 * BLOCK) { // two binades cover all cases
         for (uint32_t i = 0; i < BLOCK; i++)
             x[i] = float_of_bits(bits + 3 * i);
         one_lane()->apply(FUNCTION_INVERSE_ROOT, x, x, out, BLOCK);

@@ -1,5 +1,5 @@
-// test_furnace.c: a white metal in a uniform surrounding returns all of its light (the white furnace), which holds both the lobe
-// and the table of its single-scattering albedo.
+// test_furnace.c: a white metal in a uniform environment returns all of its light (the white furnace); this tests the
+// lobe and the table of its single-scattering albedo.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,9 +15,9 @@
 
 #define PI 3.14159265358979323846
 
-// The integral of S over all directions of light, divided by pi, in double: over halves h of a grid in which mirrors that face
-// h are evenly dense, so that a sharp lobe needs no finer one, but finer where h lies far from the normal: there a grazing v
-// sees most of them.
+// The integral of S over all directions of light, divided by pi, in double. It uses a grid of half vectors h in which
+// microfacets with normal h are evenly dense, so a sharp lobe needs no finer grid; the grid is finer far from the
+// normal, where a grazing v sees most of them.
 static double albedo(double n_dot_v, double roughness)
 {
     enum { RINGS = 400, SECTORS = 100 };
@@ -54,12 +54,12 @@ static void test_table(void **state)
             count++;
         }
     print_message("single scattering: %.2g off at most, %.2g in the mean\n", worst, mean / count);
-    assert_true(worst < 0.025 && mean / count < 6e-4); // the worst at grazing angles on smooth surfaces
+    assert_true(worst < 0.025 && mean / count < 6e-4); // the largest error at grazing angles on smooth surfaces
     assert_true(single_scattering(2, 3) == single_scattering(1, 1) &&
                 single_scattering(-1, 0) == single_scattering(0, 0));
 }
 
-// The lobe itself, over a plain grid of directions; for lobes wide enough for it.
+// The lobe itself, over a plain grid of directions, for sufficiently wide lobes.
 static void test_white_furnace(void **state)
 {
     (void)state;

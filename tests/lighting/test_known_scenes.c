@@ -1,6 +1,6 @@
-// test_known_scenes.c: scene files with a mesh that carries normals and tangents, drawn as linear floats, against the
-// textbook's sums over the same triangles: rays through the pixels' centres, in double, written without a look at the
-// renderer.
+// test_known_scenes.c: compares scene files with a mesh with normals and tangents, drawn as linear floats, with the
+// textbook's sums over the same triangles: rays through the pixels' centres, in double, implemented independently of
+// the renderer.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -17,7 +17,7 @@ enum { W = 96, H = 72, AROUND = 14, ALONG = 9, VERTICES = (AROUND + 1) * (ALONG 
 
 static vec each(vec a, vec b) { return of(a.x * b.x, a.y * b.y, a.z * b.z); }
 
-// --- the mesh: an open piece of a sphere, so that both sides show
+// --- the mesh: an open piece of a sphere, so that both sides are visible
 
 static float corner[VERTICES][9]; // position, normal, tangent
 static int triangle[TRIANGLES][3];
@@ -70,7 +70,7 @@ enum model { BLINN, PHONG, KAJIYA, LAMBERT };
 struct light {
     enum law law;
     const char *frame; // "world", "camera", "object"
-    vec at, way;       // position; the way that the light travels
+    vec at, way;       // position; the direction in which the light travels
     vec attenuation, ambient, diffuse, specular;
     double range, a, b; // cutoff and exponent, or inner and outer, degrees
 };
@@ -112,7 +112,7 @@ static void camera_axes(vec *x, vec *y, vec *z)
     *y = cross(*z, *x);
 }
 
-// What leaves the point towards the eye.
+// The light that leaves the point towards the eye.
 static vec lit(const struct known *k, vec p, vec n, vec t, bool back)
 {
     vec x, y, z, v = unit(sub(eye, p)), diffuse = back ? back_kd : kd, sum = add(ke, each(ka, la));
@@ -160,13 +160,13 @@ static vec lit(const struct known *k, vec p, vec n, vec t, bool back)
     return sum;
 }
 
-// The mesh in the world, its sides known.
+// The mesh in world space, with known sides.
 struct world {
     vec p[VERTICES], n[VERTICES], t[VERTICES];
     double sign; // of the determinant
 };
 
-// The nearest triangle along a ray; weights of its corners. −1: none.
+// The nearest triangle along a ray, and the weights of its corners. −1 means none.
 static int hit(const struct world *w, vec way, double weights[3])
 {
     double nearest = 1e300;
@@ -284,7 +284,8 @@ static void compare(const struct known *k)
         const float *c = corner[i];
         w.p[i] = point_out(k, of((double)c[0], (double)c[1], (double)c[2]));
         w.n[i] = normal_out(k, of((double)c[3], (double)c[4], (double)c[5]));
-        w.t[i] = unit(direction_out(k, of((double)c[6], (double)c[7], (double)c[8]))); // as a vertex shader hands it on
+        // as a vertex shader passes it on
+        w.t[i] = unit(direction_out(k, of((double)c[6], (double)c[7], (double)c[8])));
     }
     w.sign = k->scale.x * k->scale.y * k->scale.z < 0 ? -1 : 1;
     vec x, y, z;
@@ -296,7 +297,7 @@ static void compare(const struct known *k)
             double b[3] = {0}, px = (2 * (i + 0.5) / W - 1) * half * W / H, py = (1 - 2 * (j + 0.5) / H) * half;
             int t = hit(&w, sub(add(times(x, px), times(y, py)), z), b);
             const float *got = (const float *)image.pixels + 4 * (j * W + i);
-            // Coverage is decided on snapped corners: a pixel at an edge may show its neighbour.
+            // Coverage is determined from snapped corners, so a pixel at an edge may show its neighbour.
             if (t < 0 || !(got[3] > 0) || b[0] < 0.01 || b[1] < 0.01 || b[2] < 0.01)
                 continue;
             vec want = expected(k, &w, t, b);

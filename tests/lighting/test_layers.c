@@ -1,6 +1,6 @@
-// test_layers.c: the layers of physical materials (src/lighting/layers.h) against the formulas of the Khronos extensions in
-// double precision, written from their texts with libm and on their own: random materials under random light, for every set
-// of layers; then numbers that can be checked by hand, and the table of the sheen's albedo.
+// test_layers.c: compares the layers of physical materials (src/lighting/layers.h) with the formulas of the Khronos
+// extensions in double precision, implemented independently with libm: random materials under random light, for every
+// set of layers; then numbers that can be checked by hand, and the table of the sheen's albedo.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -137,7 +137,7 @@ static double charlie(vector n, vector v, vector l, double roughness)
     return PI * n_l * d / ((1 + sheen_lambda(n_v, alpha) + sheen_lambda(n_l, alpha)) * 4 * n_v * n_l);
 }
 
-// All of them, one over another. The albedos of sheen and GGX come from their tables, which other tests hold.
+// All layers, one over another. The albedos of sheen and GGX come from their tables, which other tests check.
 static void layered_textbook(const struct point *p, int set, double *diffuse, double specular[3])
 {
     double n_l = dot(p->n, p->l), n_v = fabs(dot(p->n, p->v)), c = dot(p->v, unit(sum(p->l, p->v)));
@@ -219,7 +219,7 @@ static struct point random_point(struct random *r)
     p.coat_n = unit(sum(p.n, times(0.3, random_direction(r))));
     double angle = share(r) * 2 * PI;
     p.t = (vector){cos(angle), sin(angle), 0};
-    // The numbers are floats, as those of a material.
+    // The numbers are floats, like the numbers of a material.
     p.v = widen(narrow(p.v)), p.l = widen(narrow(p.l)), p.t = widen(narrow(p.t)), p.coat_n = widen(narrow(p.coat_n));
     for (int i = 0; i < 3; i++) {
         p.base[i] = share(r);
@@ -276,7 +276,7 @@ static void test_random_points(void **state)
             struct point p = random_point(&r);
             double n_l = dot(p.n, p.l), c_l = dot(p.coat_n, p.l), c_v = dot(p.coat_n, p.v), diffuse, specular[3];
             vector half = sum(p.l, p.v);
-            // Where the last digit decides between all and nothing, and where it is most of l + v, either is right.
+            // If the last digit decides between everything and nothing, or if it is most of l + v, either is right.
             if (fabs(n_l) < 1e-4 || fabs(c_l) < 1e-4 || fabs(c_v) < 1e-4 || dot(half, half) < 0.01 ||
                 fabs(dot(p.n, p.v)) < 0.01)
                 continue;
@@ -301,7 +301,7 @@ static void test_random_points(void **state)
     print_message("layers: %.2g of the error that is allowed\n", worst);
 }
 
-// Layers of neutral numbers leave lobes.h and sum.h as they are.
+// Layers with neutral numbers do not change lobes.h and sum.h.
 static void test_neutral(void **state)
 {
     (void)state;
@@ -345,7 +345,8 @@ static void make_unit(const double v[3], double out[3])
 
 static vec3 narrow3(const double v[3]) { return (vec3){(float)v[0], (float)v[1], (float)v[2]}; }
 
-// Specular antialiasing: the variance of normals against differences of unit normals, Toksvig's length, and the wider lobe.
+// Specular antialiasing: compares the variance of normals with differences of unit normals, Toksvig's length, and the
+// wider lobe.
 static void test_widening(void **state)
 {
     (void)state;
@@ -381,7 +382,7 @@ static void test_widening(void **state)
     assert_true(fabs((double)map_variance((vec3){0.48f, 0, 0.64f}, 2, 3) - 4 * (1 - r_length) / r_length) < 1e-6);
 }
 
-// Numbers of the texts.
+// Numbers from the texts.
 static void test_known_answers(void **state)
 {
     (void)state;
@@ -397,8 +398,8 @@ static void test_known_answers(void **state)
     y = layered_of(s, m, 0, LAYER_DIELECTRIC);
     assert_true(layered_light(s, y, s.v, microfacet_of(ggx_lobe(s, s.v, y.roughness)), LAYER_DIELECTRIC).diffuse == 0 &&
                 y.dielectric.x == 1);
-    // Glass that transmits all: what lies behind, times base and 1 - 0.04; half of it after half of the distance where
-    // the volume leaves a quarter.
+    // Glass that transmits everything: the light from behind, times base and 1 - 0.04; half of it after half of the
+    // distance after which the volume passes a quarter.
     m.transmission = 1;
     m.path = 0.5f;
     m.attenuation_log = (vec3){-2, -2, 0};
@@ -406,18 +407,18 @@ static void test_known_answers(void **state)
     vec3 through = layered_transmittance(s, y, m, LAYER_TRANSMISSION | LAYER_VOLUME);
     assert_true(fabsf(through.x - 0.48f) < 1e-6f && fabsf(through.y - 0.24f) < 1e-6f &&
                 fabsf(through.z - 0.24f) < 1e-6f);
-    // A coat reflects 4 % of what falls on it from above, and dims what the surface itself gives.
+    // A coat reflects 4 % of the light from straight above, and dims the light of the surface below.
     m.clearcoat = 1;
     m.clearcoat_normal = s.n;
     y = layered_of(s, m, 0, LAYER_CLEARCOAT);
     terms t = cover_terms(start_terms((vec3){1, 1, 1}, (vec3){1, 1, 1}), y, LAYER_CLEARCOAT);
     assert_true(fabsf(t.emission.x - 0.96f) < 1e-6f && fabsf(t.ambient.y - 0.96f) < 1e-6f);
-    // Cosines of turns.
+    // Cosines of full turns.
     for (float turns = 0; turns < 3; turns += 0.037f)
         assert_true(fabs((double)cosine_of_turns(turns) - cos(2 * PI * (double)turns)) < 1e-6);
 }
 
-// The table of the sheen's albedo against the integral of the lobe, where it is wide enough for a plain grid.
+// Compares the table of the sheen's albedo with the integral of the lobe, if it is wide enough for a plain grid.
 static void test_sheen_table(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// test_reference.c: the integral of environment light by fixed directions (lam_draw_params.reference) against quadrature in
-// double precision, written from docs/lighting/physical.md with libm and on its own.
+// test_reference.c: compares the integral of environment light by fixed directions (lam_draw_params.reference) with
+// quadrature in double precision, implemented from docs/lighting/physical.md independently with libm.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,9 +17,9 @@
 
 static double inner(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// The light that a point returns, over pi, from directions in a fine grid over the half space above it: rings even in the
-// square of the sine about the normal for the diffuse part; about the mirrored direction, even in GGX's share of halves, for
-// the highlight, so that each lobe is resolved.
+// The light that a point returns, over pi, from a fine grid of directions in the half space above it. For the diffuse
+// part, rings are even in the square of the sine around the normal; for the highlight, around the mirrored direction,
+// even in GGX's distribution of half vectors, so that each lobe is resolved.
 static void frame_around(const double n[3], double x[3], double y[3])
 {
     int far = fabs(n[0]) < 0.6 ? 0 : 1;
@@ -42,7 +42,8 @@ static void add_scaled(double sum[3], const double color[3], double by)
         sum[i] += color[i] * by;
 }
 
-// Of the light by its halves h around n: D (n.h) of them are evenly dense, and l has 4 (v.h) times as large a solid angle.
+// Sums the light over its half vectors h around n: D (n.h) of them are evenly dense, and l has 4 (v.h) times as large a
+// solid angle.
 static void specular_integral(const double n[3], const double v[3], double roughness, double plain[3], double bent[3])
 {
     double x[3], y[3], square = pow(roughness, 4), n_v = inner(n, v);
@@ -51,7 +52,7 @@ static void specular_integral(const double n[3], const double v[3], double rough
     memset(bent, 0, 3 * sizeof *bent);
     for (int i = 0; i < RINGS; i++)
         for (int k = 0; k < RINGS; k++) {
-            // Rings crowd to u = 1, the slopes where the lobe's far parts lie.
+            // Rings are denser near u = 1, the slopes of the lobe's far parts.
             double low = 1 - pow(1 - (double)i / RINGS, 3), high = 1 - pow(1 - (i + 1.0) / RINGS, 3),
                    u = (low + high) / 2;
             double angle = 2 * PI * (k + (i % 2) * 0.5) / RINGS;
@@ -109,7 +110,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// The relative differences of a picture's channels from the integral at some pixels of each sphere, sorted.
+// The sorted relative differences between a picture's channels and the integral at some pixels of each sphere.
 static size_t differences(int count, double *out, size_t capacity)
 {
     lam_environment *environment = make_environment();
@@ -139,7 +140,7 @@ static size_t differences(int count, double *out, size_t capacity)
     return found;
 }
 
-// 4096 directions are within 0.2 % of the integral for half of the points, and 0.5 % for nine tenths.
+// 4096 directions are within 0.2 % of the integral for half of the points, and within 0.5 % for nine tenths.
 static void test_integral(void **state)
 {
     (void)state;
@@ -151,7 +152,7 @@ static void test_integral(void **state)
     assert_true(out[count / 2] < 0.002 && out[count * 9 / 10] < 0.005);
 }
 
-// In a uniform environment a white metal returns all light, and half of the directions do not change that.
+// In a uniform environment, a white metal returns all light, and half as many directions do not change that.
 static void test_white_furnace(void **state)
 {
     (void)state;
@@ -182,7 +183,7 @@ static void test_same_bytes(void **state)
     lam_image_free(&first);
 }
 
-// An environment without light, one of a single texel's light, and numbers out of range.
+// An environment without light, one with light in a single texel, and numbers out of range.
 static void test_limits(void **state)
 {
     (void)state;

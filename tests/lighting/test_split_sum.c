@@ -1,6 +1,6 @@
-// test_split_sum.c: the environment's light on metallic-roughness materials, against a split sum in double precision, written
-// from docs/lighting/environment.md with libm and on its own: every part of it by quadrature of an environment that is a
-// formula, a sky over a ground and three discs with soft edges.
+// test_split_sum.c: compares the environment's light on metallic-roughness materials with a split sum in double
+// precision, implemented from docs/lighting/environment.md independently with libm: every part of it by quadrature of
+// an environment given by a formula, a sky over a ground and three discs with soft edges.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,7 +60,7 @@ static void mean_around(const double axis[3], int rings, const double *cosine, c
 
 enum { RINGS = 130 };
 
-// D(h) max(r.l, 0), from halves h in which D(h) (h.n) is evenly dense up to where l meets the horizon.
+// D(h) max(r.l, 0), from half vectors in which D(h) (h.n) is evenly dense, up to the point where l meets the horizon.
 static void prefiltered(const double r[3], double roughness, double out[3])
 {
     double alpha = roughness * roughness, square = alpha * alpha, cosine[RINGS], weight[RINGS];
@@ -83,7 +83,8 @@ static void irradiance(const double n[3], double out[3])
     mean_around(n, RINGS, cosine, weight, out);
 }
 
-// The integrals of D V n.l and of the same times (1 - v.h)^5, over halves h that v sees (Heitz 2018): G2 / G1 is left.
+// The integrals of D V n.l and of the same times (1 - v.h)^5, over the half vectors h visible from v (Heitz 2018): G2 /
+// G1 remains.
 static void scale_and_bias(double n_dot_v, double roughness, double *scale, double *bias)
 {
     enum { N = 64 };
@@ -92,7 +93,7 @@ static void scale_and_bias(double n_dot_v, double roughness, double *scale, doub
     s_x /= length;
     for (int i = 0; i < N; i++)
         for (int k = 0; k < N; k++) {
-            // Rings crowd to the edge of the disc, where the slopes beyond alpha lie.
+            // Rings are denser near the edge of the disc, where the slopes are beyond alpha.
             double rest = 1 - (i + 0.5) / N, r = sqrt(1 - pow(rest, 4)), angle = PI * (k + 0.5) / N,
                    side = r * sin(angle), lift = 0.5 * (1 + s_z);
             double a = (1 - lift) * sqrt(fmax(0, 1 - side * side)) + lift * r * cos(angle);
@@ -171,7 +172,7 @@ static void test_split_sum(void **state)
     }
 }
 
-// A white metal in a uniform environment of 1 returns all of its light, whatever its roughness.
+// A white metal in a uniform environment of 1 returns all of its light, for any roughness.
 static void test_white_furnace(void **state)
 {
     (void)state;
@@ -202,11 +203,11 @@ static void test_same_bytes(void **state)
     lam_image_free(&first);
 }
 
-// The sums are the same with every instruction set. `alpha` of cube_sums_row < 0: the irradiance.
+// The sums are the same with every instruction set. With `alpha` of cube_sums_row < 0, it is the irradiance.
 static void test_kernels(void **state)
 {
     (void)state;
-    enum { SIZE = 21, ROW = 3 * (SIZE + 2) }; // no multiple of any number of lanes
+    enum { SIZE = 21, ROW = 3 * (SIZE + 2) }; // not a multiple of any number of lanes
     lam_error error;
     lam_environment *environment = make_environment();
     struct cube_chain chain;
@@ -239,7 +240,7 @@ static void test_kernels(void **state)
     lam_environment_free(environment);
 }
 
-// Cubes of any size are prefiltered, the smallest too, and light too strong for floats' sums stays finite.
+// Cubes of any size are prefiltered, including the smallest, and light too strong for sums of floats stays finite.
 static void test_any_size(void **state)
 {
     (void)state;
@@ -272,7 +273,7 @@ static void test_any_size(void **state)
     }
 }
 
-// Levels that are made one after the other, as frames ask for them, are those that are made together.
+// Levels made one after another, as frames request them, equal levels made together.
 static void test_parts(void **state)
 {
     (void)state;
@@ -309,7 +310,7 @@ static void test_map_ranges(void **state)
     static uint8_t pixels[SIDE * SIDE][4];
     for (int i = 0; i < SIDE * SIDE; i++)
         for (int c = 0; c < 4; c++)
-            pixels[i][c] = (uint8_t)(60 + 30 * c + i * 7 % 20); // the last texels have neither bound
+            pixels[i][c] = (uint8_t)(60 + 30 * c + i * 7 % 20); // the last texels contain neither bound
     for (int opaque = 0; opaque < 2; opaque++) {
         for (int i = 0; i < SIDE * SIDE && opaque; i++)
             pixels[i][3] = 255;
@@ -338,7 +339,7 @@ static void test_map_ranges(void **state)
     lam_texture_free(texture);
 }
 
-// Only those levels are made that a map's roughnesses read, and the picture is that of all levels.
+// Only the levels that a map's roughnesses need are made, and the picture equals the picture with all levels.
 static void test_levels_of_maps(void **state)
 {
     (void)state;
@@ -371,7 +372,7 @@ static void test_levels_of_maps(void **state)
     }
     assert_memory_equal(pictures[0].pixels, pictures[1].pixels,
                         (size_t)pictures[0].width * (size_t)pictures[0].height * 16);
-    // The coat is read from 0.25 · 120 / 255 to 0.25, levels 2.3 to 5.01; the base from 0.49 to 0.9, levels 7.7 to 10.5.
+    // The coat needs 0.25 · 120 / 255 to 0.25, levels 2.3 to 5.01; the base needs 0.49 to 0.9, levels 7.7 to 10.5.
     assert_int_equal(parts->light->made, 1 | 0x7c | 0xf80 | 1 << ENVIRONMENT_LEVELS);
     for (int i = 0; i < 2; i++)
         lam_image_free(&pictures[i]);

@@ -1,5 +1,5 @@
-// test_widths.c: every width and instruction set gives the same bits, on ordinary numbers and on any bit pattern; and
-// so does every compiler and build type: one recorded hash over all results.
+// test_widths.c: every width and instruction set gives the same bits, on ordinary numbers and on any bit pattern, and
+// so does every compiler and build type: one recorded hash covers all results.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -16,16 +16,15 @@
 #define LANES 1
 #include "lighting.h"
 
-// Over all results of the functions; those of each lobe stand in textbook.c. A hash changes when an equation or a function
-// changes its last bits, and never otherwise: then look at test_functions and test_equations first, and record the new
-// one.
+// Covers all results of the functions; the hashes of the lobes are in textbook.c. A hash changes only if the last bits
+// of an equation or a function change. First look at test_functions and test_equations, and then record the new hash.
 #define RECORDED_HASH 0x0deec07b96d48e47u
 
 #define RECORDED_ENVIRONMENT_HASH 0x176ccf1841b8bfb2u
 
 enum { WIDTHS_MAX = 16, NUMBERS = 1 << 16 };
 
-// Which NaN comes out is the processor's choice; that one comes out is ours.
+// The processor selects the NaN; the tests only require that the result is a NaN.
 static uint32_t bits_for_comparison(float x) { return x == x ? bits_of_float(x) : 0x7fc00000; }
 
 static uint64_t hash_of(uint64_t hash, const float *x, int count)
@@ -78,7 +77,7 @@ static const float specials[] = {
 };
 enum { SPECIALS = sizeof specials / sizeof *specials };
 
-// Specials with each other, then any bits, then numbers in 0…1 with everyday exponents.
+// Special values with each other, then any bits, then numbers in 0…1 with common exponents.
 static void fill_numbers(float *a, float *b)
 {
     struct random r = {2026};
@@ -130,7 +129,7 @@ static uint64_t hash_of_lobe(int model)
         for (int variant = 0; variant < 4; variant++) {
             struct modes m = {kind, (kind + model + variant) % 3, model, variant & 1, variant >> 1};
             points_fill(first, 1 + random_bits(&r));
-            if (variant == 3) { // anything at all in some inputs
+            if (variant == 3) { // any value in some inputs
                 for (int i = 0; i < POINTS; i++)
                     first->in[random_bits(&r) % INPUTS][i] =
                         i % 2 ? specials[random_bits(&r) % SPECIALS] : float_of_bits(random_bits(&r));
@@ -149,7 +148,7 @@ static uint64_t hash_of_lobe(int model)
     return hash;
 }
 
-// The environment's light: of ordinary numbers, and of anything at all in some inputs.
+// The environment's light: for ordinary numbers, and with any value in some inputs.
 static uint64_t hash_of_environment(void)
 {
     const struct width *widths[WIDTHS_MAX];
@@ -202,7 +201,7 @@ static void test_same_bits(void **state)
     assert_int_equal(wrong, 0);
 }
 
-// Every width finds the same numbers, bit for bit, and touches nothing behind the last one: there the page ends.
+// Every width finds the same numbers, bit for bit, and accesses nothing after the last one, at the end of the page.
 static void test_gather(void **state)
 {
     (void)state;

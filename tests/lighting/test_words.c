@@ -1,5 +1,5 @@
-// test_words.c: the dialect of src/lighting is as small as it says, each of its words means the same in C and exists in
-// GLSL, and the whole text is accepted as GLSL 120, 330 and 300 es by the reference compiler (glslangValidator).
+// test_words.c: the dialect of src/lighting contains only the listed words, each of which means the same in C and
+// exists in GLSL, and the reference compiler (glslangValidator) accepts the whole text as GLSL 120, 330 and 300 es.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -41,7 +41,7 @@ static void test_meaning_in_c(void **state)
 #undef WORD
 }
 
-// A file of src/lighting, as far as GLSL sees it; the caller frees it.
+// A file of src/lighting as GLSL sees it; the caller frees it.
 static char *read_text(const char *name)
 {
     char path[4096];
@@ -92,7 +92,8 @@ static int is_equation(char *const texts[EQUATION_FILES], const char *name, size
     return 0;
 }
 
-// What the dialect leaves out. What both languages know and use otherwise (discard, texture…) falls to the words' list.
+// Features that the dialect excludes. Words that both languages use with different meanings (discard, texture…) are
+// excluded by the list of words.
 static const char *const forbidden[] = {"[",     "]",        "->",   "?",       "%",      "|",     "++",
                                         "--",    "#include", "#if",  "static",  "const ", "float", "double",
                                         "while", "switch",   "goto", "sampler", "sizeof", "inout"};
@@ -144,7 +145,7 @@ static void test_dialect_is_closed(void **state)
         free(texts[i]);
 }
 
-// Every function of prelude.glsl has its row in words.h.
+// Every function of prelude.glsl has a row in words.h.
 static void test_glsl_words_are_listed(void **state)
 {
     (void)state;
@@ -164,7 +165,7 @@ static void test_glsl_words_are_listed(void **state)
     free(text);
 }
 
-// Writes a file of the equations, and in place of an #include the file that it names, as embed.py does.
+// Writes a file of the equations, and replaces an #include by the file that it names, like embed.py.
 static void write_text(FILE *file, const char *name)
 {
     char *text = read_text(name), *at = text;
@@ -179,7 +180,7 @@ static void write_text(FILE *file, const char *name)
     free(text);
 }
 
-// A main that uses every word, every lobe and, through their kin, every equation.
+// A main that uses every word, every lobe and, indirectly, every equation.
 static void write_shader(FILE *file, const char *version)
 {
     int old = strcmp(version, "120") == 0;
@@ -238,7 +239,7 @@ static void test_glsl_is_accepted(void **state)
             print_error("GLSL %s was refused\n", versions[i]);
             refused++;
         }
-        // The check itself must be able to fail: the same text with one unknown word more.
+        // The check itself must be able to fail: the same text with one unknown word added.
         file = fopen(path, "a");
         assert_non_null(file);
         fputs("float broken() { return no_such_word(1.0); }\n", file);

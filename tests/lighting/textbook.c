@@ -74,7 +74,7 @@ struct geometry {
 
 struct reflected {
     double diffuse, base;
-    int lit;        // there is a highlight where the eye sees the point
+    int lit;        // there is a highlight if the eye sees the point
     int microfacet; // its S is the base itself
 };
 
@@ -118,7 +118,7 @@ static struct reflected reflect_kajiya_kay_lecture(const struct geometry *g)
     return reflect_thread(g, cos(g->theta_l - g->theta_v), 0);
 }
 
-// By the angles themselves.
+// Computed from the angles themselves.
 static struct reflected reflect_oren_nayar(const struct geometry *g)
 {
     double sigma = (double)g->parameters[2], square = sigma * sigma;
@@ -143,7 +143,7 @@ static struct reflected reflect_ggx(const struct geometry *g)
     return (struct reflected){fmax(n_l, 0) * (1 - mirrored), seen ? PI * d * v * n_l : 0, seen, 1};
 }
 
-// Each with the hash over the results of all widths (test_widths.c prints it).
+// Each row contains the hash over the results of all widths (printed by test_widths.c).
 static const struct lobe {
     struct reflected (*of)(const struct geometry *g);
     uint64_t hash;
@@ -216,7 +216,7 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
 
 // --- the environment
 
-// A table of 32 roughnesses from 0.045 to 1 times 32 roots of n.v, linear between them.
+// A table of 32 roughnesses from 0.045 to 1 times 32 roots of n.v, with linear interpolation.
 static double tabulated(const float table[1024], double n_v, double roughness)
 {
     double x = 31 * sqrt(limit(n_v, 0, 1)), y = 31 * (limit(roughness, 0.045, 1) - 0.045) / (1 - 0.045);
@@ -234,7 +234,7 @@ static const float biases[1024] = {
 #include "bias.table"
 };
 
-// docs/lighting/environment.md and physical.md: a dielectric and a metal, mixed last.
+// docs/lighting/environment.md and physical.md: a dielectric and a metal, mixed at the end.
 void textbook_environment(int viewer, const float in[INPUTS], double out[ENVIRONMENT_OUTPUTS], double *n_dot_v)
 {
     vector p = take(in + IN_POINT), n = normalize(take(in + IN_NORMAL));

@@ -1,5 +1,5 @@
-// width.c: the functions and equations at one width. Compiled once for each: LANES, WIDTH_NAME and WIDTH_FEATURES are
-// given by the build.
+// width.c: the functions and equations at one width. It is compiled once for each width; the build defines LANES,
+// WIDTH_NAME and WIDTH_FEATURES.
 #include "widths.h"
 
 #include "cpu_features.h"

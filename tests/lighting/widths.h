@@ -1,4 +1,4 @@
-// widths.h: the numeric functions and the equations, compiled once for each width and behind one table each.
+// widths.h: the numeric functions and the equations, compiled once for each width, with one table each.
 #ifndef WIDTHS_H
 #define WIDTHS_H
 
@@ -21,7 +21,7 @@ enum function {
     FUNCTION_COUNT
 };
 
-// One lit point: what goes in, and every term that comes out. Vectors take three places.
+// One lit point: the inputs, and every output term. Vectors take three elements.
 enum input {
     IN_POINT,
     IN_NORMAL = 3, // any length
@@ -46,7 +46,7 @@ enum input {
     IN_TINT = IN_EMISSION + 3,
     IN_MIRROR = IN_TINT + 3, // kr
     IN_ENVIRONMENT = IN_MIRROR + 3,
-    IN_PARAMETERS = IN_ENVIRONMENT + 3, // of the lobe, in the order of LOBE_PARAMETERS
+    IN_PARAMETERS = IN_ENVIRONMENT + 3, // parameters of the lobe, in the order of LOBE_PARAMETERS
     IN_SHININESS = IN_PARAMETERS,
     INPUTS = IN_PARAMETERS + 8
 };
@@ -71,7 +71,7 @@ enum output {
 // The environment's light on a metallic-roughness material: IN_TINT is the base colour, IN_SKY the irradiance ÷ π,
 // IN_GROUND the prefiltered light, and a light at IN_POSITION gives Fresnel's factor.
 enum environment_output {
-    OUT_FRESNEL,         // with the light between mirrors
+    OUT_FRESNEL,         // with the light between microfacets
     OUT_SPLIT_SUM = 3,   // likewise
     OUT_SPLIT_ALONE = 6, // without
     ENVIRONMENT_OUTPUTS = 9
@@ -81,18 +81,18 @@ struct modes {
     int kind, falloff, model, fibre, viewer;
 };
 
-// Counts are multiples of 16. Where an array has one number for each point, in[i] and out[i] are such arrays.
+// Counts are multiples of 16. If an array contains one number for each point, in[i] and out[i] are such arrays.
 struct width {
     const char *name;
-    int features; // of cpu_features.h, that it needs to run
+    int features; // features in cpu_features.h that it needs
     void (*apply)(enum function function, const float *a, const float *b, float *out, int count);
     void (*light)(const struct modes *modes, const float *const in[INPUTS], float *const out[OUTPUTS], int count);
     void (*environment)(int viewer, const float *const in[INPUTS], float *const out[ENVIRONMENT_OUTPUTS], int count);
-    // Three neighbours from each of `count` places, `stride` numbers apart, into three arrays.
+    // Copies three neighbours from each of `count` positions, `stride` numbers apart, into three arrays.
     void (*gather)(const float *from, const uint32_t *at, int stride, float *const out[3], int count);
 };
 
-// Compiled into this program; those that this processor cannot run are left out. The first has one lane, plain C.
+// The widths compiled into this program that this processor can run. The first has one lane, plain C.
 int widths_usable(const struct width *usable[], int room);
 
 #endif

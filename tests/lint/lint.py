@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """lint.py BUILD: cppcheck and clang-tidy over src, classroom and tools, with the compile commands of a build folder. Exceptions and their reasons
-are in tests/lint/cppcheck.txt and .clang-tidy. A tool that is not installed is reported as skipped. Exit code 1: something was found."""
+are in tests/lint/cppcheck.txt and .clang-tidy. Tools that are not installed are reported as skipped. The exit code is 1 if there is a finding."""
 import concurrent.futures
 import glob
 import json
@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-# What gcc alone knows.
+# Options that only gcc knows.
 GCC_ONLY = re.compile(r" -f(excess-precision=\S+|no-semantic-interposition|no-thread-jumps)")
 
 
@@ -45,7 +45,7 @@ def clang_tidy(found, build):
 
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         lines = [line for lines in pool.map(one, found) for line in lines]
-    return sorted(set(lines))  # a header's finding once
+    return sorted(set(lines))  # a header's finding is reported once
 
 
 def main():

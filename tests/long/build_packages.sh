@@ -1,5 +1,5 @@
-#!/bin/sh
-# build_packages.sh FOLDER: in a fresh root, as root (tests/long/packages.py): builds the packages of the source package in FOLDER, there.
+# !/bin/sh build_packages.sh FOLDER: builds the packages of the source package in FOLDER; runs as root in a fresh root file system
+# (tests/long/packages.py).
 set -eu
 export DEBIAN_FRONTEND=noninteractive
 quiet() { "$@" >/tmp/build.log 2>&1 || { tail -n 40 /tmp/build.log; exit 1; }; }

@@ -1,7 +1,7 @@
-// endurance.c: nothing drifts: endurance N cpu|gl draws N pictures in one process, one model after the other, and checks
-// that each picture has the bytes that the first of its model had, and that memory, open files and threads stay what they
-// were after the first tenth. Between the models stand damaged ones, whose errors leave nothing behind. Models are loaded
-// and pictures encoded anew each time; the device is made anew every 500 pictures.
+// endurance.c: tests that nothing drifts: endurance N cpu|gl draws N pictures in one process, one model after another.
+// Each picture must have the same bytes as the first of its model, and memory, open files and threads must stay
+// constant after the first tenth. Between the models there are damaged ones, whose errors must leave no resources
+// behind. Models are loaded and pictures encoded again each time; the device is recreated every 500 pictures.
 #include <lambent/lambent.h>
 
 #include <dirent.h>
@@ -58,7 +58,7 @@ static _Noreturn void give_up(const char *what, int picture, const lam_error *er
 static long resident_kb(void)
 {
     long pages = 0, resident = 0;
-    malloc_trim(0); // what free() keeps at hand is not held
+    malloc_trim(0); // memory that free() keeps does not count
     FILE *file = fopen("/proc/self/statm", "r");
     if (!file || fscanf(file, "%ld %ld", &pages, &resident) != 2)
         resident = -1;
@@ -83,7 +83,7 @@ static lam_device *make_device(bool gl, lam_error *error)
     return gl ? lam_device_gl(NULL, error) : lam_device_cpu(&(lam_cpu_params){.threads = 2}, error);
 }
 
-// Draws a model into a PNG and returns its hash; 0: the model is refused.
+// Draws a model into a PNG and returns its hash; 0 if the model is refused.
 static uint64_t draw(lam_device *device, const struct model *model, int picture)
 {
     lam_error error = {0};

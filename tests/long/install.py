@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""install.py: make install and make uninstall on fresh machines of both Debian releases (tests/long/install.sh). The roots are made by
-mmdebstrap in a temporary folder; this needs root or sudo, a mirror of Debian, and ten minutes. Skipped if no root can be made."""
+"""install.py: tests make install and make uninstall on fresh machines of both Debian releases (tests/long/install.sh). mmdebstrap makes the root file
+systems in a temporary folder; this needs root or sudo, a Debian mirror, and ten minutes. The test is skipped if no root file system can be made."""
 import os
 import pathlib
 import subprocess

@@ -1,9 +1,8 @@
-#!/bin/sh
-# install.sh: runs in a fresh Debian root, as root, in Lambent's tree: make install, a program that uses the library, make uninstall.
-# tests/long/install.py calls it.
+# !/bin/sh install.sh: runs as root in a fresh Debian root file system, in Lambent's tree: make install, a program that uses the
+# library, make uninstall. tests/long/install.py calls it.
 set -eu
 scripts/setup.sh build
-rm -f /usr/bin/dpkg-architecture # Meson asks it for the folder of libraries; many systems lack it
+rm -f /usr/bin/dpkg-architecture # Meson asks this program for the folder of libraries; many systems lack it
 list() { find / -xdev \( -path /lambent -o -path /tmp -o -path /var -o -path /root -o -path /run \) -prune -o -print | sort; }
 for prefix in /usr/local /usr; do
     list >/tmp/before

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""machines.py PROGRAM: many machines for real (docs/batch.md). Slurm with three nodes on this host: examples/slurm-array.sh as a job array
-over 500 models; one node is killed, its tasks are requeued; nothing is lost and nothing done twice. And Open MPI with two ranks.
+"""machines.py PROGRAM: tests real clusters (docs/batch.md). Slurm with three nodes on this host runs examples/slurm-array.sh as a job array over 500
+models. One node is killed and its tasks are requeued; nothing is lost and nothing is done twice. A second test uses Open MPI with two ranks.
 
-Everything runs as this user in a temporary folder: munged, slurmctld and three slurmd of their own, on ports of their own, no cgroups and no
-systemd. Packages: group `long` of packages.txt; without them it is skipped."""
+Everything runs as this user in a temporary folder: munged, slurmctld and three slurmd, on separate ports, without cgroups and systemd. The packages
+are in the group `long` of packages.txt; without them, the test is skipped."""
 import getpass
 import glob
 import json
@@ -25,7 +25,7 @@ PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
 
 
 def find(name):
-    """A program; Debian has daemons in /usr/sbin, which may not be in PATH."""
+    """Finds a program; Debian's daemons are in /usr/sbin, which may not be in PATH."""
     return shutil.which(name, path=os.environ.get("PATH", "") + ":/usr/sbin:/sbin")
 
 
@@ -57,7 +57,7 @@ def wait_for(what, seconds, condition):
 # --- models
 
 def sphere(path, slices, squash):
-    """A sphere of few to some thousand triangles, as an OBJ file."""
+    """A sphere with a few to some thousand triangles, as an OBJ file."""
     import math
     lines, stacks = [], slices // 2
     for i in range(stacks + 1):
@@ -82,7 +82,7 @@ def make_models(folder):
             sphere(path, rng.choice((8, 16, 32, 64)), 0.3 + rng.random())
 
 
-# --- what must be there in the end
+# --- the expected final state
 
 def records_of(folder):
     """The lines of all journals of a folder: of runs and of pictures."""
@@ -92,7 +92,7 @@ def records_of(folder):
             try:
                 record = json.loads(line)
             except ValueError:
-                continue  # torn by the kill
+                continue  # truncated by the kill
             (pictures if "output" in record else runs).append({**record, "journal": os.path.basename(path)})
     return runs, pictures
 
@@ -102,7 +102,7 @@ def pictures_of(folder):
 
 
 def check_whole(folder, expected, tries):
-    """The pictures of an undisturbed run, and one outcome for each: `tries` lines for what failed."""
+    """The pictures of an undisturbed run, and one result for each: `tries` lines for failed pictures."""
     found = pictures_of(folder)
     check(found == expected, "%d pictures, expected %d; %d differ" % (len(found), len(expected), sum(
         found.get(name) != data for name, data in expected.items())))
@@ -120,7 +120,7 @@ def check_whole(folder, expected, tries):
     check(all(outcomes[name] == ["cannot-read"] * tries for name in failed), "tries: %s" % [outcomes[name] for name in failed])
 
 
-# --- a Slurm of its own
+# --- a private Slurm
 
 class Slurm:
     def __init__(self, folder):
@@ -162,7 +162,7 @@ SchedulerParameters=batch_sched_delay=0,sched_min_interval=0
             "NodeName=%s NodeHostname=%s NodeAddr=127.0.0.1 Port=%d CPUs=1 RealMemory=8000 State=UNKNOWN\n" % (node, host, port)
             for node, port in zip(NODES, ports[1:])) + "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP\n")
         self.environment = {**os.environ, "SLURM_CONF": str(self.conf), "PATH": os.path.dirname(PROGRAM) + ":" + os.environ["PATH"]}
-        for name in list(self.environment):  # a Slurm around this test has nothing to do with its own
+        for name in list(self.environment):  # independent of any Slurm outside this test
             if name.startswith(("SLURM_", "SBATCH_")) and name != "SLURM_CONF":
                 del self.environment[name]
 
@@ -188,7 +188,7 @@ SchedulerParameters=batch_sched_delay=0,sched_min_interval=0
         return done.stdout if done.returncode == 0 else ""
 
     def steps_of(self, node):
-        """The processes of jobs on a node, and the slurmstepd above them."""
+        """The processes of jobs on a node, and their slurmstepd."""
         found = set()
         for folder in glob.glob("/proc/[0-9]*"):
             try:
@@ -208,7 +208,7 @@ SchedulerParameters=batch_sched_delay=0,sched_min_interval=0
         return found
 
     def kill_node(self, node):
-        """What a power cut leaves: neither slurmd nor slurmstepd nor the job."""
+        """The state after a power failure: neither slurmd nor slurmstepd nor the job exists."""
         self.processes[node].kill()
         killed = 0
         for _ in range(5):
@@ -251,7 +251,7 @@ SchedulerParameters=batch_sched_delay=0,sched_min_interval=0
 # --- the tests
 
 def expected_pictures(folder):
-    """Of one run on one machine, with the options of examples/slurm-array.sh."""
+    """The result of one run on one machine, with the options of examples/slurm-array.sh."""
     done = subprocess.run([PROGRAM, "batch", str(folder / "models"), "-o", str(folder / "one" / "{dir}" / "{stem}.png"), "-s", "256",
                            "--journal", "none"], capture_output=True, text=True)
     check(done.returncode == 7, done.stderr)
@@ -266,7 +266,7 @@ def journal_of(folder, task):
 
 
 def a_task_underway(slurm, folder, job):
-    """A node whose task has some of its pictures, but not all."""
+    """A node whose task has drawn some of its pictures, but not all."""
     for task, fields in slurm.tasks(job).items():
         if fields["JobState"] == "RUNNING" and 3 <= journal_of(folder, task) <= 20:
             return fields["NodeList"], task
@@ -279,7 +279,7 @@ def array_survives_a_node(folder, expected):
         slurm.start()
         start = time.time()
         (folder / "logs").mkdir()
-        # One thread each, so that a kill finds tasks underway.
+        # With one thread each, a kill finds tasks in progress.
         job = int(slurm.ask("sbatch", "--parsable", "--array=0-%d" % (TASKS - 1), "--cpus-per-task=1", "--mem=100",
                             "-o", str(folder / "logs/%a.txt"), str(ROOT / "examples/slurm-array.sh"), str(folder / "models"),
                             str(folder / "slurm")) or check(False, "sbatch failed"))
@@ -289,7 +289,7 @@ def array_survives_a_node(folder, expected):
         at_kill = journal_of(folder, task)
         check(slurm.tasks(job)[task]["JobState"] in ("RUNNING", "COMPLETING"), "task %d was over before its node was killed" % task)
         wait_for("task %d to be requeued" % task, 120, lambda: int(slurm.tasks(job)[task]["Restarts"]) == 1)
-        slurm.start_node(node)  # it comes back
+        slurm.start_node(node)  # the node comes back
         done = ("COMPLETED", "FAILED", "CANCELLED", "TIMEOUT", "NODE_FAIL")
         wait_for("the array to end", 300, lambda: len(slurm.tasks(job)) == TASKS and all(
             fields["JobState"] in done for fields in slurm.tasks(job).values()))
@@ -313,7 +313,7 @@ def array_survives_a_node(folder, expected):
 
 
 def two_ranks(folder, expected):
-    """Open MPI sets its variables for programs that know nothing of it. It would end the other rank if one exited with 7."""
+    """Open MPI sets its variables also for programs without MPI. If one rank exited with 7, Open MPI would end the other."""
     done = subprocess.run([find("mpirun"), "--allow-run-as-root", "--oversubscribe", "-n", "2", PROGRAM, "batch", str(folder / "models"), "-o",
                            str(folder / "mpi" / "{dir}" / "{stem}.png"), "-s", "256", "--shard", "auto", "--failures-ok"], capture_output=True, text=True,
                           timeout=300)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""packages.py: the Debian packages of `make deb`: built twice in different folders to the same bytes, without complaints of lintian, and installed, used and
-removed in a fresh root of Debian 12 (tests/long/try_packages.sh), tested by autopkgtest there, and built and used in a root of Debian 13. Needs debhelper and
-lintian; what a root is made for also needs root, mmdebstrap and a mirror."""
+"""packages.py: tests the Debian packages of `make deb`: they are built twice in different folders with identical bytes, checked by lintian,
+installed, used and removed in a fresh root file system of Debian 12 (tests/long/try_packages.sh), tested there by autopkgtest, and built and used in
+Debian 13. The test needs debhelper and lintian; the parts with a root file system also need root, mmdebstrap and a mirror."""
 import glob
 import os
 import pathlib
@@ -34,7 +34,7 @@ AS_ROOT = [] if os.geteuid() == 0 else ["sudo"]
 
 
 def in_root(release, folder, files, command):
-    """Runs a command in a root of a release, which is made the first time, with files in its /debs."""
+    """Runs a command in the root file system of a release, which is made on first use, with files in its /debs."""
     place = folder + "/" + release
     if files:
         code, text = run(ROOT / "scripts/fresh_root.sh", release, place, "mkdir /debs")
@@ -45,7 +45,7 @@ def in_root(release, folder, files, command):
 
 
 def try_autopkgtest(root, files):
-    """The tests of debian/tests as Debian runs them, in the root."""
+    """The tests of debian/tests, run in the root file system like Debian runs them."""
     if not shutil.which("autopkgtest"):
         report("autopkgtest", True, skip="autopkgtest is not installed")
         return

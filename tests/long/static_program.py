@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""static_program.py PROGRAM: the programs of `make static`, for this machine and for aarch64 (by qemu-user-static): one file of at most 9 MB that needs no
-other, draws in an empty root what PROGRAM draws, byte for byte, and refuses what it does not contain with exit code 3. The empty root needs the rights of
-root; without them it runs where it is."""
+"""static_program.py PROGRAM: tests the programs of `make static`, for this machine and for aarch64 (by qemu-user-static): each is one file of at most
+9 MB that needs no other file, draws the same bytes as PROGRAM in an empty root, and refuses unsupported features with exit code 3. The empty root
+needs root privileges; without them, the program runs in place."""
 import base64
 import json
 import os
@@ -20,7 +20,7 @@ PICTURES = ROOT / "tests" / "pictures"
 MODELS = [*sorted((ROOT / "tests" / "models").glob("*")), ROOT / "examples" / "models" / "spot.glb", ROOT / "examples" / "models" / "spot.obj",
           CORPUS / "gltf" / "meshopt.gltf", CORPUS / "gltf" / "draco.gltf", CORPUS / "gltf" / "triangle.gltf", CORPUS / "3mf" / "deflated.3mf"]
 TEXTURES = {"png": "png/palette8.png", "jpg": "jpeg/color420.jpg", "webp": "webp/lossy.webp"}
-# The ending of the picture and the words before it.
+# The extension of the picture and the options before it.
 DRAWN = [(".png", ["cube.obj"]), (".webp", ["spot.glb"]), (".jpg", ["spot.glb"]), (".png", ["spot.obj", "--ground"]), (".png", ["meshopt.gltf"]), (".png", ["triangle.gltf"]),
          (".png", ["cube.ply", "--edges", "all", "--shadows"]), (".png", ["cube.stl", "--compress", "best"]), (".webp", ["cube.stl", "--turntable", "3"]),
          (".png", ["teapot", "--material", "gold"]), (".pfm", ["torus-knot", "--ao", "rays"]), (".png", ["scene.json"]),
@@ -49,7 +49,7 @@ def run(*command, **more):
 
 
 def textured(picture, extensions):
-    """A square of glTF with a texture."""
+    """A textured square in glTF."""
     corners = struct.pack("<12f8f6H", 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 2, 0, 2, 3)
     data = "data:application/octet-stream;base64," + base64.b64encode(corners).decode()
     texture = {"extensions": {"EXT_texture_webp": {"source": 0}}} if extensions else {"source": 0}
@@ -72,7 +72,7 @@ def fill(root):
 
 
 def words_of(words, name):
-    """What draws into NAME: options of size are not those of plots."""
+    """The command that draws NAME, because options of size do not apply to plots."""
     return [*words, "-q", *([] if words[0] == "plot" else ["-s", "120"]), "-o", name]
 
 

@@ -1,5 +1,5 @@
-#!/bin/sh
-# try_packages.sh FOLDER: in a fresh root, as root (tests/long/packages.py): installs the packages of FOLDER, runs the tests of debian/tests as a user would, and removes them.
+# !/bin/sh try_packages.sh FOLDER: runs as root in a fresh root file system (tests/long/packages.py): installs the packages of FOLDER, runs the tests
+# of debian/tests as a user, and removes the packages.
 set -eu
 tree=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$1
@@ -26,7 +26,7 @@ sh "$tree/packaging/debian/tests/library"
 install "$folder"/python3-lambent_*.deb
 sh "$tree/packaging/debian/tests/python"
 echo "size installed: $(dpkg-query -W -f '${Package} ${Installed-Size} kB\n' lambent lambent-draco lambent-doc python3-lambent 'liblambent*' | tr '\n' ';')"
-# Everything that they installed is gone afterwards.
+# All installed files are removed afterwards.
 dpkg-query -L lambent lambent-draco lambent-doc python3-lambent liblambent0 liblambent-check0 liblambent-dev | sort -u >/tmp/files
 apt-get purge -y -q lambent lambent-draco lambent-doc python3-lambent liblambent0 liblambent-check0 liblambent-dev >/tmp/apt.log 2>&1 || { cat /tmp/apt.log; exit 1; }
 left=$(while read -r path; do if [ -f "$path" ] || [ -L "$path" ]; then echo "$path"; fi; done </tmp/files | grep -v '^/lib' || true)

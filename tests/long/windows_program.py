@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""windows_program.py PROGRAM: Lambent for Windows (make windows), run by Wine. The image table has the recorded hashes for each instruction set, by one thread
-and by four; the program draws what PROGRAM draws, byte for byte, by names of files in any script, by pipes, over an older file and by a library's caller;
-and refuses what it does not contain with one sentence and exit code 3."""
+"""windows_program.py PROGRAM: tests Lambent for Windows (make windows) with Wine. The image table has the recorded hashes for each instruction set,
+with one thread and with four. The program draws the same bytes as PROGRAM, with file names in any script, with pipes, over an older file and from a
+program that uses the library; it refuses unsupported features with an error message and exit code 3."""
 import os
 import pathlib
 import re
@@ -24,7 +24,7 @@ environment = {**os.environ, "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "winemenub
 
 
 def run(*command, **more):
-    """The exit code, standard output as bytes, and the errors as text."""
+    """Returns the exit code, standard output as bytes, and the errors as text."""
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment, **more)
     return done.returncode, done.stdout, done.stderr.decode(errors="replace")
 
@@ -52,7 +52,7 @@ def same(root, name, other):
 def try_pictures(root):
     environment["LAMBENT_FONT"] = static_program.FONT
     for i, (ending, words) in enumerate(static_program.DRAWN):
-        if words[0] == "plot": # of the classroom
+        if words[0] == "plot": # from the classroom
             continue
         code, _, errors = lambent(root, *words_of(words, f"picture{i}{ending}"))
         other, _, more = run(PROGRAM, *words_of(words, f"other{i}{ending}"), cwd=root)
@@ -60,7 +60,7 @@ def try_pictures(root):
 
 
 def try_names(root):
-    """Names of files, pipes, and files that are there."""
+    """File names, pipes, and existing files."""
     run(PROGRAM, "cube.obj", "-s", "120", "-o", "cube.png", cwd=root)
     run(PROGRAM, "cube.stl", "-s", "120", "-o", "stl.png", cwd=root)
     folder = root / "größe 模型"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""without_classroom.py: the renderer without the classroom: it builds with -Dclassroom=false, passes its tests, and each command that needs the
-classroom says so in one sentence."""
+"""without_classroom.py: tests the renderer without the classroom: it builds with -Dclassroom=false, passes its tests, and each command that needs the
+classroom reports this in an error message."""
 import os
 import subprocess
 import sys

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""make.py: writes the pictures of this folder: FORMAT/NAME.EXT, and expected/FORMAT-NAME.png with what it must decode to.
+"""make.py: writes the pictures in this folder: FORMAT/NAME.EXT, and expected/FORMAT-NAME.png with the expected decoded pixels.
 
-Run by hand when a picture is added (needs python3-pil); `make test` reads the files. The expected pixels are those that a file was made
-from; where Pillow reads the file too, it must agree: to 1 where 5 bits become 8 (it truncates), exactly elsewhere. Lossy files are
-expected as Pillow decodes them. Each file is a seed of the fuzz target of its format as well (tests/fuzz)."""
+Run it by hand when you add a picture (needs python3-pil); `make test` reads the files. The expected pixels are the pixels from which the file was
+made. If Pillow can read the file, it must agree: within 1 if 5 bits become 8 (Pillow truncates), exactly otherwise. For lossy files, the expected
+pixels are Pillow's. Each file is also a seed of its format's fuzz target (tests/fuzz)."""
 import io
 import os
 import struct
@@ -35,7 +35,7 @@ def row_order(top_down, step=1):
 
 
 def save(kind, name, data, expected, pillow=True, slack=0):
-    """`expected`: {(x, y): (r, g, b, a)}; None: Pillow's."""
+    """`expected`: {(x, y): (r, g, b, a)}; None means Pillow's pixels."""
     folder = os.path.join(HERE, kind)
     os.makedirs(folder, exist_ok=True)
     os.makedirs(os.path.join(HERE, "expected"), exist_ok=True)
@@ -75,7 +75,7 @@ def bmp_rows(bits, values, top_down=False):
 
 
 def swapped(size, values):
-    """Numbers of whole bytes, lowest byte first, for bmp_rows."""
+    """Whole-byte numbers, lowest byte first, for bmp_rows."""
     return {at: int.from_bytes(values[at].to_bytes(size, "little"), "big") for at in SIZE}
 
 
@@ -105,7 +105,7 @@ def write_bmp():
     by16 = indexed(COLORS, INDEX)
     bgr = {at: RGB[at][2] << 16 | RGB[at][1] << 8 | RGB[at][0] for at in SIZE}
     for header in (12, 40):
-        # OS/2 palettes have all entries of their bits.
+        # OS/2 palettes contain all entries for their number of bits.
         full = COLORS if header == 40 else COLORS + [(0, 0, 0)] * 240
         save("bmp", "bits1-%d.bmp" % header, bmp(header, 1, bmp_rows(1, one), COLORS[:2]), indexed(COLORS, one))
         save("bmp", "bits4-%d.bmp" % header, bmp(header, 4, bmp_rows(4, INDEX), COLORS), by16)
@@ -115,7 +115,7 @@ def write_bmp():
     save("bmp", "os2.bmp", bmp(64, 8, bmp_rows(8, INDEX), COLORS), by16)
     save("bmp", "top-down.bmp", bmp(40, 8, bmp_rows(8, INDEX, True), COLORS, top_down=True), by16)
     save("bmp", "gap.bmp", bmp(40, 24, bmp_rows(24, bgr), after=b"gap!"), opaque(RGB))
-    # 16 bits: 5 each, 5-6-5 by masks, 4 each with alpha.
+    # 16 bits: 5 bits each, 5-6-5 with masks, and 4 bits each with alpha.
     fives = {at: tuple(v >> 3 for v in RGB[at]) for at in SIZE}
     value = {at: r << 10 | g << 5 | b for at, (r, g, b) in fives.items()}
     save("bmp", "bits16.bmp", bmp(40, 16, bmp_rows(16, swapped(2, value))), opaque({at: tuple(map(five, fives[at])) for at in SIZE}),
@@ -130,7 +130,7 @@ def write_bmp():
     exact = {at: tuple(v // 16 * 17 for v in RGB[at] + (ALPHA[at],)) for at in SIZE}
     save("bmp", "masks4444-124.bmp", bmp(124, 16, bmp_rows(16, swapped(2, value)), compression=3, masks=(0xf00, 0xf0, 0xf, 0xf000)),
          exact, pillow=False)
-    # 32 bits: the fourth byte does not count without a mask; alpha; 10 bits each.
+    # 32 bits: the fourth byte is ignored without a mask; alpha; 10 bits each.
     value = {at: ALPHA[at] << 24 | RGB[at][0] << 16 | RGB[at][1] << 8 | RGB[at][2] for at in SIZE}
     rgba = {at: RGB[at] + (ALPHA[at],) for at in SIZE}
     save("bmp", "bits32.bmp", bmp(40, 32, bmp_rows(32, swapped(4, value))), opaque(RGB))
@@ -141,7 +141,8 @@ def write_bmp():
     exact = {at: (scaled(r * 4, 1023), scaled(g * 4 + 3, 1023), scaled(b * 4, 1023)) for at, (r, g, b) in RGB.items()}
     save("bmp", "masks10.bmp", bmp(40, 32, bmp_rows(32, swapped(4, value)), compression=3, masks=(0x3ff00000, 0xffc00, 0x3ff)),
          opaque(exact), pillow=False)
-    # Run lengths, the bottom row first: a run, a literal of odd length, a step over pixels, rows left to the background.
+    # Run lengths, the bottom row first: a run, a literal of odd length, a step over pixels, and rows that keep the
+    # background.
     marks = {at: 0 for at in SIZE}
 
     def put(x, y, colors):
@@ -149,7 +150,7 @@ def write_bmp():
             marks[x + i, H - 1 - y] = color
     put(0, 0, [3] * 13), put(0, 1, [1, 2, 3, 4, 5]), put(5, 1, [7] * 8), put(4, 3, [9, 9]), put(6, 3, [10, 11, 12, 13])
     eight = bytes([13, 3, 0, 0, 0, 5, 1, 2, 3, 4, 5, 0, 8, 7, 0, 0, 0, 2, 4, 1, 2, 9, 0, 4, 10, 11, 12, 13, 0, 1])
-    # Pillow 9.4 reads a step's two bytes twice.
+    # Pillow 9.4 reads the two bytes of a step twice.
     save("bmp", "runs8.bmp", bmp(40, 8, eight, COLORS, compression=1), indexed(COLORS, marks), pillow=False)
     four = bytes([13, 0x33, 0, 0, 0, 5, 0x12, 0x34, 0x50, 0, 8, 0x77, 0, 0, 0, 2, 4, 1, 2, 0x99, 0, 4, 0xab, 0xcd, 0, 1])
     save("bmp", "runs4.bmp", bmp(40, 4, four, COLORS, compression=2), indexed(COLORS, marks), pillow=False)
@@ -173,7 +174,7 @@ def tga_order(flags):
 
 
 def packets(values, step, longest):
-    """Run lengths: runs of two and more, literals between; neither ends with its row."""
+    """Run lengths: runs of two and more pixels with literals between them; neither ends at the end of its row."""
     out, at = b"", 0
     while at < len(values):
         run = 1

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""run.py PROGRAM BUILD: builds the wheel (python/setup.py) from the library in BUILD, unpacks it, and tests it beside the program: tests/python/test_*.py, the doctests of
-the package and of docs/python.md, and the cells of examples/notebook.ipynb. Skips itself if Debian's packages for it are missing."""
+"""run.py PROGRAM BUILD: builds the wheel (python/setup.py) from the library in BUILD, unpacks it, and compares it with the program:
+tests/python/test_*.py, the doctests of the package and of docs/python.md, and the cells of examples/notebook.ipynb. The tests are skipped if the
+required Debian packages are missing."""
 import doctest
 import importlib.util
 import os
@@ -16,7 +17,7 @@ NEEDED = {"cffi": "python3-cffi", "numpy": "python3-numpy", "setuptools": "pytho
 
 
 def unpacked(build):
-    """The folder with the package of a new wheel, and the wheel."""
+    """The folder that contains the package of a new wheel, and the wheel."""
     import make_wheel
     folder = pathlib.Path(build, "python").resolve()
     try:

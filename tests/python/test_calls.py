@@ -67,7 +67,7 @@ class Errors(unittest.TestCase):
                     self.assertNotIn("\n", str(caught.exception))
 
     def test_whatever_is_passed(self):
-        """Values of any type, in every keyword and argument, are drawn or raise lambent.Error: one sentence."""
+        """Values of any type, in every keyword and argument, are drawn or raise lambent.Error with one sentence."""
         values = [object(), -1, 2 ** 70, float("nan"), "", "\ud800", "a\0b", [], [1, 2], {}, b"x", int, np.zeros((2, 2)), [None], (1, "a"), True, len, 1j, "x" * 3000]
         triangle, picture = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), lambent.render("cube", 4)
         keywords = set(_options.KEYWORDS) | set(_options.OTHERS) | set(_options.CHANGES) | {"name"}

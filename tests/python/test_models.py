@@ -1,4 +1,4 @@
-"""Scenes, meshes from arrays and from other packages' objects, materials, lights, and what the tables make."""
+"""Scenes, meshes from arrays and from other packages' objects, materials, lights, and generated attributes."""
 import json
 import os
 import pathlib
@@ -29,7 +29,7 @@ def thing(**members):
 
 class Meshes(unittest.TestCase):
     def file(self):
-        """The cube as an OBJ file, which the program's reader knows."""
+        """The cube as an OBJ file, read by the program's reader."""
         text = "".join("v %g %g %g\n" % tuple(corner) for corner in CORNERS) + "".join("f %d %d %d\n" % tuple(face + 1) for face in TRIANGLES)
         return lambent.render(text.encode(), 64, name="cube.obj").hash
 

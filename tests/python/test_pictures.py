@@ -1,4 +1,4 @@
-"""The pictures of the package are those of the program: the same bytes, and the same hash as its journal has."""
+"""The pictures of the package equal the program's pictures: the same bytes, and the same hash as in its journal."""
 import base64
 import json
 import os
@@ -55,7 +55,7 @@ class SameAsTheProgram(unittest.TestCase):
                 self.assertEqual(pathlib.Path(folder, "a.png").read_bytes(), pathlib.Path(folder, "b.png").read_bytes())
 
     def test_dark_file(self):
-        """A glTF file whose own light leaves most of the model black gets a dim studio, and a Scene stays as it was."""
+        """A glTF file whose own lights leave most of the model black gets a dim studio, and the Scene does not change."""
         corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0], [1, 1, 0]], np.float32).tobytes()
         light = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}}
         gltf = {"asset": {"version": "2.0"}, "extensionsUsed": list(light), "extensions": light, "scene": 0, "scenes": [{"nodes": [0, 1]}],

@@ -1,4 +1,4 @@
-// failing_memory.c: allocations and reads that fail when told to. All counters are atomic: threads allocate too.
+// failing_memory.c: allocations and reads that fail on request. All counters are atomic: threads allocate too.
 #include "failing_memory.h"
 
 #include <errno.h>
@@ -54,7 +54,7 @@ static int find_library(struct dl_phdr_info *library, size_t size, void *user)
 
 void memory_spare(const char *library) { dl_iterate_phdr(find_library, (void *)(uintptr_t)library); }
 
-// A place for a debugger's breakpoint.
+// A function for a debugger's breakpoint.
 __attribute__((noinline)) static void request_fails(void)
 {
     __atomic_store_n(&failed, 1, __ATOMIC_SEQ_CST);
@@ -90,7 +90,7 @@ void *__real_realloc(void *block, size_t size);
 void *__real_aligned_alloc(size_t alignment, size_t size);
 void __real_free(void *block);
 #define real_memalign __real_aligned_alloc
-#else // the names themselves, over glibc's
+#else // the names themselves, which replace glibc's
 #define NAME(function) function
 #define REAL(function) __libc_##function
 void *__libc_malloc(size_t size);
@@ -182,7 +182,7 @@ void reads_end_at(long offset, bool error)
 
 bool reads_ended(void) { return read_ended; }
 
-// The bytes that a read at an offset may return; −1: none, and errno is set; 0: the end.
+// The number of bytes that a read at an offset may return; −1 means an error with errno, and 0 means the end.
 static ssize_t allowed(size_t size, off_t offset)
 {
     if (read_end >= 0 && offset + (off_t)size > read_end) {
@@ -205,11 +205,11 @@ ssize_t NAME(pread)(int file, void *to, size_t size, off_t offset)
 ssize_t NAME(read)(int file, void *to, size_t size)
 {
     off_t offset = lseek(file, 0, SEEK_CUR);
-    ssize_t most = size ? allowed(size, offset < 0 ? 0 : offset) : 0; // a pipe has none
+    ssize_t most = size ? allowed(size, offset < 0 ? 0 : offset) : 0; // a pipe has no offset
     return most <= 0 ? most : syscall(SYS_read, file, to, (size_t)most);
 }
 
-#ifdef WRAPPED // the names that headers give to two of them where offsets have 64 bits
+#ifdef WRAPPED // the names that headers give to two of them if offsets have 64 bits
 
 void *__wrap_mmap64(void *at, size_t size, int protection, int flags, int file, off_t offset);
 ssize_t __wrap_pread64(int file, void *to, size_t size, off_t offset);

@@ -1,4 +1,4 @@
-// gltf_document.h: glTF files made in memory, for tests.
+// gltf_document.h: glTF files in memory, for tests.
 #ifndef GLTF_DOCUMENT_H
 #define GLTF_DOCUMENT_H
 
@@ -31,7 +31,7 @@ static inline void finish_text(const char *json, const char *buffer, char out[16
     snprintf(out + before, 16384 - before, "%s%s", mark ? buffer : "", mark ? mark + 2 : "");
 }
 
-// The file as .gltf with its data inside.
+// Makes the file as .gltf with embedded data.
 static inline void make_text(struct document *document, const char *json)
 {
     char buffer[12000], data[11000];
@@ -42,7 +42,7 @@ static inline void make_text(struct document *document, const char *json)
     finish_text(json, buffer, document->text);
 }
 
-// The same as .glb.
+// Makes the same file as .glb.
 static inline void make_binary(const struct document *document, const char *json, struct made *file)
 {
     char buffer[100], text[16384];

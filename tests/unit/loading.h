@@ -1,4 +1,4 @@
-// loading.h: for tests of model formats: files made in memory, loaded, and checked.
+// loading.h: helpers for tests of model formats: makes files in memory, loads and checks them.
 #ifndef LOADING_H
 #define LOADING_H
 
@@ -19,7 +19,7 @@
 struct made {
     uint8_t bytes[8192];
     size_t size;
-    bool big; // numbers of more than a byte are written big-endian
+    bool big; // multi-byte numbers are written big-endian
 };
 
 static inline void put(struct made *file, const void *bytes, size_t size)
@@ -63,7 +63,7 @@ static inline lam_scene *load_text(const char *text, const char *name)
     return load_with(text, strlen(text), name, NULL);
 }
 
-// A scene of one object.
+// A scene with one object.
 static inline lam_scene *scene_of(const lam_mesh *mesh)
 {
     lam_error error = {0};
@@ -76,7 +76,7 @@ static inline lam_scene *scene_of(const lam_mesh *mesh)
     return scene;
 }
 
-// The load must fail with this code and this whole sentence.
+// Loading must fail with this code and exactly this message.
 static inline void refuse(const void *bytes, size_t size, const char *name, lam_code code, const char *sentence)
 {
     lam_error error = {0};
@@ -116,7 +116,7 @@ static inline bool same_array(const void *a, const void *b, size_t bytes)
     return (!a && !b) || (a && b && memcmp(a, b, bytes) == 0);
 }
 
-// Everything that a file gives, bit by bit.
+// All data that a file provides, bit by bit.
 static inline void assert_same_mesh(const lam_mesh *a, const lam_mesh *b)
 {
     assert_int_equal(a->triangle_count, b->triangle_count);
@@ -137,7 +137,7 @@ static inline void assert_same_mesh(const lam_mesh *a, const lam_mesh *b)
     assert_true(same_array(a->colors, b->colors, color_size * a->color_count));
 }
 
-// The same file with 1, 2 and 5 threads gives the same mesh.
+// The same file gives the same mesh with 1, 2 and 5 threads.
 static inline void assert_same_for_threads(const void *bytes, size_t size, const char *name)
 {
     lam_scene *one = load_with(bytes, size, name, &(lam_load_params){.threads = 1});
@@ -149,7 +149,7 @@ static inline void assert_same_for_threads(const void *bytes, size_t size, const
     lam_scene_free(one);
 }
 
-// Cut off anywhere, a file either loads or is refused with a sentence.
+// A file truncated anywhere either loads or is refused with an error message.
 static inline void check_prefixes(const void *bytes, size_t size, const char *name)
 {
     for (size_t length = 0; length <= size; length++) {
@@ -161,7 +161,7 @@ static inline void check_prefixes(const void *bytes, size_t size, const char *na
     }
 }
 
-// Each allocation fails in turn: the load is refused for want of memory, or did not need it; nothing leaks.
+// Each allocation fails once: loading is refused because of memory, or did not need it; nothing leaks.
 static inline void check_allocations(const void *bytes, size_t size, const char *name)
 {
     int refused = 0, in_a_row = 0;
@@ -186,7 +186,7 @@ struct model {
     uint32_t triangles;
 };
 
-// Every model of the list has the triangles that its table says. Skips where the models are not there.
+// Every model of the list has the number of triangles in its table. The test is skipped if the models are missing.
 static inline void check_models(const struct model *models, size_t count)
 {
     const char *folder = getenv("LAMBENT_MODELS");

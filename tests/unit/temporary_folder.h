@@ -1,4 +1,4 @@
-// temporary_folder.h: a folder for a test's files. The test makes it: strcpy a name and mkdtemp.
+// temporary_folder.h: a folder for a test's files. The test creates it: strcpy a name and mkdtemp.
 #ifndef TEMPORARY_FOLDER_H
 #define TEMPORARY_FOLDER_H
 
@@ -7,7 +7,7 @@
 
 static char folder[64];
 
-// The path of a file in it; the next three calls leave it valid.
+// The path of a file in the folder; it stays valid during the next three calls.
 static const char *in_folder(const char *name)
 {
     static char paths[4][384];

@@ -1,4 +1,4 @@
-// test_base.c: small parts of the base: growing text, UTF-8, edit distance, libraries opened when used.
+// test_base.c: small parts of the base: growing text, UTF-8, edit distance, libraries opened on first use.
 #include "call_control.h"
 #include "dynamic_library.h"
 #include "available_memory.h"
@@ -83,7 +83,7 @@ static void test_edit_distance(void **state)
     static const char *const words[] = {"ambient", "diffuse", "specular"};
     assert_string_equal(nearest_word("difuse", words, 3), "diffuse");
     assert_null(nearest_word("shadow", words, 3));
-    char longer[400]; // cannot be compared: nothing is near
+    char longer[400]; // cannot be compared, so nothing is near
     memset(longer, 'a', sizeof longer);
     longer[sizeof longer - 1] = 0;
     assert_null(nearest_word(longer, words, 3));
@@ -103,7 +103,7 @@ static void test_shown_name(void **state)
         // characters, not bytes
         {"éééééééééééééééééééééééééééééééé", "éééééééééééééééééééééééééééééééé"},
         {"𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞", "𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞𝄞…"},
-        // what terminals obey, and what is no UTF-8
+        // control characters of terminals, and invalid UTF-8
         {"a\x1b[31m\n\x7f\xc2\x9b"
          "b\xc2\xa0",
          "a?[31m???b\xc2\xa0"},
@@ -123,7 +123,7 @@ static void test_shown_name(void **state)
     assert_string_equal(shown_name_of("a\0b", 3, out), "a?b");
 }
 
-// What people type for a word of the interface.
+// Typical spellings of a word of the interface.
 static void test_word_distance(void **state)
 {
     (void)state;
@@ -177,7 +177,7 @@ static void test_libraries(void **state)
     library_close(library);
 }
 
-// --- the memory that may be used
+// --- the available memory
 
 static char root[] = "/tmp/lambent-memory-XXXXXX";
 
@@ -208,7 +208,7 @@ static void test_memory_of_groups(void **state)
     (void)state;
     assert_non_null(mkdtemp(root));
     assert_true(memory_of_groups(root) == UINT64_MAX);
-    // cgroup v2: the smallest of the group and those above it.
+    // cgroup v2: the smallest limit of the group and its ancestors.
     put("/proc/self/cgroup", "0::/shop/night/job\n");
     put("/sys/fs/cgroup/shop/night/job/memory.max", "max\n");
     assert_true(memory_of_groups(root) == UINT64_MAX);
@@ -218,13 +218,13 @@ static void test_memory_of_groups(void **state)
     assert_true(memory_of_groups(root) == 2000000000);
     put("/sys/fs/cgroup/shop/night/job/memory.max", "536870912\n");
     assert_true(memory_of_groups(root) == 536870912);
-    // Within a container the group's path is the host's, and the mount's root is the group.
+    // In a container, the group's path is the host's, and the mount's root is the group.
     put("/proc/self/cgroup", "0::/docker/0123\n");
     assert_true(memory_of_groups(root) == UINT64_MAX);
     put("/sys/fs/cgroup/memory.max", "700000000\n");
     assert_true(memory_of_groups(root) == 700000000);
     remove_root();
-    // v1, beside a v2 without memory; "cpu,memory" is a list, and "memory2" another word.
+    // v1 next to a v2 without memory; "cpu,memory" is a list, and "memory2" is another word.
     put("/proc/self/cgroup", "9:name=systemd:/\n5:memory2:/x\n4:cpu,memory:/a/b\n3:cpuset:/\n0::/\n");
     put("/sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
     put("/sys/fs/cgroup/memory/x/memory.limit_in_bytes", "1\n");
@@ -271,7 +271,7 @@ static void test_limits(void **state)
     assert_true(call_check_file(&call, "f", 10, &error));
     assert_false(call_check_file(&call, "f", 11, &error));
     assert_string_equal(error.text, "f: 11 bytes, expected at most 10 (lam_control.file_limit_bytes)");
-    // The error about memory has the numbers of the request that was refused, whatever is read or freed afterwards.
+    // The error about memory contains the numbers of the refused request, whatever is read or freed afterwards.
     call_start(&call, NULL);
     call_add_input(&call, 1000);
     assert_true(call_charge(&call, 400000000) && !call_charge(&call, 300000000));
@@ -295,7 +295,7 @@ static void measure_stack(void *user, size_t index, int thread)
     pthread_attr_destroy(&attributes);
 }
 
-// The system's default, which follows `ulimit -s`, may be too small for drawing.
+// The system's default, which depends on `ulimit -s`, may be too small for drawing.
 static void test_stack_of_workers(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// test_camera.c: the fitted camera. Wherever a model lies and however it is turned, it fills 92 % of the tighter side of
-// the picture, in its middle.
+// test_camera.c: the fitted camera. For any position and rotation, a model fills 92 % of the tighter side of the
+// picture, in its middle.
 #include "../lighting/random.h"
 #include "loading.h"
 
@@ -12,7 +12,7 @@ static double between(struct random *r, double low, double high)
     return (double)random_between(r, (float)low, (float)high);
 }
 
-// Evenly in the logarithm.
+// Evenly distributed in the logarithm.
 static double between_logs(struct random *r, double low, double high) { return exp(between(r, log(low), log(high))); }
 
 static lam_vec3 direction(struct random *r)
@@ -33,7 +33,7 @@ static lam_vec3 moved(const lam_mat4 *m, const double p[3])
     return (lam_vec3){q[0], q[1], q[2]};
 }
 
-// What is in a picture, on x and y in pixels.
+// The extent of something in a picture, on x and y in pixels.
 struct span {
     double low[2], high[2];
 };
@@ -49,16 +49,16 @@ static void widen(struct span *span, double x, double y)
 
 static const struct span no_span = {{1e300, 1e300}, {-1e300, -1e300}};
 
-// A box, its corners in world space, and the picture that it is to be seen in.
+// A box, its corners in world space, and its picture.
 struct boxed {
     lam_scene *scene;
     lam_vec3 corners[8];
     lam_view view;
     int width, height;
-    double distance; // from zero, in sizes of the box
+    double distance; // from zero, in multiples of the box's size
 };
 
-// The ways in which a box can be far away from zero.
+// The ways in which a box can be far from zero.
 enum { BY_POSITIONS, BY_ORIGIN, BY_TRANSFORM, WAYS };
 
 static const uint32_t faces[36] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
@@ -77,7 +77,7 @@ static struct boxed make_box(struct random *r, int number)
     far[2] = d.z * b.distance * longest;
     int way = number % WAYS;
 
-    // The object is turned; the mesh then lies along a turned direction from zero.
+    // The object is rotated; the mesh is then far from zero in a rotated direction.
     lam_scene *scene = b.scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
     float p[24];
@@ -151,8 +151,8 @@ static struct span drawn(const struct boxed *b, const lam_camera *camera)
     return span;
 }
 
-// Of 300 random boxes none is off the middle or cut, at up to a million sizes from zero. A perspective box touches both
-// ends of the tighter side; its other side is centred too.
+// None of 300 random boxes is off the middle or cut off, at up to a million sizes from zero. A perspective box touches
+// both ends of the tighter side; its other side is also centred.
 static void boxes_fill_the_picture(void **state)
 {
     (void)state;
@@ -172,7 +172,7 @@ static void boxes_fill_the_picture(void **state)
         if (!(fabs(fill - FILL) < 1e-6))
             fail_msg("box %d at %.3g sizes: fills %.9g", number, b.distance, fill);
         if (number % 6 == 5 || b.distance > 1e5) {
-            // A sharp corner may reach over a pixel without covering one of its samples.
+            // A sharp corner may extend over a pixel without covering one of its samples.
             struct span seen = drawn(&b, &camera);
             for (int k = 0; k < 2; k++)
                 if (!(fabs(seen.low[k] - span.low[k]) < 1.5 && fabs(seen.high[k] - span.high[k]) < 1.5))
@@ -183,8 +183,8 @@ static void boxes_fill_the_picture(void **state)
     }
 }
 
-// Turned about an axis by any angle, a box is never cut, and the camera is that of the box as it is wherever that does
-// not cut it either. About any axis it is a ball that is not cut.
+// A box rotated about an axis by any angle is never cut off, and the camera equals the camera of the unrotated box if
+// that does not cut it off either. Rotated about any axis, it is treated as a ball that is not cut off.
 static void turning_boxes_are_not_cut(void **state)
 {
     (void)state;
@@ -205,7 +205,7 @@ static void turning_boxes_are_not_cut(void **state)
         moved_back += !same;
         double fill = 0, fill_still = 0;
         for (int turn = 0; turn < 200; turn++) {
-            // A scene of one object at the corners' place carries the turn out.
+            // A scene with one object at the position of the corners performs the rotation.
             lam_scene *turning = lam_scene_make(NULL);
             lam_object object = lam_object_default();
             object.mesh = lam_scene_add_shape(turning, "cube", NULL, NULL);
@@ -320,8 +320,8 @@ static void make_obj(struct made *file, const double corners[8][3])
     }
 }
 
-// A box of every format a thousand and a million sizes from zero: the picture has its corners where the file has them,
-// rounded to floats if the file holds floats.
+// A box of every format, a thousand and a million sizes from zero: the picture shows its corners at the positions in
+// the file, rounded to floats if the file contains floats.
 static void files_far_from_zero(void **state)
 {
     (void)state;
@@ -371,8 +371,8 @@ static void files_far_from_zero(void **state)
     }
 }
 
-// A mesh made by hand keeps its corners to the bit; one near zero keeps its numbers, and a vertex that no triangle uses
-// does not matter, even where its distance is more than a float holds.
+// A mesh made by hand keeps its corners exactly; one near zero keeps its numbers, and an unused vertex has no effect,
+// even if its distance exceeds the range of floats.
 static void origins_are_exact(void **state)
 {
     (void)state;
@@ -397,7 +397,7 @@ static void origins_are_exact(void **state)
     }
 }
 
-// The corners of the field of view are those of the picture, in perspective and without.
+// The corners of the field of view are the corners of the picture, with and without perspective.
 static void points_of_eye_space_have_a_place(void **state)
 {
     (void)state;

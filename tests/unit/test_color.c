@@ -1,4 +1,4 @@
-// test_color.c: the sRGB curve, colours as people write them, and normals of a scene made anew.
+// test_color.c: the sRGB curve, colours as users write them, and recomputed normals of a scene.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -58,7 +58,7 @@ static void colors_in_every_form(void **state)
     assert_color(parsed("Gray", LAM_COLOR_SRGB), half, half, half, 1);
     assert_color(parsed("grey", LAM_COLOR_RAW), 128 / 255.0, 128 / 255.0, 128 / 255.0, 1);
     assert_color(parsed("transparent", LAM_COLOR_SRGB), 0, 0, 0, 0);
-    assert_color(parsed("0.25/2/0", LAM_COLOR_SRGB), 0.25, 2, 0, 1); // numbers are linear, and may be over 1
+    assert_color(parsed("0.25/2/0", LAM_COLOR_SRGB), 0.25, 2, 0, 1); // numbers are linear, and may exceed 1
     assert_color(parsed("0.25/1e-1/0/0.5", LAM_COLOR_RAW), 0.25, 0.1, 0, 0.5);
     assert_color(parsed("0.25", LAM_COLOR_SRGB), 0.25, 0.25, 0.25, 1); // one number for all three
 }
@@ -97,7 +97,7 @@ static void normals_made_anew(void **state)
 
     assert_true(lam_scene_make_normals(scene, LAM_NORMALS_FACET, 0, 2, NULL, &error));
     const lam_mesh *m = lam_scene_mesh(scene, mesh);
-    for (uint32_t t = 0; t < m->triangle_count; t++) { // all three corners have the same one
+    for (uint32_t t = 0; t < m->triangle_count; t++) { // all three corners have the same normal
         const float *n[3];
         for (uint32_t c = 0; c < 3; c++)
             n[c] = m->normals + 3 * (m->normal_indices ? m->normal_indices[3 * t + c] : 3 * t + c);

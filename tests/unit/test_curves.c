@@ -1,4 +1,4 @@
-// test_curves.c: the equations at single values, against the conventions' formulas in double.
+// test_curves.c: compares the equations at single values with the conventions' formulas in double.
 #include <lambent/light_eval.h>
 
 #include <math.h>

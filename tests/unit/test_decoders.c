@@ -1,5 +1,5 @@
-// test_decoders.c: every picture of tests/pictures is read as its maker and Pillow say (make.py there); cut anywhere, or with
-// any byte changed, it is refused with a sentence or read without harm.
+// test_decoders.c: every picture of tests/pictures is decoded to the pixels recorded by its maker and Pillow (make.py
+// there); a truncated file, or a file with any byte changed, is refused with an error message or read without harm.
 #include "codec.h"
 
 #include <dirent.h>
@@ -23,7 +23,7 @@ static const struct {
 enum { FORMATS = sizeof formats / sizeof *formats };
 
 struct file {
-    char name[300]; // "test.EXT" of memory, else the file's own
+    char name[300]; // "test.EXT" for data in memory, otherwise the file's own name
     uint8_t bytes[FILE_BYTES];
     size_t size;
 };
@@ -42,7 +42,7 @@ static bool read_file(const char *folder, const char *name, struct file *file)
     return true;
 }
 
-// A copy of exactly the size: a sanitizer finds every read beyond it.
+// A copy of exactly this size: a sanitizer detects every read beyond it.
 static bool decode(const struct file *file, size_t size, lam_image *image, lam_error *error)
 {
     uint8_t *bytes = malloc(size + !size);
@@ -109,7 +109,7 @@ static void test_pixels(void **state)
     }
 }
 
-// All 16 bits of a deep PNG, interlaced or not: the numbers of make.py.
+// All 16 bits of a 16-bit PNG, interlaced or not: the numbers of make.py.
 static void test_wide(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void test_wide(void **state)
     }
 }
 
-// --- JPEG of inks
+// --- JPEG with ink colours
 
 enum { SIDE = 16 };
 static struct file make_inks(J_COLOR_SPACE space, bool marker, const uint8_t ink[4])
@@ -176,7 +176,7 @@ static struct file make_inks(J_COLOR_SPACE space, bool marker, const uint8_t ink
 static void test_inks(void **state)
 {
     (void)state;
-    // Adobe's numbers are how much of the paper shows through, others how much ink there is.
+    // In Adobe's files, the numbers are the visible fraction of the paper; in others, the amount of ink.
     static const uint8_t through[4] = {255, 128, 64, 204};
     static const uint8_t inks[4] = {0, 127, 191, 51};
     static const int expected[4] = {204, 102, 51, 255};
@@ -197,8 +197,8 @@ static void test_inks(void **state)
 
 static bool cut(const char *folder, const struct file *file)
 {
-    // Not read: the end of a JPEG, a mark of two bytes that libjpeg does without; the check sum of a PNG's last chunk, which is
-    // empty; what follows a TGA's pixels.
+    // Unread parts: the end of a JPEG, a two-byte marker that libjpeg does not need; the checksum of a PNG's last
+    // chunk, which is empty; data after a TGA's pixels.
     size_t end = file->size - (strcmp(folder, "jpeg") == 0             ? 2
                                : strcmp(folder, "png") == 0            ? 4
                                : strcmp(file->name, "footer.tga") == 0 ? 26
@@ -253,7 +253,7 @@ static void test_flips(void **state)
         each_file(formats[i].name, flip);
 }
 
-// --- what is refused, and why
+// --- refused files, and the reasons
 
 static void refused(struct file *file, size_t at, const char *bytes, size_t count, const char *name, lam_code code,
                     const char *word)
@@ -298,7 +298,8 @@ static void test_tga_refusals(void **state)
     struct file tga, runs, palette;
     assert_true(read_file("tga", "bits24-0.tga", &tga) && read_file("tga", "runs24-0.tga", &runs));
     assert_true(read_file("tga", "palette-first.tga", &palette));
-    // The name decides where the header is no TGA's; another name is told what pictures there are.
+    // The name decides if the header does not identify a TGA; for another name, the error message lists the picture
+    // formats.
     refused(&tga, 2, "\x05", 1, "a.tga", LAM_CANNOT_READ, "type 5, expected 1, 2, 3, 9, 10 or 11");
     refused(&tga, 2, "\x05", 1, "A.TGA", LAM_CANNOT_READ, "type 5, expected 1, 2, 3, 9, 10 or 11");
     refused(&tga, 2, "\x05", 1, "a.dat", LAM_CANNOT_READ, "not the start of a PNG, JPEG, WebP, BMP, TGA");
@@ -312,7 +313,7 @@ static void test_tga_refusals(void **state)
     refused(&runs, 14, "\xff\xff", 2, "a.tga", LAM_CANNOT_READ, "13×65535 pixels take up to byte");
     refused(&palette, 3, "\x65", 1, "a.tga", LAM_CANNOT_READ, "colour 100, but the palette has 101 to 116");
     refused(&palette, 7, "\x09", 1, "a.tga", LAM_CANNOT_READ, "palette of 9 bits");
-    // A text is none.
+    // A text file is not a picture.
     struct file text = {.name = "a.txt", .size = 40};
     memcpy(text.bytes, "BMW and other cars; a text of 40 letters", 40);
     refused(&text, 0, "B", 1, "a.txt", LAM_CANNOT_READ, "byte 0: not the start of");

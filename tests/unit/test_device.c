@@ -1,4 +1,5 @@
-// test_device.c: the front of the devices: arguments, control, sharing, memory, the caller's floating-point state.
+// test_device.c: the common interface of devices: arguments, control, sharing, memory, and the caller's floating-point
+// state.
 #include "scenes.h"
 
 #include "float_state.h"
@@ -43,7 +44,7 @@ static lam_image make_image(int width, int height)
     return image;
 }
 
-// Without a number of samples a picture has those of its size, however it is shaped.
+// Without a given number of samples, the picture's size determines it, for any shape.
 static void test_default_samples(void **state)
 {
     (void)state;
@@ -185,7 +186,7 @@ static void test_progress(void **state)
 static void test_memory_settles(void **state)
 {
     (void)state;
-    struct demo demo = make_demo("ground"); // clipped pieces too
+    struct demo demo = make_demo("ground"); // including clipped pieces
     lam_device *device = make_device(1);
     lam_image image = make_image(300, 200);
     lam_frame_report first, second;
@@ -202,7 +203,7 @@ static void test_memory_settles(void **state)
     lam_scene_free(demo.scene);
 }
 
-// A host that rounds upwards and flushes denormals gets the same bytes, and its own state back.
+// A host that rounds upwards and flushes denormals gets the same bytes, and its state is restored.
 static void test_float_state(void **state)
 {
     (void)state;
@@ -350,7 +351,7 @@ static lam_scene *load_sheet(bool when_drawn, lam_normals normals, bool clear)
     if (!scene)
         fail_msg("%s", error.text);
     assert_int_equal(lam_scene_mesh(scene, 0)->normals == NULL, when_drawn);
-    // Twice: the second one mirrored, and of glass where asked.
+    // Twice; the second one is mirrored, and made of glass on request.
     lam_object object = *lam_scene_object(scene, 0);
     object.transform.m[0][0] = -1.5;
     lam_material glass = lam_material_default();
@@ -362,7 +363,7 @@ static lam_scene *load_sheet(bool when_drawn, lam_normals normals, bool clear)
     return scene;
 }
 
-// Normals that are made while drawing give the bytes of those that were made before, whatever is drawn.
+// Normals computed while drawing give the same bytes as normals computed before, for any drawing.
 static void test_normals_when_drawn(void **state)
 {
     (void)state;
@@ -378,7 +379,7 @@ static void test_normals_when_drawn(void **state)
         lam_camera camera = lam_camera_fit(scenes[0], 1, 1, NULL);
         camera.fovy_rad *= 0.6; // some triangles are outside, some cross the edge
         lam_device *device = make_device(2);
-        for (int k = 0; k < 3; k++) { // twice by the same device
+        for (int k = 0; k < 3; k++) { // twice with the same device
             images[k] = make_image(200, 150);
             lam_error error = {0};
             if (!lam_draw(device, scenes[k > 0], &camera, &params, &images[k], NULL, &error))
@@ -389,16 +390,16 @@ static void test_normals_when_drawn(void **state)
         lam_device_report(device, &report);
         bool asked = params.shading != LAM_SHADING_FLAT || params.flat_normal == LAM_FLAT_NORMAL_VERTEX || i >= 12;
         if (normals == LAM_NORMALS_FACET && params.shading == LAM_SHADING_PHONG)
-            asked = false; // each is made where its triangle is shaded
+            asked = false; // each normal is computed where its triangle is shaded
         assert_true((report.normals_ms > 0) == asked);
-        // Made after all, they are the scene's, and the picture stays.
+        // If they are computed later, they belong to the scene, and the picture does not change.
         assert_true(lam_scene_make_normals(scenes[1], LAM_NORMALS_FILE, 0, 1, NULL, NULL));
         const lam_mesh *made = lam_scene_mesh(scenes[1], 0), *first = lam_scene_mesh(scenes[0], 0);
         assert_int_equal(made->normal_count, first->normal_count);
         assert_memory_equal(made->normals, first->normals, made->normal_count * 12);
         assert_true(lam_draw(device, scenes[1], &camera, &params, &images[1], NULL, NULL));
         assert_memory_equal(images[1].pixels, images[0].pixels, 200 * 150 * 4);
-        // A budget that is too small ends it.
+        // A memory limit that is too small ends the call.
         lam_scene *again = load_sheet(true, normals, clear);
         lam_error error = {0};
         lam_device *fresh = make_device(2);
@@ -415,7 +416,7 @@ static void test_normals_when_drawn(void **state)
     }
 }
 
-// A number outside of the range of its row in the table of settings is an error that names the member.
+// A number outside the range of its row in the table of settings causes an error that names the member.
 static void test_ranges_of_settings(void **state)
 {
     (void)state;

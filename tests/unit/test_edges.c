@@ -1,4 +1,4 @@
-// test_edges.c: wireframes and feature edges: which edges, how wide, what hides them, on every device alike.
+// test_edges.c: wireframes and feature edges: selection, width and hidden lines, the same on every device.
 #include "device_fixture.h"
 #include "loading.h"
 
@@ -19,7 +19,7 @@ static lam_camera camera_at(double x, double y, double z)
     return camera;
 }
 
-// Lines alone over nothing: alpha is their coverage.
+// Only lines over nothing, so alpha is their coverage.
 static lam_image draw(const lam_scene *scene, const lam_camera *camera, lam_draw_params params)
 {
     lam_error error = {0};
@@ -79,8 +79,8 @@ static void project(const lam_camera *camera, const float p[3], double out[2])
     out[1] = SIDE / 2.0 - y * scale;
 }
 
-// The coverage across a line from a to b at a share of it: the sum over a row or a column, whichever is more across, times the
-// cosine of the angle between: the line's width.
+// The coverage across a line from a to b at a fraction of it: the sum over a row or a column, whichever crosses it
+// more, times the cosine of the angle between them. This is the line's width.
 static double width_near(const lam_image *image, const double a[2], const double b[2], double share, int reach)
 {
     double x = a[0] + (b[0] - a[0]) * share, y = a[1] + (b[1] - a[1]) * share, sum = 0;
@@ -95,7 +95,7 @@ static double width_at(const lam_image *image, const double a[2], const double b
     return width_near(image, a, b, share, 5);
 }
 
-// --- a cube of 12 edges, as triangles: 18
+// --- a cube of 12 edges, as triangles with 18
 
 static const float cube_positions[24] = {-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1,
                                          -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1};
@@ -136,12 +136,12 @@ static void cubes(void **state)
                     whole += width;
                     on += width > 0.6;
                     if (!behind || hidden == LAM_HIDDEN_LINES_SHOW)
-                        assert_true(width > 1.24 && (width < 1.26 || hidden)); // more where a hidden edge crosses
+                        assert_true(width > 1.24 && (width < 1.26 || hidden)); // wider at a crossing with a hidden edge
                     else
                         nothing += hidden == LAM_HIDDEN_LINES_REMOVE ? width == 0 : width < 0.3;
                 }
                 visible += on == count;
-                if (behind && hidden == LAM_HIDDEN_LINES_REMOVE) // but where a visible edge crosses
+                if (behind && hidden == LAM_HIDDEN_LINES_REMOVE) // except at a crossing with a visible edge
                     assert_true(nothing > 0.7 * count);
                 if (behind && hidden == LAM_HIDDEN_LINES_DASH && count > 100) // 5 of 8, and a crossing
                     assert_true(whole > 0.5 * 1.25 * count && whole < 0.85 * 1.25 * count && nothing > 0.1 * count);
@@ -152,7 +152,8 @@ static void cubes(void **state)
             lam_image_free(&image);
         }
     }
-    // Diagonals of the triangles: two of three silhouettes of a wireframe's 18 edges are there by chance; the flags leave 12.
+    // Diagonals of the triangles: two of three silhouettes of a wireframe's 18 edges occur by chance; the flags leave
+    // 12.
     lam_camera camera = camera_at(3.1, 2.3, 4.2);
     lam_image image = draw(scene, &camera, (lam_draw_params){.wireframe = true});
     assert_int_equal(drawn(), 18);
@@ -175,7 +176,7 @@ static void cubes(void **state)
     lam_scene_free(scene);
 }
 
-// --- the ink of a line is its width, wherever it lies
+// --- the area of a line is its width times its length, at any position
 
 static void widths(void **state)
 {
@@ -211,7 +212,7 @@ static void widths(void **state)
                         most = width > most ? width : most;
                     }
                 }
-                // Round corners: four quarters of a disc instead of four squares' overlap.
+                // Round corners: four quarters of a disc instead of the overlap of four squares.
                 assert_true(fabs(area(&image) - all[w] * length) < 0.01 * all[w] * length + 0.5 * all[w] * all[w]);
                 assert_true(least > 0.99 * all[w] && most < 1.01 * all[w]);
                 lam_image_free(&image);
@@ -247,7 +248,7 @@ static void silhouettes(void **state)
     assert_true(inside == 0);
     assert_true(fabs(area(&image) / (1.5 * 2 * M_PI * radius) - 1) < 0.04);
     lam_image_free(&image);
-    // Seen through: the same curve, since a sphere has no other edges of these kinds.
+    // Without hidden lines, the curve is the same, because a sphere has no other edges of these kinds.
     image = draw(scene, &camera,
                  (lam_draw_params){.edges = LAM_EDGES_ALL, .edge_width = 1.5f, .hidden_lines = LAM_HIDDEN_LINES_SHOW});
     assert_true(fabs(area(&image) / (1.5 * 2 * M_PI * radius) - 1) < 0.04);
@@ -255,7 +256,7 @@ static void silhouettes(void **state)
     lam_scene_free(scene);
 }
 
-// --- no line breaks where it runs along a surface, or where triangles meet in the middle of an edge
+// --- lines have no gaps along a surface, or where triangles meet in the middle of an edge
 
 static double next_random(uint32_t *state)
 {
@@ -266,8 +267,8 @@ static double next_random(uint32_t *state)
 static void surfaces(void **state)
 {
     (void)state;
-    // A plate: a square over two rectangles, whose common corner lies in the middle of the square's edge; and a step that stands on
-    // that edge, so that a crease runs there.
+    // A plate: a square over two rectangles, whose common corner is in the middle of the square's edge; and a step on
+    // that edge, which makes it a crease.
     static const float plate[] = {-1,     0, 0, 1,  0,  0, 1,      1,  0, -1, 1,  0,
                                   0.234f, 0, 0, -1, -1, 0, 0.234f, -1, 0, 1,  -1, 0};
     static const uint32_t indices[] = {0, 1, 2, 0, 2, 3, 5, 6, 4, 5, 4, 0, 6, 7, 1, 6, 1, 4};
@@ -302,7 +303,7 @@ static void surfaces(void **state)
             if (length < 40)
                 continue;
             for (double t = 0.02; t < 0.98;
-                 t += 0.5 / length) // thinner where the plate is seen at a slant, never broken
+                 t += 0.5 / length) // thinner if the plate is seen at an angle, but without gaps
                 assert_true(width_at(&image, a, b, t) > 0.15);
         }
         lam_image_free(&image);
@@ -310,7 +311,7 @@ static void surfaces(void **state)
     }
 }
 
-// --- what hides
+// --- hiding surfaces
 
 static double hidden_share(lam_object front, lam_material material, double *rays)
 {
@@ -349,7 +350,7 @@ static void hiding(void **state)
     assert_true(hidden_share(object, material, &rays) == 1 && rays > 100);
     object.cull = LAM_CULL_BACK;
     assert_true(hidden_share(object, material, &rays) == 1);
-    object.cull = LAM_CULL_FRONT; // nothing of it is seen
+    object.cull = LAM_CULL_FRONT; // it is completely invisible
     assert_true(fabs(hidden_share(object, material, &rays)) < 0.01);
     object.cull = LAM_CULL_NONE;
     material.diffuse.a = 0.6f;
@@ -366,7 +367,7 @@ static void hiding(void **state)
     assert_true(fabs(hidden_share(object, material, &rays)) < 0.01);
 }
 
-// An edge that leads past the eye ends at the near plane, and what lies before that plane hides nothing.
+// An edge that leads past the eye ends at the near plane, and surfaces in front of that plane hide nothing.
 static void near_plane(void **state)
 {
     (void)state;
@@ -414,7 +415,7 @@ static void same_bytes(void **state)
             lam_device *own = lam_device_cpu(&(lam_cpu_params){.threads = threads, .isa = (lam_isa)isa}, NULL);
             lam_image *to = first.pixels ? &next : &first;
             assert_true(to->pixels || lam_image_make(to, SIDE, SIDE, LAM_RGBA8, NULL));
-            for (int again = 0; again < 2; again++) { // anew, and from memory
+            for (int again = 0; again < 2; again++) { // drawn again, and from stored data
                 assert_true(lam_draw(own, scene, &camera, &params, to, NULL, NULL));
                 if (to == &next)
                     assert_memory_equal(first.pixels, next.pixels, SIDE * SIDE * 4);
@@ -457,7 +458,7 @@ static void colors(void **state)
                 assert_int_equal(c[1], raw ? 64 : 137);
                 assert_int_equal(c[2], 0);
             }
-            // Numbers of surfaces have no lines over them.
+            // Pictures of surface quantities have no lines over them.
             lam_image plain;
             params.output = LAM_OUTPUT_NORMALS;
             params.color = LAM_COLOR_SRGB;
@@ -473,7 +474,7 @@ static void colors(void **state)
             lam_image_free(&plain);
             lam_image_free(&image);
         }
-    // Lines alone are white over a dark background unless they have a colour.
+    // Lines without surfaces are white over a dark background, unless they have a colour.
     lam_image image =
         draw(scene, &camera, (lam_draw_params){.edges = LAM_EDGES_ALL, .background = {0.1f, 0.1f, 0.1f, 1}});
     float most = 0;
@@ -508,7 +509,7 @@ static void mistakes(void **state)
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
         assert_string_equal(error.text, wrong[i].text);
     }
-    // A budget that the lists of edges exceed is an error, and the device goes on afterwards.
+    // A memory limit that the lists of edges exceed causes an error, and the device still works afterwards.
     lam_device *own = lam_device_cpu(&(lam_cpu_params){.threads = 1}, NULL);
     lam_draw_params params = {.wireframe = true};
     assert_false(lam_draw(own, scene, &camera, &params, &image, &(lam_control){.memory_limit_bytes = 1 << 20}, &error));
@@ -519,9 +520,9 @@ static void mistakes(void **state)
     lam_scene_free(scene);
 }
 
-// --- faces twice
+// --- duplicate faces
 
-// A file that contains each face twice, once for either side, has the lines of the faces.
+// A file that contains each face twice, once for either side, gives the lines of single faces.
 static void twins(void **state)
 {
     (void)state;
@@ -551,7 +552,7 @@ static void twins(void **state)
 
 // --- polygons of files
 
-// Edges that the meshes of a file have as a wireframe.
+// The edges of a file's meshes in a wireframe.
 static uint64_t edges_of(const char *text, const char *name, bool polygons)
 {
     lam_scene *scene = load_with(text, strlen(text), name, &(lam_load_params){.polygon_edges = polygons});
@@ -567,7 +568,7 @@ static uint64_t edges_of(const char *text, const char *name, bool polygons)
 static void polygons(void **state)
 {
     (void)state;
-    // A quad, a triangle beside it, and an L of six corners, which is not convex.
+    // A quad, a triangle next to it, and an L of six corners, which is not convex.
     static const char obj[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 0 -1 0\nv 2 -1 0\nv 2 -2 0\nv 1 -2 0\n"
                               "v 1 -1.5 0\nv 0 -1.5 0\nf 1 2 3 4\nf 2 5 3\nf 6 7 8 9 10 11\n";
     assert_int_equal(edges_of(obj, "a.obj", true), 4 + 2 + 6);

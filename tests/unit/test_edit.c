@@ -1,4 +1,5 @@
-// test_edit.c: replacing, hiding and removing meshes and objects: pictures are those of a scene built that way from the start.
+// test_edit.c: replacing, hiding and removing meshes and objects: the pictures equal the pictures of a scene built in
+// the final form.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,11 +21,11 @@ static int add(lam_scene *scene, const char *shape, double x)
     object.name = shape;
     object.mesh = lam_scene_add_shape(scene, shape, &(lam_shape_params){.slices = 24, .stacks = 12}, NULL);
     object.transform.m[0][3] = x;
-    object.transform.m[1][0] = 0.25; // no transform that maps boxes to boxes
+    object.transform.m[1][0] = 0.25; // not a transform that maps boxes to boxes
     return lam_scene_add_object(scene, &object, NULL);
 }
 
-// Points far away: they change the boxes, and the size of all points.
+// Distant points, which change the boxes and the size of all points.
 static int add_points(lam_scene *scene)
 {
     static const float positions[] = {5, 5, 5, 5, 6, 5, 6, 5, 5};
@@ -47,7 +48,7 @@ static uint8_t *draw(const lam_scene *scene)
     return bytes;
 }
 
-// Compares the pictures of two scenes, drawn in turn by one device, and frees `expected`.
+// Compares the pictures of two scenes, drawn alternately by one device, and frees `expected`.
 static void same(const lam_scene *scene, lam_scene *expected)
 {
     uint8_t *found = draw(scene), *wanted = draw(expected);
@@ -114,7 +115,7 @@ static void removed_is_absent(void **state)
     assert_true(lam_scene_remove_object(scene, 0, NULL));
     assert_int_equal(lam_scene_object_count(scene), 1);
     same(scene, scene_of(NULL, "cube"));
-    assert_true(lam_scene_remove_mesh(scene, 0, NULL)); // no object shows it
+    assert_true(lam_scene_remove_mesh(scene, 0, NULL)); // no object uses it
     assert_int_equal(lam_scene_mesh_count(scene), 1);
     assert_int_equal(lam_scene_object(scene, 0)->mesh, 0);
     same(scene, scene_of(NULL, "cube"));
@@ -130,13 +131,13 @@ static void replaced_is_the_new_one(void **state)
     (void)state;
     lam_scene *scene = scene_of("torus", "cube"), *other = scene_of("sphere", "cone");
     uint64_t memory = 0;
-    for (int i = 0; i < 40; i++) { // addresses come back: nothing may be taken for what was there before
+    for (int i = 0; i < 40; i++) { // addresses are reused: new data must not be mistaken for old data
         assert_true(lam_scene_set_mesh(scene, 0, lam_scene_mesh(other, i & 1), NULL));
         same(scene, scene_of(i & 1 ? "cone" : "sphere", "cube"));
         if (i == 1)
             memory = lam_scene_memory(scene);
     }
-    assert_true(lam_scene_memory(scene) == memory);                            // of the replaced ones nothing is left
+    assert_true(lam_scene_memory(scene) == memory);                            // nothing of the replaced meshes remains
     assert_true(lam_scene_set_mesh(scene, 0, lam_scene_mesh(scene, 0), NULL)); // by itself
     same(scene, scene_of("cone", "cube"));
     assert_true(lam_scene_remove_mesh(scene, 0, NULL));
@@ -145,7 +146,7 @@ static void replaced_is_the_new_one(void **state)
     lam_scene_free(scene);
 }
 
-// Far from zero, without normals: it gets an origin and smooth normals, as an added mesh does.
+// Far from zero and without normals, it gets an origin and smooth normals, like an added mesh.
 static void replaced_as_added(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// test_encoders.c: JPEG and WebP pictures are what was encoded, over the background, as close as the quality says.
+// test_encoders.c: JPEG and WebP pictures equal the encoded pictures, over the background, within the error of the
+// quality.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -14,7 +15,7 @@
 
 enum { WIDTH = 61, HEIGHT = 37, PIXELS = WIDTH * HEIGHT };
 
-// Smooth colours; alpha 0, 255 and between in stripes; colours where alpha is 0 as well.
+// Smooth colours; alpha 0, 255 and values between in stripes; also colours with alpha 0.
 static lam_image make_picture(int width, int height, bool opaque)
 {
     lam_image image;
@@ -39,7 +40,7 @@ static lam_bytes encode(const lam_image *image, const char *format, const lam_sa
     return bytes;
 }
 
-// Through a file, as a user does; `ours`: the file says that Lambent wrote it.
+// Decodes through a file, as a user does; `ours`: the file states that Lambent wrote it.
 static lam_image decode(const lam_bytes *bytes, bool ours)
 {
     char path[64];
@@ -100,7 +101,7 @@ static void test_jpeg_quality(void **state)
         lam_bytes_free(&again);
         lam_bytes_free(&bytes);
     }
-    assert_true(last < 0.004); // at 100: the rounding of YCbCr
+    assert_true(last < 0.004); // at 100, only the rounding of YCbCr
     lam_bytes plain = encode(&image, "jpg", NULL), named = encode(&image, "jpg", &(lam_save_params){.quality = 90});
     assert_true(plain.size == named.size && memcmp(plain.data, named.data, plain.size) == 0);
     lam_bytes_free(&plain);
@@ -108,7 +109,7 @@ static void test_jpeg_quality(void **state)
     lam_image_free(&image);
 }
 
-// A JPEG shows what a PPM does, whose numbers test_image.c holds to the formulas.
+// A JPEG shows the same as a PPM, whose numbers test_image.c compares with the formulas.
 static void test_jpeg_background(void **state)
 {
     (void)state;
@@ -137,7 +138,7 @@ static void test_webp(void **state)
     for (int quality = 0; quality <= 100; quality += 100) {
         lam_bytes bytes = encode(&image, "webp", &(lam_save_params){.quality = quality});
         lam_image back = decode(&bytes, false);
-        assert_memory_equal(back.pixels, image.pixels, 4 * PIXELS); // the colours under alpha 0 too
+        assert_memory_equal(back.pixels, image.pixels, 4 * PIXELS); // including the colours of transparent pixels
         lam_image_free(&back);
         lam_bytes_free(&bytes);
     }
@@ -188,7 +189,7 @@ static void test_refusals(void **state)
     }
     if (have_webp())
         refused(&wide, "webp", NULL, LAM_LIMIT, "16384×1 pixels, expected at most 16383");
-    // In the middle of a picture, after some of its memory was taken.
+    // In the middle of a picture, after part of its memory was allocated.
     lam_image_free(&wide);
     wide = make_picture(6000, 4000, true);
     refused(&wide, "jpg", &(lam_save_params){.control = &(lam_control){.time_limit_s = 0.02}}, LAM_LIMIT, "time limit");
@@ -196,7 +197,7 @@ static void test_refusals(void **state)
         refused(&wide, "webp", &(lam_save_params){.control = &(lam_control){.time_limit_s = 0.02}}, LAM_LIMIT,
                 "time limit");
     lam_image_free(&wide);
-    wide = make_picture(65535, 1, true); // JPEG itself ends at 65500
+    wide = make_picture(65535, 1, true); // the maximum size of JPEG itself is 65500
     refused(&wide, "jpg", NULL, LAM_LIMIT, "JPEG: Maximum supported image dimension is 65500");
     lam_image_free(&wide);
     lam_image_free(&image);

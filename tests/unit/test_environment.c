@@ -1,6 +1,7 @@
-// test_environment.c: surfaces mirror their surroundings as a reference in double precision says, and cube
-// maps have no seams.
-// Above 600 lines: the reference lookup in double stands beside every picture and seam that is held to it.
+// test_environment.c: surfaces mirror their surroundings as computed by a reference in double precision, and cube maps
+// have no seams.
+// The file has more than 600 lines because it contains the reference lookup in double and every picture and seam
+// compared with it.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -25,7 +26,7 @@ struct cube {
     lam_image faces[6];
 };
 
-// OpenGL's table of the specification, as it is printed: sc, tc, ma for each face.
+// OpenGL's table as printed in the specification: sc, tc, ma for each face.
 static int face_of(vec d, double *sc, double *tc, double *ma)
 {
     double ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
@@ -38,7 +39,7 @@ static int face_of(vec d, double *sc, double *tc, double *ma)
     return face;
 }
 
-// The same backwards: the direction with those three numbers on a face.
+// The inverse: the direction with these three numbers on a face.
 static vec direction_on(int face, double sc, double tc, double ma)
 {
     const vec table[6] = {{ma, -tc, -sc}, {-ma, -tc, sc}, {sc, ma, tc}, {sc, -ma, -tc}, {sc, -tc, ma}, {-sc, -tc, -ma}};
@@ -51,8 +52,8 @@ static vec texel(const struct cube *cube, int face, int s, int t)
     return of((double)p[0], (double)p[1], (double)p[2]);
 }
 
-// Texel (s, t), which may lie one beyond an edge: then it is the nearest one on the face there; beyond a corner the
-// average.
+// Texel (s, t), which may be one texel beyond an edge: then it is the nearest texel on the face there; beyond a corner,
+// it is the average.
 static vec any_texel(const struct cube *cube, int face, int s, int t)
 {
     int n = cube->size;
@@ -91,7 +92,7 @@ static double random_number(void)
     return (double)(random_state >> 40) / (1 << 24);
 }
 
-// Smooth: every texel is its direction, halved into 0…1, with some waves. Else: noise.
+// Smooth: every texel is its direction, mapped to 0…1, with some waves. Otherwise: noise.
 static struct cube make_cube(int size, bool smooth)
 {
     struct cube cube = {.size = size};
@@ -162,7 +163,7 @@ static double step_between(const lam_environment *e, vec a, vec b)
     return apart(look_at(e, a), of((double)y.r, (double)y.g, (double)y.b));
 }
 
-// Noise has steps of up to 1 between texels: a seam would show them at once.
+// Noise has steps of up to 1 between texels, so a seam would be visible.
 static void test_no_seams(void **state)
 {
     (void)state;
@@ -190,7 +191,7 @@ static void test_no_seams(void **state)
             assert_true(step_between(e, middle, place) < 1e-4);
         }
     }
-    // A walk of small steps all round, through every kind of border.
+    // A path of small steps through every kind of border.
     vec last = of(1, 0, 0);
     for (int i = 1; i <= 400000; i++) {
         double t = i * 1e-4;
@@ -202,17 +203,17 @@ static void test_no_seams(void **state)
     free_cube(&cube);
 }
 
-// --- a mirror ball against rays
+// --- a mirror ball compared with rays
 
 struct ball {
     double rotation;
     lam_up up;
-    bool orthographic, light; // with a light: what its mirror image would look up must not come out
+    bool orthographic, light; // with a light: its own reflection must not appear
 };
 
 static vec from_lam(lam_vec3 v) { return of(v.x, v.y, v.z); }
 
-// Into the environment's axes: up to +Y, then back by the rotation.
+// Transforms to the environment's axes: up to +Y, then back by the rotation.
 static vec into_environment(const struct ball *ball, vec w)
 {
     if (ball->up == LAM_UP_Z)
@@ -234,8 +235,8 @@ static vec vertex(const float *list, uint32_t i)
     return of((double)list[3 * i], (double)list[3 * i + 1], (double)list[3 * i + 2]);
 }
 
-// Where a ray meets a mesh first, well within a triangle: point and interpolated normal. False: nowhere, or near an
-// edge.
+// The first intersection of a ray and a mesh, well within a triangle: point and interpolated normal. False if there is
+// none, or near an edge.
 static bool meet(const lam_mesh *mesh, vec from, vec along, vec *point, vec *normal)
 {
     double nearest = HUGE_VAL;
@@ -285,7 +286,7 @@ static void check_ball(const struct ball *ball)
     }
     lam_scene_set_up(scene, ball->up);
     assert_true(lam_scene_set_environment(scene, environment, ball->rotation, &error));
-    lam_environment_free(environment); // the scene has it still
+    lam_environment_free(environment); // the scene still uses it
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){2, 1.2, 2.5};
     camera.ortho_half_height = ball->orthographic ? 1.05 : 0;
@@ -375,7 +376,7 @@ static void test_ball_lit(void **state)
 
 // --- layouts
 
-// Cuts a cross: each face goes where the header says.
+// Cuts a cross: each face moves to its documented place.
 static void test_crosses(void **state)
 {
     (void)state;
@@ -387,7 +388,7 @@ static void test_crosses(void **state)
     for (int stands = 0; stands < 2; stands++) {
         lam_image cross_image = {0};
         assert_true(lam_image_make(&cross_image, N * (stands ? 3 : 4), N * (stands ? 4 : 3), LAM_RGBA32F, NULL));
-        memset(cross_image.pixels, 0xff, (size_t)12 * N * N * 16); // NaN: nobody looks outside of the cross
+        memset(cross_image.pixels, 0xff, (size_t)12 * N * N * 16); // NaN: texels outside the cross are never used
         for (int face = 0; face < 6; face++) {
             for (int t = 0; t < N; t++) {
                 for (int s = 0; s < N; s++) {
@@ -415,7 +416,7 @@ static void test_crosses(void **state)
     free_cube(&cube);
 }
 
-// A 2:1 picture whose pixels are their directions: −Z in the middle, +X to the right of it, +Y at the top.
+// A 2:1 picture whose pixels are their directions: −Z in the middle, +X to the right, +Y at the top.
 static void test_equirectangular(void **state)
 {
     (void)state;
@@ -438,7 +439,7 @@ static void test_equirectangular(void **state)
     for (int i = 0; i < 20000; i++) {
         vec d = unit(of(random_number() * 2 - 1, random_number() * 2 - 1, random_number() * 2 - 1));
         if (apart(look_at(e, d), of(0.5 + 0.5 * d.x, 0.5 + 0.5 * d.y, 0.5 + 0.5 * d.z)) >
-            1e-3) // coarsest where three faces meet
+            1e-3) // least precise where three faces meet
             fail_msg("%g %g %g: %g", d.x, d.y, d.z,
                      apart(look_at(e, d), of(0.5 + 0.5 * d.x, 0.5 + 0.5 * d.y, 0.5 + 0.5 * d.z)));
     }
@@ -491,7 +492,7 @@ static void test_files_of_16_bits(void **state)
         }
         lam_environment_free(e);
     }
-    // A file that fails is named.
+    // An error names the file that fails.
     paths[3] = "no-such-face.png";
     lam_error error = {0};
     assert_null(lam_environment_load_faces(paths, LAM_COLOR_SRGB, NULL, &error));
@@ -524,7 +525,7 @@ static void test_real_files(void **state)
         fail_msg("%s", error.text);
     assert_int_equal(lam_environment_size(sphere), 326);
     assert_int_equal(lam_environment_size(cube), 512);
-    // Open country at day: bright and blue above, the ground darker, nothing black.
+    // Open country by day: bright and blue above, the ground darker, nothing black.
     const lam_environment *both[2] = {sphere, cube};
     for (int i = 0; i < 2; i++) {
         lam_rgb up = look_at(both[i], of(0.2, 1, 0.1)), down = look_at(both[i], of(0.1, -1, 0));
@@ -554,7 +555,7 @@ static void test_built_in(void **state)
     assert_null(lam_environment_built_in_name(-1));
 }
 
-// Every third texel of every third row, by a hash: whatever is computed in a faster way, the light stays as it is.
+// A hash of every third texel of every third row: faster computations must not change the light.
 static void test_built_in_texels(void **state)
 {
     (void)state;
@@ -583,7 +584,7 @@ static void test_built_in_texels(void **state)
     }
 }
 
-// --- what is refused
+// --- refused cases
 
 static void refused(lam_environment *environment, const lam_error *error, lam_code code, const char *word)
 {

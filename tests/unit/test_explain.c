@@ -1,4 +1,4 @@
-// test_explain.c: an explained pixel is the picture's own, bit for bit, and its numbers lead there.
+// test_explain.c: an explained pixel equals the picture's pixel, bit for bit, and follows from its numbers.
 #include "scenes.h"
 #include "share.h"
 
@@ -30,7 +30,7 @@ static lam_device *make_device(lam_isa isa)
     return device;
 }
 
-// --- the explanation against itself: every number follows from those before it
+// --- consistency of the explanation: every number follows from the previous ones
 
 static void add(float sum[3], lam_rgb x)
 {
@@ -46,7 +46,7 @@ static void assert_rgb(lam_rgb reported, const float expected[3])
 
 static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-static bool soft_scene; // something in the way of a light's middle does not tell what passes
+static bool soft_scene; // something that blocks a light's middle does not determine how much light passes
 
 static int reflections; // points whose reflection term was checked and is not 0
 
@@ -88,7 +88,7 @@ static void check_light(const lam_explained_fragment *f, const lam_explained_poi
     }
 }
 
-// The mirrored eye vector, what the environment gives from there, and what becomes of it.
+// The mirrored eye vector, the environment's light from there, and its effect.
 static void check_environment(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
                               const lam_environment *environment)
 {
@@ -100,7 +100,7 @@ static void check_environment(const lam_explanation *e, const lam_explained_frag
         for (int c = 0; c < 3; c++)
             assert_true(fabs((&p->reflected.x)[c] - (2 * n_v * (&p->n.x)[c] - (&p->v.x)[c])) < 2e-6);
         assert_true(fabs(length - 1) < 1e-5);
-        // The public call makes the direction unit once more: the last digits differ.
+        // The public call normalizes the direction again, so the last digits differ.
         lam_rgb near = lam_environment_sample(environment, p->environment_direction);
         light = p->environment_light;
         for (int c = 0; c < 3; c++)
@@ -118,7 +118,7 @@ static int layered_lights, layered_surroundings; // checked
 
 static void assert_near(float a, float b) { assert_true(fabsf(a - b) <= 4e-6f * (1 + fabsf(b))); }
 
-// What the layers of a physical material return, each apart, adds up to the terms.
+// The contributions of the layers of a physical material add up to the terms.
 static void check_layers(const lam_explained_point *p)
 {
     const lam_explained_layers *all = p->layers;
@@ -160,8 +160,8 @@ static bool is_plain(const lam_explained_fragment *f)
 static void check_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
                         const lam_environment *environment)
 {
-    // What maps and Fresnel's factor do to the products of a point stands in other tests (textures, split-sum); the sum of the
-    // terms is that of every material.
+    // Other tests (textures, split-sum) cover the effect of maps and Fresnel's factor on the products of a point; the
+    // sum of the terms holds for every material.
     bool plain = is_plain(f);
     if (plain)
         check_environment(e, f, p, environment);
@@ -208,11 +208,11 @@ static void check_fragment(const lam_explanation *e, const lam_explained_fragmen
     for (int i = 0; i < f->point_count; i++)
         check_point(e, f, &f->points[i], environment);
     const lam_explained_point *p = f->points;
-    if (f->ground == LAM_GROUND_SHADOW) { // black, with what is missing as alpha
+    if (f->ground == LAM_GROUND_SHADOW) { // black, with the missing light as alpha
         float y = (0.2126f * p->sum.r + 0.7152f * p->sum.g) + 0.0722f * p->sum.b;
         assert_true(f->received == y && f->unobstructed > 0);
         assert_true(f->color.r == 0 && f->color.g == 0 && f->color.b == 0);
-        assert_true(f->color.a <= fmaxf(0, 1 - f->received / f->unobstructed) + 1e-6f); // ridges receive more
+        assert_true(f->color.a <= fmaxf(0, 1 - f->received / f->unobstructed) + 1e-6f); // ridges receive more light
         assert_true(f->object == -1 && f->mesh == -1 && f->material == -1);
         return;
     }
@@ -220,17 +220,18 @@ static void check_fragment(const lam_explanation *e, const lam_explained_fragmen
     if (f->point_count == 3)
         for (int c = 0; c < 3; c++)
             color[c] = between(f->weights, color[c], (&p[1].result.r)[c], (&p[2].result.r)[c]);
-    if (e->shading == LAM_SHADING_PHONG || is_plain(f)) // else a map multiplies what vertices and triangles give
+    if (e->shading == LAM_SHADING_PHONG || is_plain(f)) // otherwise a map multiplies the values of vertices and
+                                                        // triangles
         assert_memory_equal(&f->color, color, sizeof color);
 }
 
-// Masked surfaces are layers as well, also where nothing of them is left.
+// Masked surfaces also count as layers, even if nothing of them remains.
 static bool masked_scene;
 
 static void check_numbers(const lam_explanation *e, const lam_environment *environment)
 {
     float sum[4] = {0};
-    // then each sample is blended by itself, and the sum of the shares is the same but for rounding
+    // then each sample is blended separately, and the sum of the contributions is the same except for rounding
     bool layered = masked_scene, tinted = false;
     for (int i = 0; i < e->fragment_count; i++) {
         const lam_explained_fragment *f = &e->fragments[i];
@@ -246,7 +247,7 @@ static void check_numbers(const lam_explanation *e, const lam_environment *envir
         assert_true(fabs(through / e->samples - (double)f->weight) < 1e-6);
         assert_int_equal(__builtin_popcount(f->sample_mask), f->samples);
     }
-    if (tinted) // each channel has a share of its own, of which the weight is the mean
+    if (tinted) // each channel has its own fraction, and the weight is their mean
         layered = true;
     for (int c = 0; layered && !tinted && c < 4; c++)
         assert_true(fabs((double)(sum[c] - (&e->sum.r)[c])) < 2e-6 * (1 + fabs((double)sum[c])));
@@ -261,7 +262,7 @@ static void check_numbers(const lam_explanation *e, const lam_environment *envir
     }
 }
 
-// --- the explanation against the picture
+// --- the explanation compared with the picture
 
 static void check_pixel(lam_device *device, const struct demo *demo, const lam_image *image, int x, int y,
                         const char *name)
@@ -287,7 +288,7 @@ static int alpha_of(const lam_image *image, int x, int y)
     return alpha == 0 ? 0 : alpha < 1 ? 1 : 2;
 }
 
-// Some pixels of each kind: without, with a part of, and full of triangles.
+// Some pixels of each kind: without triangles, partly covered, and fully covered.
 static void check_pixels(lam_device *drawing, lam_device *explaining, const struct demo *demo, const char *name)
 {
     lam_image image = {0};
@@ -321,11 +322,12 @@ static void test_scenes(void **state)
         if (!demo_build(&demos[i], &demo, &error))
             fail_msg("%s", error.text);
         lam_device *a = i & 1 ? widest : plain, *b = i & 1 ? plain : widest;
-        check_pixels(a, b, &demo, demos[i].name); // as it is
+        check_pixels(a, b, &demo, demos[i].name); // unchanged
         for (int s = 0; s < 3; s++) {
             if (!is_taken((size_t)(i + s), 3))
                 continue;
-            bool pixels = demo.params.ground || demo.params.occlusion > LAM_OCCLUSION_OFF; // they go with Phong alone
+            bool pixels =
+                demo.params.ground || demo.params.occlusion > LAM_OCCLUSION_OFF; // these require Phong shading
             demo.params.shading = pixels ? LAM_SHADING_PHONG : shadings[s];
             demo.params.samples = sample_counts[(s + i) % 3];
             demo.format = (lam_pixel_format)((s + i) & 1);
@@ -374,7 +376,7 @@ static void test_models(void **state)
     }
 }
 
-// gl1, matched highlights, an infinite viewer: each changes a number, and the explanation has it.
+// gl1, matched highlights, an infinite viewer: each changes a number, and the explanation contains it.
 static void test_ways(void **state)
 {
     (void)state;
@@ -397,7 +399,7 @@ static void test_ways(void **state)
     lam_device_free(device);
 }
 
-// Maps, and what they make of a material: the numbers of the pictures of them (--show), and S = pi D V n.l.
+// Maps, and their effect on a material: the numbers equal the pictures of --show, and S = pi D V n.l.
 static void test_values(void **state)
 {
     (void)state;
@@ -411,7 +413,7 @@ static void test_values(void **state)
     for (int i = 0; i < 5; i++) {
         lam_draw_params params = demo.params;
         params.output = outputs[i];
-        params.shading = (lam_shading)(i % 3); // of no matter
+        params.shading = (lam_shading)(i % 3); // without effect
         params.reflection = i % 2 ? LAM_REFLECTION_PHONG : LAM_REFLECTION_AUTO;
         assert_true(lam_image_make(&images[i], demo.width, demo.height, LAM_RGBA32F, NULL));
         assert_true(lam_draw(device, demo.scene, &demo.camera, &params, &images[i], NULL, NULL));
@@ -436,7 +438,7 @@ static void test_values(void **state)
                 assert_true(m->column >= 0 && m->column <= 48 && m->row >= 0 && m->row <= 48 && m->width == 48);
                 if (m->map == LAM_MAP_DIFFUSE) {
                     assert_true(m->level == ((float *)images[4].pixels)[at]);
-                    assert_memory_equal(&m->texel, &v->base_color, 12); // the material's own is white
+                    assert_memory_equal(&m->texel, &v->base_color, 12); // the material's own colour is white
                 }
                 if (m->map == LAM_MAP_ROUGHNESS)
                     assert_true(m->texel.g == v->roughness);
@@ -457,7 +459,7 @@ static void test_values(void **state)
     lam_device_free(device);
 }
 
-// A picture full of one surface: each pixel of a tile is one fragment, and stands in no sum while it is drawn.
+// A picture filled by one surface: each pixel of a tile is one fragment, and no sum is stored while it is drawn.
 static void test_filled(void **state)
 {
     (void)state;
@@ -479,7 +481,7 @@ static void test_filled(void **state)
     lam_device_free(device);
 }
 
-// A known place: the sphere's middle under the headlight, seen straight from the front.
+// A known point: the sphere's middle under the headlight, seen straight from the front.
 static void test_known(void **state)
 {
     (void)state;
@@ -532,7 +534,7 @@ static void test_known(void **state)
     lam_scene_free(scene);
 }
 
-// A picture drawn after an explanation is the one drawn before it.
+// A picture drawn after an explanation equals the picture before it.
 static void test_device_unchanged(void **state)
 {
     (void)state;

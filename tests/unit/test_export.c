@@ -1,4 +1,4 @@
-// test_export.c: lam_scene_export: wrong arguments, files, losses, and a mesh with everything that a vertex can have.
+// test_export.c: lam_scene_export: wrong arguments, files, losses, and a mesh with all attributes of a vertex.
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -65,7 +65,7 @@ static void test_arguments(void **state)
     lam_scene_free(empty);
 }
 
-// Exports and reads again: the same triangles, in a file that is named after the model.
+// Exports and reads again: the same triangles, in a file named after the model.
 static void test_round_trips(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// test_exr.c: EXR pictures written, read back, and recognised.
+// test_exr.c: writing, reading and recognising EXR pictures.
 #include <lambent/image.h>
 
 #include <setjmp.h>
@@ -24,7 +24,7 @@ static lam_image noise(int width, int height, uint32_t seed)
     return image;
 }
 
-// Skips the test, saying why, where OpenEXR is not.
+// Skips the test with the reason if OpenEXR is missing.
 static bool encode(const lam_layer *layers, int count, lam_bytes *out)
 {
     lam_error error = {0};
@@ -40,7 +40,7 @@ static bool encode(const lam_layer *layers, int count, lam_bytes *out)
 
 static bool contains(lam_bytes bytes, const char *text)
 {
-    return memmem(bytes.data, bytes.size, text, strlen(text) + 1) != NULL; // with its end
+    return memmem(bytes.data, bytes.size, text, strlen(text) + 1) != NULL; // including its end
 }
 
 static void load(lam_image *image, const void *bytes, size_t size, lam_error *error, bool good)
@@ -72,7 +72,7 @@ static void test_round(void **state)
         assert_true(back.width == image.width && back.height == image.height && back.format == LAM_RGBA32F);
         assert_memory_equal(back.pixels, image.pixels, (size_t)image.width * (size_t)image.height * 16);
         for (size_t cut = 0; cut < first.size;
-             cut += 1 + first.size / 40) { // short files: an error or, in the last chunk, pixels
+             cut += 1 + first.size / 40) { // truncated files: an error or, in the last chunk, pixels
             lam_image part = {0};
             char path[] = "/tmp/lambent-exr-XXXXXX";
             int file = mkstemp(path);
@@ -112,7 +112,7 @@ static void test_layers(void **state)
     assert_memory_equal(back.pixels, picture.pixels, 20 * 40 * 16);
     lam_image_free(&back);
     lam_bytes_free(&bytes);
-    // Without the picture there is nothing that can be read as one.
+    // Without the picture, the file contains nothing readable as a picture.
     assert_true(lam_image_encode_layers(layers, 1, &bytes, &error));
     load(&back, bytes.data, bytes.size, &error, false);
     assert_int_equal(error.code, LAM_UNSUPPORTED);
@@ -136,7 +136,7 @@ static void test_wrong(void **state)
     assert_false(lam_image_encode_layers(&format, 1, &bytes, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     assert_false(lam_image_encode_layers(NULL, 1, &bytes, &error));
-    if (lam_image_encode_layers(twice, 1, &bytes, &error)) { // OpenEXR is here
+    if (lam_image_encode_layers(twice, 1, &bytes, &error)) { // OpenEXR is installed
         lam_bytes_free(&bytes);
         assert_false(lam_image_encode_layers(twice, 2, &bytes, &error));
         assert_non_null(strstr(error.text, "a.G"));

@@ -1,4 +1,5 @@
-// test_file.c: files are written whole or not at all, and nothing else is left in their folder, whatever ends the process.
+// test_file.c: files are complete or do not appear, and no other files remain in their folder, whatever ends the
+// process.
 #include "file.h"
 
 #include <dirent.h>
@@ -22,7 +23,7 @@
 enum { LARGE = 6 << 20 };
 
 static char folder[64];
-static uint8_t *bytes; // LARGE of them
+static uint8_t *bytes; // LARGE bytes
 static const char *const way_names[] = {[FILE_UNNAMED] = "unnamed", [FILE_NAMED] = "named"};
 
 static char *in_folder(const char *name)
@@ -103,10 +104,10 @@ static void test_written_and_replaced(void **state)
         assert_true(file_write_by(way, in_folder("link"), bytes, 0, NULL, &error));
         assert_holds("x", bytes, 0, 0604);
         assert_int_equal(unlink(in_folder("x")), 0);
-        assert_true(file_write_by(way, in_folder("link"), bytes, 5, NULL, &error)); // it led nowhere
+        assert_true(file_write_by(way, in_folder("link"), bytes, 5, NULL, &error)); // it was a broken link
         struct stat about;
         assert_true(lstat(in_folder("link"), &about) == 0 && S_ISREG(about.st_mode));
-        // A name as long as the file system allows.
+        // A name of the maximum length.
         char name[256];
         memset(name, 'n', 255);
         name[255] = 0;
@@ -127,7 +128,7 @@ static void test_failures_leave_nothing(void **state)
         assert_non_null(strstr(error.text, "No such file or directory"));
         assert_false(file_write_by(way, folder, bytes, 10, NULL, &error));
         assert_non_null(strstr(error.text, "is a directory"));
-        // Cancelled while it is written: the old file stays.
+        // Cancelled during writing: the old file remains.
         assert_true(file_write_by(way, in_folder("x"), bytes, 10, NULL, &error));
         lam_cancel cancel = {0};
         lam_cancel_raise(&cancel);
@@ -163,7 +164,7 @@ static void default_dispositions(void)
     sigprocmask(SIG_SETMASK, &empty, NULL);
 }
 
-// Kills a process that writes without end, after some time. It writes one name again and again, or new names each time.
+// Kills a process that writes endlessly, after some time. It writes one name again and again, or new names each time.
 static void kill_writer(enum file_way way, int number, bool same_name, unsigned delay_us)
 {
     char doing[80];
@@ -182,7 +183,7 @@ static void kill_writer(enum file_way way, int number, bool same_name, unsigned 
             snprintf(name, sizeof name, "x%d", same_name ? 0 : i);
             if (!file_write_by(way, in_folder(name), bytes, LARGE, NULL, NULL))
                 _exit(1);
-            if (!same_name && i > 0) { // bounds the space
+            if (!same_name && i > 0) { // limits the space
                 snprintf(name, sizeof name, "x%d", i - 1);
                 unlink(in_folder(name));
             }
@@ -197,7 +198,7 @@ static void kill_writer(enum file_way way, int number, bool same_name, unsigned 
     assert_int_equal(waitpid(child, &status, 0), child);
     if (!WIFSIGNALED(status) || WTERMSIG(status) != number)
         fail_msg("%s: ended with status %x", doing, status);
-    int left = empty_folder(LARGE, doing); // whole files only
+    int left = empty_folder(LARGE, doing); // only complete files
     if (left > (same_name ? 1 : 2))
         fail_msg("%s: left %d files", doing, left);
 }
@@ -212,8 +213,8 @@ static void test_signals_leave_nothing(void **state)
                 kill_writer(way, number, same, (unsigned)(random() % 8000) + 500);
 }
 
-// SIGKILL cannot wait. A file without a name goes with its process; only the microseconds between link and rename, where
-// the name exists, could leave a (whole) file, so new names are written here.
+// SIGKILL takes effect immediately. A file without a name disappears with its process. Only in the microseconds between
+// link and rename, when the name exists, could a complete file remain, so this test writes new names.
 static void test_kill_leaves_nothing(void **state)
 {
     (void)state;
@@ -246,7 +247,7 @@ static void test_file_size_limit(void **state)
         }
 }
 
-// The caller's handlers run meanwhile, and its mask is as before.
+// The caller's handlers run during the call, and its signal mask is restored.
 static volatile sig_atomic_t alarms;
 static void count_alarm(int number)
 {
@@ -279,7 +280,7 @@ static void test_handlers_run(void **state)
     sigaction(SIGALRM, &old, NULL);
 }
 
-// What is named by a file is opened below its folder: a link or ".." that has come into its path since it was checked
+// A file named in another file is opened below its folder: a link or ".." that appeared in its path after the check
 // leads nowhere.
 static void test_beneath(void **state)
 {
@@ -309,7 +310,7 @@ static void test_beneath(void **state)
         assert_false(file_read_named(path, strlen(in) + 1, "shown", true, NULL, NULL, &read, &error));
         assert_int_equal(error.code, LAM_CANNOT_READ);
         assert_true(strncmp(error.text, "shown: cannot open: ", 20) == 0);
-        assert_true(file_read_named(path, 0, NULL, true, NULL, NULL, &read, &error)); // by itself it can be read
+        assert_true(file_read_named(path, 0, NULL, true, NULL, NULL, &read, &error)); // alone, it can be read
         file_release(&read);
         free(path_within(path, in, &outside, &length));
         assert_true(outside);
@@ -321,10 +322,10 @@ static void test_beneath(void **state)
     unlink(in_folder("secret"));
 }
 
-// --- durable: the linker leads the calls of file_write.c here
+// --- durable: the linker redirects the calls of file_write.c to these functions
 
 static char calls[200];
-static int failing; // errno of the next fsync(); 0: none
+static int failing; // the errno of the next fsync(); 0 means success
 
 static void note(const char *name)
 {
@@ -359,8 +360,8 @@ int __wrap_linkat(int from_folder, const char *from, int to_folder, const char *
     return __real_linkat(from_folder, from, to_folder, to, flags);
 }
 
-// The file is on the disk before its name leads to it, and the name before the call returns; where the disk fails, the
-// old file stays.
+// The file is on the disk before its name refers to it, and the name before the call returns; if the disk fails, the
+// old file remains.
 static void test_durable(void **state)
 {
     (void)state;
@@ -384,7 +385,7 @@ static void test_durable(void **state)
             assert_non_null(strstr(error.text, failing == EIO ? "Input/output error" : "No space left"));
             assert_holds("d", bytes, LARGE, 0644);
         }
-        failing = EINVAL; // a file system that has nothing to do
+        failing = EINVAL; // a file system without this operation
         assert_true(file_write_by(way | FILE_DURABLE, in_folder("d"), bytes, 5, NULL, &error));
         failing = 0;
         assert_int_equal(empty_folder(5, "durable"), 1);

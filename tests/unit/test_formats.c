@@ -1,4 +1,5 @@
-// test_formats.c: pictures of every format and stride: drawn, encoded, compared, written on; the caller's own memory.
+// test_formats.c: pictures of every format and stride: drawn, encoded, compared, captioned; and the caller's own
+// memory.
 #include "share.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@ static const lam_pixel_format formats[] = {LAM_RGBA8, LAM_RGBA32F, LAM_BGRA8, LA
 static const size_t bytes_of[] = {
     [LAM_RGBA8] = 4, [LAM_RGBA32F] = 16, [LAM_BGRA8] = 4, [LAM_RGB8] = 3, [LAM_GREY8] = 1, [LAM_RGB32F] = 12};
 
-// The caller's memory: rows with padding behind them, bottom row first where `upside_down`.
+// The caller's memory: rows with padding at their ends, bottom row first with `upside_down`.
 struct window {
     unsigned char *memory;
     size_t pitch;
@@ -42,11 +43,11 @@ static void close_window(struct window *w)
 {
     for (size_t y = 0; y < HEIGHT; y++)
         for (size_t x = WIDTH * bytes_of[w->image.format]; x < w->pitch; x++)
-            assert_int_equal(w->memory[y * w->pitch + x], GUARD); // what lies behind a row is the caller's
+            assert_int_equal(w->memory[y * w->pitch + x], GUARD); // memory after a row belongs to the caller
     unsigned char *memory = w->memory;
     lam_image_free(&w->image);
     assert_null(w->image.pixels);
-    memory[0] = 0; // not freed: the sanitizer would say so
+    memory[0] = 0; // not freed, which the sanitizer would report
     free(memory);
 }
 
@@ -67,7 +68,7 @@ static double encoded_of(double linear)
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
 }
 
-// The luminance of a pixel by the formula in image.h, before it is rounded.
+// The luminance of a pixel by the formula in image.h, before rounding.
 static double grey_of(const unsigned char rgb[3], bool raw)
 {
     static const double weight[3] = {0.2126, 0.7152, 0.0722};
@@ -133,7 +134,7 @@ static lam_scene *make_scene(void)
     return scene;
 }
 
-// Draws one of `share` cases: those whose number and `first` add up to a multiple of it.
+// Draws one of `share` cases: the cases whose number plus `first` is a multiple of it.
 static void draw_all(lam_device *device, size_t first, size_t share)
 {
     static const struct {
@@ -153,7 +154,7 @@ static void draw_all(lam_device *device, size_t first, size_t share)
         if (!is_taken(first + i, share))
             continue;
         lam_draw_params params = {.output = cases[i].show, .color = cases[i].color, .background = cases[i].background};
-        lam_image plain[4] = {0}; // RGBA8 and RGBA32F, as asked and over black
+        lam_image plain[4] = {0}; // RGBA8 and RGBA32F, as requested and over black
         for (int k = 0; k < 4; k++) {
             assert_true(lam_image_make(&plain[k], WIDTH, HEIGHT, k % 2 ? LAM_RGBA32F : LAM_RGBA8, NULL));
             draw(device, scene, params, k >= 2, &plain[k]);
@@ -189,7 +190,7 @@ static void opengl_draws_every_format(void **state)
     draw_all(device, 0, 3);
 }
 
-// A picture of noise in a window of each format, and its tight working copy.
+// A picture of noise in a window of each format, and its compact working copy.
 static void fill(struct window *w, lam_image *tight)
 {
     bool is_float = w->image.format == LAM_RGBA32F || w->image.format == LAM_RGB32F;
@@ -240,7 +241,7 @@ static void every_format_is_taken(void **state)
         assert_int_equal(apart.format, tight.format);
         lam_image_free(&apart);
 
-        if (font && w.image.format != LAM_GREY8) { // grey takes the luminance of the letters' colour
+        if (font && w.image.format != LAM_GREY8) { // grey uses the luminance of the letters' colour
             lam_rgba red = {1, 0.25f, 0, 1};
             assert_true(lam_text_draw(&w.image, font, 5, 50, 30, red, "Format", NULL));
             assert_true(lam_image_compare(&w.image, &tight, &difference, NULL));
@@ -250,7 +251,7 @@ static void every_format_is_taken(void **state)
             assert_true(difference.maximum == 0);
         }
         lam_environment *sky = lam_environment_from_image(&w.image, LAM_COLOR_SRGB, &error);
-        assert_null(sky); // 150×90 is no environment, in any format
+        assert_null(sky); // 150×90 is not a valid environment, in any format
         assert_int_equal(error.code, LAM_UNSUPPORTED);
         lam_image_free(&tight);
         close_window(&w);
@@ -328,7 +329,7 @@ static void renders_into_the_callers_memory(void **state)
     lam_image_free(&made);
     close_window(&w);
 
-    lam_device *device = lam_device_cpu(NULL, NULL); // a device of the caller's, a view and methods
+    lam_device *device = lam_device_cpu(NULL, NULL); // the caller's own device, a view and methods
     lam_draw_params flat = {.shading = LAM_SHADING_FLAT, .samples = 1};
     lam_view front = {.from_angles = true};
     lam_image image = {.width = 40};

@@ -1,5 +1,5 @@
-// test_formula.c: surfaces written as text: the functions against libm, derivatives against differences, meshes, errors; and
-// model files that meshes are saved as.
+// test_formula.c: surfaces given as text: functions compared with libm, derivatives compared with differences, meshes,
+// errors; and model files of saved meshes.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -119,8 +119,8 @@ static void derivatives_match_differences(void **unused)
             formula_evaluate(&formula, u, v - h, &c);
             formula_evaluate(&formula, u, v + h, &d);
             double du = (b.p.x - a.p.x) / (2 * h), dv = (d.p.x - c.p.x) / (2 * h);
-            bool steps =
-                fabs(b.p.x - 2 * at.p.x + a.p.x) > 1e-7 || fabs(d.p.x - 2 * at.p.x + c.p.x) > 1e-7; // a crease or jump
+            bool steps = fabs(b.p.x - 2 * at.p.x + a.p.x) > 1e-7 ||
+                         fabs(d.p.x - 2 * at.p.x + c.p.x) > 1e-7; // a crease or a jump
             if (!steps &&
                 (fabs(at.dp_du.x - du) > 1e-6 * (1 + fabs(du)) || fabs(at.dp_dv.x - dv) > 1e-6 * (1 + fabs(dv))))
                 fail_msg("%s at %g, %g: %.12g and %.12g, expected %.12g and %.12g", rows[i], u, v, at.dp_du.x,
@@ -185,7 +185,7 @@ static void errors_name_the_column(void **unused)
     free(longest);
 }
 
-// Edges with one triangle, and Euler's number V - E + F, which know whether a surface is welded.
+// Edges with one triangle, and Euler's number V - E + F, which show whether a surface is welded.
 static int open_edges(const lam_mesh *mesh, int *euler)
 {
     size_t n = 3 * (size_t)mesh->triangle_count, slots = 4 * n + 7;
@@ -277,7 +277,7 @@ static void normals_are_those_of_the_sphere(void **unused)
     }
 }
 
-// A roof's two sides have one normal each, also along the ridge; a double cone's halves theirs.
+// Each side of a roof has one normal, also along the ridge, and so does each half of a double cone.
 static void creases_keep_their_normals(void **unused)
 {
     (void)unused;
@@ -297,7 +297,8 @@ static void creases_keep_their_normals(void **unused)
         double z = 0;
         for (size_t k = 0; k < 3; k++)
             z += (double)m->positions[3 * (size_t)m->indices[3 * t + k] + 2];
-        for (size_t k = 0; k < 3; k++) // ∂u × ∂v points down-and-out above, up-and-in below: z of it has the sign of -v
+        for (size_t k = 0; k < 3; k++) // ∂u × ∂v points down and out above, and up and in below: its z has the sign of
+                                       // -v
             assert_float_equal(m->normals[3 * (size_t)m->normal_indices[3 * t + k] + 2], z > 0 ? -sqrt(0.5) : sqrt(0.5),
                                1e-3);
     }
@@ -326,7 +327,7 @@ static void model_files_hold_the_mesh(void **unused)
         for (size_t c = 0; c < 3 * (size_t)a->triangle_count; c++) {
             const float *p = a->positions + 3 * (size_t)a->indices[c];
             const float *q = b->positions + 3 * (size_t)(b->indices ? b->indices[c] : c);
-            bool stl = i == 1; // z is up in it, y in the others
+            bool stl = i == 1; // z is up in it, and y in the others
             assert_true(p[0] == q[0] && p[1] == (stl ? q[1] : -q[2]) && p[2] == (stl ? q[2] : q[1]));
             if (stl)
                 continue;
@@ -343,7 +344,7 @@ static void model_files_hold_the_mesh(void **unused)
     lam_scene_free(scene);
 }
 
-// The gradient is that of differences, for each function of the language.
+// The gradient equals the differences, for each function of the language.
 static void gradients_match_differences(void **unused)
 {
     (void)unused;
@@ -380,7 +381,8 @@ static void gradients_match_differences(void **unused)
     }
 }
 
-// A sphere's surface is within the radius, its normals are its positions, and the box is its own, whatever its size and place.
+// A sphere's surface is within the radius, its normals are its positions, and the box fits it, for any size and
+// position.
 static void implicit_surfaces_are_found(void **unused)
 {
     (void)unused;
@@ -411,7 +413,8 @@ static void implicit_surfaces_are_found(void **unused)
             for (int k = 0; k < 3; k++)
                 assert_true(fabs((double)n[k] - sign * at[k] / r) < 1e-5);
         }
-        for (uint32_t t = 0; t < m->triangle_count; t++) { // counter-clockwise from where the normals point
+        for (uint32_t t = 0; t < m->triangle_count; t++) { // counter-clockwise, seen from the side to which the normals
+                                                           // point
             const float *a = m->positions + 3 * (size_t)m->indices[3 * t],
                         *b = m->positions + 3 * (size_t)m->indices[3 * t + 1],
                         *c = m->positions + 3 * (size_t)m->indices[3 * t + 2],
@@ -425,7 +428,7 @@ static void implicit_surfaces_are_found(void **unused)
         }
         lam_scene_free(scene);
     }
-    // A plane goes on for ever: it is cut at the first cube. A range that is given cuts the surface, and is kept.
+    // A plane is infinite, so it is cut at the first cube. A given range cuts the surface, and is kept.
     lam_vec3 low, high;
     lam_formula plane = {.text = "z = x/2", .implicit = true, .y = "0..1", .u_segments = 8};
     lam_scene *scene = scene_of(&plane, NULL);
@@ -458,7 +461,7 @@ static void implicit_surfaces_are_found(void **unused)
         if (!strstr(error.text, wrong[i].says))
             fail_msg("%s: %s", wrong[i].text, error.text);
     }
-    // The limits of a call end it within the evaluation, however long the expression.
+    // The limits of a call end it during the evaluation, for expressions of any length.
     lam_cancel cancel = {0};
     lam_cancel_raise(&cancel);
     lam_formula dense = {.text = "sin(x)", .implicit = true, .u_segments = 1024};

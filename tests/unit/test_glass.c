@@ -1,5 +1,5 @@
-// test_glass.c: rough and thick glass against an evaluation in double: where light leaves it, what it absorbs, how it blurs; and
-// coloured glass in front of nothing.
+// test_glass.c: compares rough and thick glass with an evaluation in double: the exit point of light, absorption, blur;
+// and coloured glass in front of nothing.
 #include <lambent/explain.h>
 #include <lambent/lambent.h>
 
@@ -16,7 +16,8 @@ enum { SIZE = 256 };
 
 static lam_error error;
 
-// What lies behind: at depth WALL a square up to ±EXTENT, wider than the picture, whose light grows with x and y, or is a step at x = 0.
+// The scene behind: at depth WALL, a square up to ±EXTENT, wider than the picture, whose light grows with x and y, or
+// has a step at x = 0.
 #define WALL   (-1.5)
 #define EXTENT 4.0
 #define EYE    6.0
@@ -126,7 +127,7 @@ typedef struct ray {
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// The ray from the eye through a place of the picture, in pixels.
+// The ray from the eye through a point of the picture, in pixels.
 static ray eye_ray(double x, double y)
 {
     double half = tan(0.25);
@@ -137,7 +138,7 @@ static ray eye_ray(double x, double y)
     return r;
 }
 
-// The place in the picture of a point.
+// The position of a point in the picture.
 static void picture_place(const double p[3], double *x, double *y)
 {
     double half = tan(0.25) * (EYE - p[2]);
@@ -145,12 +146,13 @@ static void picture_place(const double p[3], double *x, double *y)
     *y = (1 - p[1] / half) * SIZE / 2;
 }
 
-// The light that glass of the normal n at p shows: the wall's, at the place of the picture where light leaves the glass.
+// The light visible through glass with the normal n at p: the wall's light at the position in the picture where light
+// leaves the glass.
 static void expected_light(const lam_material *m, const ray *r, const double p[3], const double n[3], double out[3])
 {
     double c = -dot(r->along, n), angle = acos(c), inside = asin(sin(angle) / (double)m->ior), exit[3], x, y;
     for (int i = 0; i < 3; i++) {
-        double side = sin(angle) > 1e-9 ? (r->along[i] + c * n[i]) / sin(angle) : 0; // unit, along the surface
+        double side = sin(angle) > 1e-9 ? (r->along[i] + c * n[i]) / sin(angle) : 0; // unit vector along the surface
         exit[i] = p[i] + (double)m->thickness * (sin(inside) * side - cos(inside) * n[i]);
     }
     picture_place(exit, &x, &y);
@@ -175,7 +177,7 @@ static void compare(const lam_image *image, int x, int y, const double expected[
     }
 }
 
-// A pane that leans to the side and back, in front of the wall. A light that grows evenly is the same blurred.
+// A pane that is tilted to the side and back, in front of the wall. A linear gradient of light is unchanged by blur.
 static void test_panes(void **state)
 {
     (void)state;
@@ -213,7 +215,7 @@ static void test_panes(void **state)
     print_message("panes: %.2g %% off at most\n", 100 * largest);
 }
 
-// Balls as thick as they are, and rough ones. At the rim the facets of the mesh show.
+// Balls with their real thickness, and rough ones. At the rim, the facets of the mesh are visible.
 static void test_balls(void **state)
 {
     (void)state;
@@ -230,7 +232,7 @@ static void test_balls(void **state)
             for (int x = 3; x < SIZE; x += 6) {
                 ray r = eye_ray(x + 0.5, y + 0.5);
                 double b = dot(r.from, r.along), root = b * b - (EYE * EYE - 1), expected[3];
-                if (root < 0.19) // 0: the rim
+                if (root < 0.19) // 0 is the rim
                     continue;
                 double t = -b - sqrt(root);
                 const double p[3] = {r.from[0] + t * r.along[0], r.from[1] + t * r.along[1],
@@ -246,7 +248,7 @@ static void test_balls(void **state)
     print_message("balls: %.2g %% off at most\n", 100 * largest);
 }
 
-// A step from 0 to 1 between two texels, under a cubic B-spline, at a distance in texels.
+// A step from 0 to 1 between two texels, filtered by a cubic B-spline, at a distance in texels.
 static double spline_step(double distance)
 {
     double sum = 0;
@@ -257,8 +259,8 @@ static double spline_step(double distance)
     return sum;
 }
 
-// A step behind rough glass. Its width, 256 · 1024^(0.4 − 1) = 4 pixels, is that of the texels of level 2, one of whose edges is at
-// the step.
+// A step behind rough glass. Its width, 256 · 1024^(0.4 − 1) = 4 pixels, is the width of the texels of level 2, one of
+// whose edges is at the step.
 static void test_step(void **state)
 {
     (void)state;
@@ -281,8 +283,8 @@ static void test_step(void **state)
     lam_scene_free(scene);
 }
 
-// Coloured glass in front of nothing: over white the transparent picture is the one that was drawn over white, whatever the glass;
-// and a picture with a background needs no white.
+// Coloured glass in front of nothing: over white, the transparent picture equals the picture drawn over white, for any
+// glass; and a picture with a background needs no white.
 static void test_over_white(void **state)
 {
     (void)state;
@@ -306,7 +308,7 @@ static void test_over_white(void **state)
     }
 }
 
-// What an explanation says of a pixel of thick, rough glass adds up to the pixel.
+// The explanation of a pixel of thick, rough glass adds up to the pixel.
 static void test_explained(void **state)
 {
     (void)state;
@@ -334,7 +336,7 @@ static void test_explained(void **state)
             sum[k] += e->fragments[i].weight * (&e->fragments[i].color.r)[k] * e->fragments[i].color.a;
     for (int k = 0; k < 3; k++)
         assert_true(fabsf(sum[k] - (&e->sum.r)[k]) < 1e-6f);
-    assert_true(e->fragments[e->fragment_count - 1].weight == 0); // the wall is seen elsewhere
+    assert_true(e->fragments[e->fragment_count - 1].weight == 0); // the wall is visible at another position
     lam_explanation_free(e);
     lam_device_free(device);
     lam_image_free(&image);

@@ -1,10 +1,11 @@
-// test_gltf.c: glTF: containers, buffers, all types of accessors, triangles, nodes, materials, lights, cameras, and errors.
-// Above 600 lines: one table-like test for each feature and sentence of one format.
+// test_gltf.c: glTF: containers, buffers, all types of accessors, triangles, nodes, materials, lights, cameras, and
+// errors. The file has more than 600 lines because it contains a table-like test for each feature and error message of
+// one format.
 #include "gltf_document.h"
 
 #include <math.h>
 
-// Four corners of the unit square in the plane z = 0 (48 bytes), and two triangles of it as shorts (12 bytes).
+// Four corners of the unit square in the plane z = 0 (48 bytes), and its two triangles as shorts (12 bytes).
 static void put_square(struct document *document)
 {
     static const float corners[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
@@ -91,10 +92,10 @@ static void test_in_place(void **state)
 
 // --- accessors
 
-// One attribute of the square in every way.
+// One attribute of the square in every form.
 struct attribute_row {
-    const char *accessor; // the accessor's JSON but for its view
-    const char *view;     // more keys of the view
+    const char *accessor; // the accessor's JSON without its view
+    const char *view;     // additional keys of the view
     size_t size;
     const uint8_t *bytes;
     const float *expected;
@@ -150,7 +151,7 @@ static void test_types(void **state)
         uint8_t bytes[16];
         char accessor[200], stride[40];
         double expected[8];
-        for (int k = 0; k < 8; k++) { // two numbers of each element, those of one byte four bytes apart
+        for (int k = 0; k < 8; k++) { // two numbers of each element; one-byte numbers are four bytes apart
             int value = k * 31 - (rows[i].component % 2 == 0 ? 100 : 0);
             expected[k] = rows[i].normalized ? fmax(value / rows[i].divisor, -1) : value;
             if (rows[i].size == 1)
@@ -221,7 +222,7 @@ static void test_layouts(void **state)
     check_square(scene);
     lam_scene_free(scene);
 
-    // Corner 2 moved to (5, 6, 7), and all corners zero but 1 and 3.
+    // Corner 2 moved to (5, 6, 7), and all corners zero except 1 and 3.
     for (int with_base = 0; with_base < 2; with_base++) {
         char json[3000];
         put_square(&document);
@@ -261,7 +262,7 @@ static void test_colors(void **state)
     assert_int_equal(mesh->color_count, 4);
     assert_memory_equal(mesh->colors, bytes, sizeof bytes);
     lam_scene_free(scene);
-    // An opaque material has no alpha, not that of its vertices either.
+    // An opaque material has no alpha, and ignores the alpha of its vertices.
     scene = load_attribute("COLOR_0", "\"componentType\": 5121, \"normalized\": true, \"count\": 4, \"type\": \"VEC4\"",
                            "", bytes, sizeof bytes, "");
     const uint8_t *eight = lam_scene_mesh(scene, 0)->colors;
@@ -352,7 +353,7 @@ static void test_modes(void **state)
     lam_scene_free(scene);
 }
 
-// Primitives with different attributes are meshes of their own; what they share is shared.
+// Primitives with different attributes are separate meshes, with common data shared.
 static void test_several_primitives(void **state)
 {
     (void)state;
@@ -385,7 +386,7 @@ static void test_several_primitives(void **state)
     lam_scene_free(scene);
 }
 
-// Two meshes of the same positions, far from zero: each gets its origin, and neither moves the other.
+// Two meshes with the same positions, far from zero: each gets its origin, and neither moves the other.
 static void test_shared_origin(void **state)
 {
     (void)state;
@@ -406,7 +407,7 @@ static void test_shared_origin(void **state)
     lam_scene_free(scene);
 }
 
-// A file without normals has flat ones (section 3.7.2.1), unless the caller asks otherwise.
+// A file without normals gets flat ones (section 3.7.2.1), unless the caller requests others.
 static void test_normals(void **state)
 {
     (void)state;
@@ -501,7 +502,7 @@ static void test_instances(void **state)
     lam_scene_free(scene);
 }
 
-// A scale of 0 hides a node; a flat one is left out with a warning.
+// A scale of 0 hides a node; a flat node is omitted with a warning.
 static void test_zero_scale(void **state)
 {
     (void)state;
@@ -559,14 +560,14 @@ static void test_materials(void **state)
     assert_true(m->diffuse.a == 0.5f && m->diffuse.g == 0.5f && m->metallic == 1 && m->roughness == 0);
     m = lam_scene_material(scene, 2);
     assert_true(m->unlit && m->diffuse.g == 0.2f);
-    // Specular-glossiness: a dielectric that reflects its specular colour, and all at grazing angles
+    // Specular-glossiness: a dielectric that reflects its specular colour, and everything at grazing angles
     m = lam_scene_material(scene, 3);
     assert_true(m->physical && m->roughness == 1 && m->diffuse.a == 0.4f);
     assert_true(m->alpha_mode == LAM_ALPHA_MASK && m->alpha_cutoff == 0.3f);
     assert_true(m->diffuse.b == 0.3f && m->metallic == 0 && m->ior == 0 && m->specular_weight == 1);
     assert_true(m->f0_color.r == 0.5f && m->f0_color.g == 0.6f && m->f0_color.b == 0.7f);
     assert_true(m->specular_glossiness == 1 && lam_scene_material(scene, 0)->specular_glossiness == 0);
-    // As a classic material it is what it says, less the light that the specular part takes.
+    // As a classic material it keeps its values, minus the light that the specular part takes.
     lam_material classic = lam_material_as_classic(m);
     assert_near((double)classic.diffuse.b, 0.3 * (1 - 0.7), 1e-6);
     assert_near((double)classic.specular.r, 0.5 * 9 / 8, 1e-6);
@@ -578,7 +579,7 @@ static void test_materials(void **state)
     lam_scene_free(scene);
 }
 
-// The numbers of the layers' extensions, cut to their ranges; an unlit material has none.
+// The numbers of the layers' extensions, clamped to their ranges; an unlit material has none.
 static void test_layers(void **state)
 {
     (void)state;
@@ -603,7 +604,7 @@ static void test_layers(void **state)
     assert_true(m->clearcoat == 1 && m->clearcoat_roughness == 0.5f);
     assert_true(m->sheen_color.r == 0.5f && m->sheen_color.g == 0.25f && m->sheen_color.b == 1);
     assert_true(m->sheen_roughness == 0.75f && m->anisotropy == 0.5f);
-    assert_near((double)m->anisotropy_rotation_rad, 13.5 - 4 * acos(-1.0), 1e-5); // less two turns
+    assert_near((double)m->anisotropy_rotation_rad, 13.5 - 4 * acos(-1.0), 1e-5); // minus two turns
     assert_true(m->iridescence == 0.5f && m->iridescence_ior == 1 && m->iridescence_thickness_min == 50 &&
                 m->iridescence_thickness_max == 700);
     assert_true(m->transmission == 0.5f && m->thickness == 2 && m->attenuation_distance == 0.25f);
@@ -665,11 +666,11 @@ static void test_lights(void **state)
     assert_true(l->attenuation.constant == 0 && l->attenuation.linear == 0 && l->attenuation.quadratic == 1);
     assert_near((double)l->diffuse.r, 20 / pi, 1e-6);
     assert_near((double)l->specular.g, 10 / pi, 1e-6);
-    l = lam_scene_light(scene, 1); // a child of the first, turned to look along −x
+    l = lam_scene_light(scene, 1); // a child of the first, rotated to look along −x
     assert_int_equal(l->type, LAM_LIGHT_SPOT);
     assert_near(l->direction.x / sqrt(l->direction.x * l->direction.x + l->direction.z * l->direction.z), -1, 1e-9);
     assert_true(l->position.z == 3 && l->inner_rad == 0.2f);
-    assert_near((double)l->outer_rad, pi / 2, 1e-6); // cut to a right angle
+    assert_near((double)l->outer_rad, pi / 2, 1e-6); // clamped to a right angle
     assert_near((double)l->diffuse.b, 1, 1e-6);
     l = lam_scene_light(scene, 2);
     assert_int_equal(l->type, LAM_LIGHT_DIRECTIONAL);
@@ -712,7 +713,7 @@ static void test_cameras(void **state)
     lam_scene_free(scene);
 }
 
-// --- files beside the model
+// --- files next to the model
 
 struct shelf {
     const uint8_t *bytes;
@@ -956,7 +957,7 @@ static void test_lenient(void **state)
     lam_scene_free(scene);
 }
 
-// A long file in parallel pieces gives the same mesh with any number of threads, and the first error.
+// A long file read in parallel pieces gives the same mesh with any number of threads, and the first error.
 static void test_threads(void **state)
 {
     (void)state;

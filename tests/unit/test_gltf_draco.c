@@ -1,10 +1,12 @@
-// test_gltf_draco.c: primitives compressed by Draco: attributes by their ids, in the type of their accessors; every damaged or cut buffer
-// ends with one sentence. Built without the decoder, files are refused or their plain bytes are read.
+// test_gltf_draco.c: primitives compressed by Draco: attributes by their ids, in the type of their accessors; every
+// damaged or truncated buffer gives one error message. In a build without the decoder, files are refused or their
+// uncompressed data is read.
 #include "loading.h"
 
 #include "draco_header.h"
 
-// A square of four vertices: attribute 7 positions, attribute 3 texture coordinates as unsigned bytes; by Draco's own encoder.
+// A square of four vertices: attribute 7 is the positions, attribute 3 the texture coordinates as unsigned bytes;
+// encoded by Draco's own encoder.
 static const char compressed[] =
     "RFJBQ08CAgEBAAAABAIBAgAAAR//ARH/AREC/wAAAAAAAQAJAwAHAgEDAgIAAwEBAQEADwMBMC8BEAMAKIKYAAAA/P8AAAAAAP8/"
     "AAAAAAAAAAAAAAAAAAAAAIA/"
@@ -134,7 +136,7 @@ static void encode(const uint8_t *bytes, int count, char *out)
     *out = 0;
 }
 
-// Every cut and every changed byte: a mesh, or one sentence that names the primitive.
+// Every truncation and every changed byte gives a mesh, or one error message that names the primitive.
 static void damaged(void **state)
 {
     (void)state;
@@ -190,34 +192,33 @@ static void missing(void **state)
 
 #if HAS_DRACO
 
-// A file of some kilobytes with 100 attributes of 60 numbers for each of 6000 vertices, all zero, which the coder packs into no bits: each
-// takes 2.9 MB as Draco keeps it.
+// A file of some kilobytes with 100 attributes of 60 numbers for each of 6000 vertices, all zero, which the coder
+// compresses to no bits; each takes 2.9 MB in Draco's memory.
 enum { FACES = 2000, VERTICES = 3 * FACES, ATTRIBUTES = 100, BOMB_BYTES = 6200 };
 
 static size_t make_bomb(uint8_t *out)
 {
-    // All symbols are the same: how they are coded, bits, how many there are, how probable (4096 of 4096), bytes.
+    // All symbols are the same: the encoding, bits, their number, their probability (4096 of 4096), bytes.
     static const uint8_t symbols[] = {1, 1, 1, 1, 64, 1, 0};
     static const uint8_t head[] = {
         'D',           'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, (FACES & 127) | 128, FACES >> 7, (VERTICES & 127) | 128,
         VERTICES >> 7, 0};
     uint8_t *at = out;
-    memset(out, 0, BOMB_BYTES); // Draco wants three bytes for each triangle, used or not
+    memset(out, 0, BOMB_BYTES); // Draco requires three bytes for each triangle, used or not
     memcpy(at, head, sizeof head);
     at += sizeof head;
     memcpy(at, symbols, sizeof symbols);
     at += sizeof symbols;
     *at++ = 1; // decoder
     *at++ = ATTRIBUTES;
-    for (int i = 0; i < ATTRIBUTES;
-         i++) { // position, then others: type, unsigned of 32 bits, width, not normalized, id
+    for (int i = 0; i < ATTRIBUTES; i++) { // position, then others: type, unsigned 32 bits, width, not normalized, id
         const uint8_t attribute[] = {i ? 4 : 0, 6, i ? 60 : 3, 0, (uint8_t)i};
         memcpy(at, attribute, sizeof attribute);
         at += sizeof attribute;
     }
     memset(at, 1, ATTRIBUTES); // integers
     at += ATTRIBUTES;
-    for (int i = 0; i < ATTRIBUTES; i++) { // as they are, not predicted; compressed
+    for (int i = 0; i < ATTRIBUTES; i++) { // unpredicted values; compressed
         *at++ = 0xfe;
         *at++ = 1;
         memcpy(at, symbols, sizeof symbols);
@@ -249,7 +250,8 @@ static lam_scene *load_bomb(const lam_control *control, lam_error *error)
     return lam_scene_load_memory(glb, sizeof glb, "bomb.glb", NULL, control, error);
 }
 
-// AddressSanitizer ends a program in C whose first library in C++ is opened later and throws: it has looked for the function in vain.
+// AddressSanitizer ends a C program whose first C++ library is loaded later and throws, because it has not found the
+// function.
 #if defined __has_feature
 #if __has_feature(address_sanitizer)
 #define CANNOT_THROW
@@ -266,7 +268,7 @@ static void skip_if_it_cannot_throw(void)
 #endif
 }
 
-// What Draco takes is counted while it takes it: more than the limit is an error, whatever the header said.
+// Draco's memory is counted during decoding: exceeding the limit is an error, whatever the header claimed.
 static void memory_counted(void **state)
 {
     (void)state;
@@ -286,7 +288,7 @@ static void memory_counted(void **state)
     assert_true(limit == 100 && used > 90 && used <= 100 && used + more > 100 && more < 10);
 }
 
-// 36 million numbers take longer than that: it ends on the way.
+// 36 million numbers take longer than the limit, so decoding ends early.
 static void too_long(void **state)
 {
     (void)state;
@@ -305,25 +307,25 @@ static void claims(void **state)
 {
     (void)state;
     struct draco_claim claim;
-    // Sequential: faces, points; seven bits a byte.
+    // Sequential: faces, points; seven bits per byte.
     assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 0x80, 0x01, 0xff, 0xff, 0xff, 0xff, 0x0f));
     assert_true(claim.faces == 128 && claim.points == UINT32_MAX);
     // Older: 32 bits.
     assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 1, 1, 0, 0, 0, 1, 2, 0, 0, 3, 0, 0, 1));
     assert_true(claim.faces == 513 && claim.points == 16777219);
-    // Edgebreaker: how it is coded, points, faces; older ones have the vertices of splits before.
+    // Edgebreaker: the encoding, points, faces; in older files, the vertices of splits come first.
     assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 1, 0, 0, 2, 7, 9));
     assert_true(claim.faces == 9 && claim.points == 7);
     assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 1, 1, 1, 0, 0, 0, 5, 7, 9));
     assert_true(claim.faces == 9 && claim.points == 7);
     assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 1, 2, 1, 1, 0, 0, 0, 5, 0, 0, 0, 7, 0, 0, 0, 9, 0, 0, 0));
     assert_true(claim.faces == 9 && claim.points == 7);
-    // Metadata: one attribute's with one entry, and the mesh's with one inside of it.
+    // Metadata: one attribute's with one entry, and the mesh's with a nested one.
     assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0x80, 1, 4, 1, 2, 'a', 'b', 3, 1, 2, 3, 0, 0, 1, 1, 'x',
                       0, 0, 6, 8));
     assert_true(claim.faces == 6 && claim.points == 8);
     assert_true(draco_claim_bytes(&claim) >= 6 * 36 + 8 * 24);
-    // What no decoder reads: a cloud of points, a cut, a number of more than 32 bits, metadata within itself.
+    // Unsupported files: a point cloud, a truncated file, a number of more than 32 bits, metadata nested in itself.
     assert_false(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 0, 0, 0, 0, 1, 1));
     assert_false(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 2, 0, 0, 1, 1));
     assert_false(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 0x80));
@@ -331,7 +333,7 @@ static void claims(void **state)
     assert_false(CLAIM('D', 'R', 'A', 'C', 'X', 2, 2, 1, 0, 0, 0, 1, 1));
     uint8_t nested[200] = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0x80, 0};
     for (int i = 12; i < 200; i += 3)
-        nested[i + 1] = 1; // no entries, one inside with a name of 0 bytes
+        nested[i + 1] = 1; // no entries, one nested item with a name of 0 bytes
     assert_false(draco_header_read(nested, sizeof nested, &claim));
     for (size_t size = 0; size < 12; size++)
         assert_false(draco_header_read(nested, size, &claim));

@@ -1,4 +1,4 @@
-// test_gltf_info.c: what a glTF file says of itself: lam_scene_file_info.
+// test_gltf_info.c: the information in a glTF file: lam_scene_file_info.
 #include "gltf_document.h"
 
 // Three corners of a triangle in the plane z = 0.
@@ -53,7 +53,7 @@ static void test_everything(void **state)
     static const char *const images[4][3] = {
         {"skin", "skin.png", "png"}, {NULL, NULL, "webp"}, {NULL, NULL, "jpeg"}, {NULL, "noend", NULL}};
     assert_int_equal(info->image_count, 4);
-    assert_true(!info->images[0].textures[0] && !info->images[0].textures[1]); // no material reads it
+    assert_true(!info->images[0].textures[0] && !info->images[0].textures[1]); // no material uses it
     for (int i = 0; i < 4; i++) {
         const char *found[3] = {info->images[i].name, info->images[i].file, info->images[i].format};
         for (int k = 0; k < 3; k++) {

@@ -1,5 +1,5 @@
-// test_gltf_models.c: every glTF file of the shared models loads, or is refused for the right reason; triangles and sizes
-// are those of the models' own tables.
+// test_gltf_models.c: every glTF file of the shared models loads, or is refused for the right reason; triangles and
+// sizes equal the models' own tables.
 #include "loading.h"
 #include "share.h"
 
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <sys/stat.h>
 
-// Files that are refused, by a part of their path: the code and a part of the sentence.
+// Refused files, given by a part of their path: the code and a part of the error message.
 static const struct {
     const char *path;
     lam_code code;
@@ -26,7 +26,7 @@ static const struct {
 #endif
 };
 
-// A row of the README of the models: triangles of the default scene, and its extent at rest.
+// A row of the models' README: triangles of the default scene, and its extent at rest.
 struct row {
     char path[200];
     unsigned triangles;
@@ -34,7 +34,7 @@ struct row {
 };
 static struct row rows[400];
 static int row_count, checked_rows, files, refused;
-static size_t seen; // a third of them are read, but all by long-gltf-models
+static size_t seen; // a third of them are read; long-gltf-models reads all
 static char root[1000];
 
 static void read_rows(void)
@@ -69,7 +69,7 @@ static void check_row(const char *relative, const lam_scene *scene)
             fail_msg("%s: found %u triangles, expected %u", relative, (unsigned)lam_scene_triangle_count(scene),
                      row->triangles);
         checked_rows++;
-        // Its extents are those before skins.
+        // Its extents do not include skins.
         static const char *const skinned[] = {"Animation_Skin/", "Instancing_09",       "Fox_quantized",
                                               "Fox_meshopt",     "03_skinned_cylinder", "emoji_heart"};
         for (size_t k = 0; k < sizeof skinned / sizeof *skinned; k++)

@@ -5,7 +5,7 @@
 
 #define ASSET "\"asset\": {\"version\": \"2.0\"}"
 
-// The file is put together from arrays: each is a bufferView and an accessor of its own.
+// The file is built from arrays: each is a separate bufferView and accessor.
 struct builder {
     struct document document;
     char views[4096], accessors[4096], json[12000];
@@ -109,12 +109,12 @@ static void test_interpolation(void **state)
     for (size_t i = 0; i < sizeof step / sizeof *step; i++)
         assert_true(transform_at(&b, step[i][0]).m[0][3] == step[i][1]);
     make_translation(&b, "CUBICSPLINE");
-    // From 0 at 1 s, leaving with (1, 0, 0) a second, to (4, 0, 0) at 2 s, arriving with (0, 2, 0).
+    // From 0 at 1 s, leaving with (1, 0, 0) per second, to (4, 0, 0) at 2 s, arriving with (0, 2, 0).
     double t = 0.25, t2 = t * t, t3 = t2 * t;
     lam_mat4 m = transform_at(&b, 1.25);
     assert_near(m.m[0][3], (t3 - 2 * t2 + t) * 1 + (3 * t2 - 2 * t3) * 4, 1e-12);
     assert_near(m.m[1][3], (t3 - t2) * 2, 1e-12);
-    // Two seconds long: its tangents count twice.
+    // Two seconds long, so its tangents count twice.
     m = transform_at(&b, 2.5);
     assert_near(m.m[0][3],
                 (2 * t3 - 3 * t2 + 1) * 4 + 2 * (t3 - 2 * t2 + t) * 3 + 2 * (t3 - t2) * 1 + (3 * t2 - 2 * t3) * 9,
@@ -130,7 +130,7 @@ static void test_interpolation(void **state)
               "a.gltf: there is no animation 'turn'; expected one of 0 ('other'), 1 ('move')");
 }
 
-// Rotations go the shorter way round, at an even speed; normalised shorts are read.
+// Rotations take the shorter way, at constant speed; normalised shorts are read.
 static void test_rotation(void **state)
 {
     (void)state;
@@ -142,7 +142,7 @@ static void test_rotation(void **state)
         if (kind == 0)
             ADD_FLOATS(&b, "VEC4", 2, 0, 0, 0, 1, 0, 0, h, h); // a quarter turn about z
         else if (kind == 1)
-            ADD_FLOATS(&b, "VEC4", 2, 0, 0, 0, 1, 0, 0, -h, -h); // the same, the other way to write it
+            ADD_FLOATS(&b, "VEC4", 2, 0, 0, 0, 1, 0, 0, -h, -h); // the same rotation in its other form
         else
             add_array(&b, -5122, "VEC4", 2, (int16_t[]){0, 0, 0, 32767, 0, 0, 23170, 23170}, 16);
         complete(
@@ -182,7 +182,7 @@ static void test_morph(void **state)
 {
     (void)state;
     struct builder b;
-    // By the mesh's weights: shared by both nodes.
+    // With the mesh's weights, which both nodes share.
     make_morph(&b, "", "");
     lam_scene *scene = load_at(&b, NULL, 0);
     assert_int_equal(lam_scene_mesh_count(scene), 1);
@@ -192,7 +192,7 @@ static void test_morph(void **state)
     assert_corner(mesh, 0, 2, 4, 1, 0);
     assert_true(mesh->normals[0] == 0.5f && mesh->normals[2] == 1);
     lam_scene_free(scene);
-    // A node's own weights; both targets.
+    // With a node's own weights; both targets.
     make_morph(&b, ", \"weights\": [1, 2]", "");
     scene = load_at(&b, NULL, 0);
     assert_int_equal(lam_scene_mesh_count(scene), 2);
@@ -200,13 +200,13 @@ static void test_morph(void **state)
     assert_corner(lam_scene_mesh(scene, 1), 0, 1, 3, 0, 4);
     assert_corner(lam_scene_mesh(scene, 1), 0, 2, 10, 1, 0);
     lam_scene_free(scene);
-    // Weights of 0 leave the mesh as it is: the file's own bytes.
+    // Weights of 0 leave the mesh unchanged: the file's own bytes.
     make_morph(&b, ", \"weights\": [0, 0]", "");
     scene = load_at(&b, NULL, 0);
     assert_corner(lam_scene_mesh(scene, 1), 0, 1, 1, 0, 0);
     assert_true(lam_scene_mesh(scene, 1)->positions + 9 == lam_scene_mesh(scene, 1)->normals);
     lam_scene_free(scene);
-    // Animated: at 0.5 s half of the way from (0, 0) to (1, 0.2).
+    // Animated: at 0.5 s, half of the way from (0, 0) to (1, 0.2).
     make_morph(
         &b, "",
         ", \"animations\": [{\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 1, \"path\": \"weights\"}}], "
@@ -221,7 +221,8 @@ static void test_morph(void **state)
 
 // --- skins
 
-// Two joints: the first moves by (10, 0, 0), the second is turned a quarter about z around its own place, (0, 1, 0).
+// Two joints: the first moves by (10, 0, 0), and the second is rotated by 90° about z around its own position, (0, 1,
+// 0).
 static void make_skin(struct builder *b, const char *more, bool bytes, bool inverse)
 {
     char json[2000];
@@ -262,20 +263,20 @@ static void test_skin(void **state)
         make_skin(&b, "", bytes, true);
         lam_scene *scene = load_at(&b, NULL, 0);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
-        lam_mat4 identity = lam_mat4_identity(); // the node's own transform does not count
+        lam_mat4 identity = lam_mat4_identity(); // the node's own transform is ignored
         assert_memory_equal(&lam_scene_object(scene, 0)->transform, &identity, sizeof identity);
         assert_point(mesh, 0, 10, 0, 0);
-        assert_point(mesh, 1, 1, 2, 0);                  // (1, −1) turned: (1, 1), and (0, 1) on top
-        assert_point(mesh, 2, 0.2 * 10 + 0.8 * 0, 1, 0); // (0, 1) is where the second joint stands
+        assert_point(mesh, 1, 1, 2, 0);                  // (1, −1) rotated: (1, 1), plus (0, 1)
+        assert_point(mesh, 2, 0.2 * 10 + 0.8 * 0, 1, 0); // (0, 1) is the position of the second joint
         lam_scene_free(scene);
-        make_skin(&b, "", bytes, false); // without matrices: those of the joints alone
+        make_skin(&b, "", bytes, false); // without matrices: only the matrices of the joints
         scene = load_at(&b, NULL, 0);
         assert_point(lam_scene_mesh(scene, 0), 1, 0, 2, 0);
         lam_scene_free(scene);
     }
 }
 
-// Normals go by the inverse transpose of the blended matrix.
+// The inverse transpose of the blended matrix transforms normals.
 static void test_skinned_normals(void **state)
 {
     (void)state;
@@ -283,7 +284,7 @@ static void test_skinned_normals(void **state)
     ADD_FLOATS(&b, "VEC3", 3, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     ADD_FLOATS(&b, "VEC3", 3, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0);
     add_array(&b, 5121, "VEC4", 3, (uint8_t[]){0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 12);
-    ADD_FLOATS(&b, "VEC4", 3, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0); // the last has no weight: the first joint's
+    ADD_FLOATS(&b, "VEC4", 3, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0); // the last has no weight and uses the first joint's
     complete(
         &b,
         "\"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"mesh\": 0, \"skin\": 0}, {\"scale\": [2, -1, 1]}], \"meshes\": "
@@ -312,7 +313,7 @@ static void test_errors(void **state)
         {"\"input\": 2", "\"inputs\": 2", "a.gltf: animations[1].samplers[0]: input is missing"},
         {"\"input\": 2", "\"input\": 1",
          "a.gltf: animations[1].samplers[0].input: found VEC3 of FLOAT, expected SCALAR of FLOAT"},
-        {"\"output\": 3", "\"output\": 0", NULL}, // three elements, too: fits
+        {"\"output\": 3", "\"output\": 0", NULL}, // three elements also fit
         {"\"output\": 3", "\"output\": 2",
          "a.gltf: animations[1].samplers[0].output: found SCALAR of FLOAT, expected VEC3 of FLOAT"},
         {"LINEAR", "CUBICSPLINE", "a.gltf: animations[1].samplers[0].output: found 3 elements for 3 keys, expected 9"},

@@ -1,4 +1,4 @@
-// test_ground.c: the ground under a scene: its height, the shadow that it catches, contact, and where there is none.
+// test_ground.c: the ground plane under a scene: its height, its shadow, contact, and cases without it.
 #include <lambent/explain.h>
 #include <lambent/lambent.h>
 
@@ -27,7 +27,7 @@ static lam_device *device(void)
 static void add(lam_scene *scene, const char *shape, lam_vec3 scale, lam_vec3 at)
 {
     lam_material m = lam_material_default();
-    m.emission = (lam_rgb){1, 1, 1}; // tells the model from the ground, which is black
+    m.emission = (lam_rgb){1, 1, 1}; // distinguishes the model from the ground, which is black
     lam_object o = lam_object_default();
     o.mesh = lam_scene_add_shape(scene, shape, NULL, &error);
     o.material = lam_scene_add_material(scene, &m, &error);
@@ -69,7 +69,7 @@ static lam_vec3 unit(lam_vec3 a)
     return (lam_vec3){a.x / l, a.y / l, a.z / l};
 }
 
-// Where the ray through the middle of a pixel meets the plane y = `height`.
+// The intersection of the ray through the middle of a pixel with the plane y = `height`.
 static lam_vec3 on_plane(const lam_camera *c, int px, int py, double height)
 {
     lam_vec3 forward = unit(minus(c->target, c->eye)), right = unit(cross(forward, c->up)), up = cross(right, forward);
@@ -83,8 +83,8 @@ static lam_vec3 on_plane(const lam_camera *c, int px, int py, double height)
     return plus(from, along, (height - from.y) / along.y);
 }
 
-// A square of side 2 lies at height 1 over the ground, whose height a small ball gives. The sun's light falls at 45°, so that
-// the shadow is the square moved by 1. Ambient light is half of what the sun gives a face across it.
+// A square of side 2 is at height 1 above the ground, whose height a small ball determines. The sun's light falls at
+// 45°, so the shadow is the square moved by 1. Ambient light is half of the sun's light on a perpendicular face.
 static void check_shadow(const lam_camera *camera, lam_rgb color)
 {
     lam_scene *scene = lam_scene_make(&error);
@@ -109,7 +109,7 @@ static void check_shadow(const lam_camera *camera, lam_rgb color)
             const float *p = at(&image, i, j);
             lam_vec3 point = on_plane(camera, i, j, report.ground_height);
             if (p[0] > 0 || fabs(point.x) + fabs(point.z) < 0.2 || fabs(point.x) > 4 || fabs(point.z) > 4)
-                continue; // the model, the ball's shadow, and where the ground fades out
+                continue; // the model, the ball's shadow, and the fading border of the ground
             double beyond = fmax(fabs(point.x - 1), fabs(point.z)) - 1;
             assert_true(p[1] == 0 && p[2] == 0);
             if (beyond < -pixel) {
@@ -139,7 +139,7 @@ static void test_shadow(void **state)
     check_shadow(&camera, (lam_rgb){1, 1, 1});
 }
 
-// Ambient occlusion darkens the ground beside a wall, the more the nearer, and nothing far away.
+// Ambient occlusion darkens the ground near a wall, more at smaller distances, and nothing far away.
 static void test_contact(void **state)
 {
     (void)state;
@@ -194,7 +194,7 @@ static double height_of(const lam_scene *scene, const lam_camera *camera, lam_dr
     return report.ground_height;
 }
 
-// The lowest vertex decides, of the turned model too, along the axis that is up.
+// The lowest vertex determines the height, also of a rotated model, along the up axis.
 static void test_height(void **state)
 {
     (void)state;
@@ -223,7 +223,8 @@ static void test_height(void **state)
 
 static bool same(const lam_image *a, const lam_image *b) { return memcmp(a->pixels, b->pixels, SIZE * SIZE * 16) == 0; }
 
-// Seen from below there is none, nor in pictures of numbers where it only catches shadows; the scene's shadows stay.
+// From below there is no ground, nor in pictures of quantities if it only catches shadows; the scene's own shadows
+// remain.
 static void test_absent(void **state)
 {
     (void)state;
@@ -254,7 +255,7 @@ static void test_absent(void **state)
     lam_scene_free(scene);
 }
 
-// What a picture over a background shows is the catcher's alpha over it, and terms have the same alpha.
+// A picture over a background shows the catcher's alpha over it, and terms have the same alpha.
 static void test_premultiplied(void **state)
 {
     (void)state;

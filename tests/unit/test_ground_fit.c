@@ -1,4 +1,5 @@
-// test_ground_fit.c: the camera of a picture with a ground, and the shadow on it, which fades out before the border.
+// test_ground_fit.c: the camera of a picture with a ground plane, and the shadow on it, which fades out before the
+// border.
 #include "../lighting/random.h"
 #include "loading.h"
 
@@ -12,7 +13,7 @@ struct placed {
     lam_draw_params params;
 };
 
-// A shape under a directional light that stands at an elevation over the horizon.
+// A shape under a directional light at an elevation above the horizon.
 static struct placed place(const char *shape, double azimuth_deg, double elevation_deg, float angular_radius_rad)
 {
     struct placed p = {.scene = lam_scene_make(NULL)};
@@ -28,7 +29,7 @@ static struct placed place(const char *shape, double azimuth_deg, double elevati
     return p;
 }
 
-// The largest alpha in the border of the picture, 0…255: a shadow that is cut reaches it.
+// The largest alpha at the border of the picture, 0…255: a cut-off shadow reaches it.
 static int border_alpha(const struct placed *p, const lam_camera *camera)
 {
     lam_error error = {0};
@@ -56,7 +57,7 @@ static lam_camera fitted(const struct placed *p, const lam_view *view, const lam
     return lam_camera_fit_ground(p->scene, &p->params, SIDE, SIDE, view, centre, axis);
 }
 
-// The first and last column (row) of the picture that the model covers.
+// The first and last column (row) of the picture covered by the model.
 static void model_box(const struct placed *p, const lam_camera *camera, int box[4])
 {
     lam_error error = {0};
@@ -76,8 +77,8 @@ static void model_box(const struct placed *p, const lam_camera *camera, int box[
     lam_device_free(device);
 }
 
-// Shadows of lights from all around, hard and soft, long and short, end before the border, and the model lies in the
-// middle and takes four fifths of the picture.
+// Shadows of lights from all around, hard and soft, long and short, end before the border; the model is in the middle
+// and fills four fifths of the picture.
 static void shadows_end_before_the_border(void **state)
 {
     (void)state;
@@ -102,7 +103,7 @@ static void shadows_end_before_the_border(void **state)
     assert_int_equal(seen, 24);
 }
 
-// Without a ground it is the camera of lam_camera_fit; a fill that the caller gives stays.
+// Without a ground, the camera equals lam_camera_fit's; a fill given by the caller is kept.
 static void no_ground_no_change(void **state)
 {
     (void)state;
@@ -119,7 +120,7 @@ static void no_ground_no_change(void **state)
     lam_scene_free(p.scene);
 }
 
-// One camera shows a turning model and its shadow at every angle.
+// One camera shows a rotating model and its shadow at every angle.
 static void turning_shadows_end_before_the_border(void **state)
 {
     (void)state;

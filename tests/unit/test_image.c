@@ -1,4 +1,4 @@
-// test_image.c: pictures in memory, their files other than how PNG is packed, comparison, and every way to fail.
+// test_image.c: pictures in memory, their files except PNG compression, comparison, and all errors.
 #include <lambent/image.h>
 
 #include <math.h>
@@ -100,7 +100,7 @@ static void makes_within_limits(void **state)
     assert_null(image.pixels);
     lam_image_free(&image);
     lam_image_free(NULL);
-    assert_true(lam_image_make(&image, 1024, 1024, LAM_RGBA8, NULL)); // in pages of its own
+    assert_true(lam_image_make(&image, 1024, 1024, LAM_RGBA8, NULL)); // in separate pages
     memset(image.pixels, 1, 1024 * 1024 * 4);
     lam_image_free(&image);
 
@@ -132,7 +132,7 @@ static void names_pick_formats(void **state)
     expect_error(lam_image_format_for(NULL, &format, &error), &error, LAM_BAD_ARGUMENT, "path");
 }
 
-// Every row of the table: what is written can be read, and the list in an error names each.
+// Every row of the table: written files can be read, and the list in an error message names each format.
 static void formats_that_are_written_are_read(void **state)
 {
     (void)state;
@@ -229,7 +229,7 @@ static void pfm_is_exact(void **state)
     assert_true(lam_image_save(&image, path, NULL, NULL));
     assert_true(lam_image_load(&back, path, NULL, NULL));
     assert_int_equal(back.format, LAM_RGBA32F);
-    assert_memory_equal(back.pixels, image.pixels, 5 * 3 * 16); // the source's alpha is 1 throughout
+    assert_memory_equal(back.pixels, image.pixels, 5 * 3 * 16); // the source's alpha is 1 everywhere
     assert_false(lam_image_is_from_lambent(path));
     lam_image_free(&image);
     lam_image_free(&back);
@@ -251,7 +251,7 @@ static void pfm_of_others(void **state)
 static double decode(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 static double encode(double x) { return x <= 0.0031308 ? x * 12.92 : 1.055 * pow(x, 1 / 2.4) - 0.055; }
 
-// The picture over the background in linear light, against libm.
+// The picture over the background in linear light, compared with libm.
 static void ppm_lies_over_the_background(void **state)
 {
     (void)state;
@@ -307,7 +307,7 @@ static void ppm_comes_back(void **state)
     lam_image_free(&back);
 }
 
-// A background that is no number must not reach an undefined conversion.
+// A NaN background must not reach an undefined conversion.
 static void background_of_nan(void **state)
 {
     (void)state;
@@ -339,7 +339,7 @@ static void ours_only_where_it_says_so(void **state)
     assert_int_equal(mkfifo(in_folder("pipe.png"), 0600), 0);
     assert_false(lam_image_is_from_lambent(in_folder("pipe.png"))); // and does not wait for a writer
 
-    // A PNG whose Software text is another's, and ours cut at every byte in front of the pixels.
+    // A PNG with another program's Software text, and Lambent's truncated at every byte before the pixels.
     lam_image image = bytes_picture(4, 4);
     lam_bytes out;
     assert_true(lam_image_encode(&image, "png", NULL, &out, NULL));
@@ -358,8 +358,8 @@ static void ours_only_where_it_says_so(void **state)
     lam_image_free(&image);
 }
 
-// Files cut at every byte are refused; files with one byte changed are refused or, as PNG's checksums see to,
-// give the same picture (a damaged remark does no harm).
+// Files truncated at any byte are refused. Files with one changed byte are refused or, thanks to PNG's checksums, give
+// the same picture (a damaged comment does no harm).
 static void damaged_files_are_refused(void **state)
 {
     (void)state;
@@ -367,7 +367,7 @@ static void damaged_files_are_refused(void **state)
     lam_error error;
     static const struct {
         const char *format;
-        size_t needless; // bytes at the end that hold nothing: the checksum of PNG's empty last chunk
+        size_t needless; // unneeded bytes at the end: the checksum of PNG's empty last chunk
     } cases[] = {{"png", 4}, {"ppm", 0}, {"pfm", 0}};
     for (int i = 0; i < 3; i++) {
         lam_bytes out;
@@ -440,7 +440,7 @@ static void refusals_say_why(void **state)
     assert_int_equal(error.code, LAM_LIMIT);
 }
 
-// Whatever goes wrong, no file appears, none is changed, no temporary one stays.
+// On any error, no file appears or changes, and no temporary file remains.
 static void writes_whole_or_not_at_all(void **state)
 {
     (void)state;
@@ -460,20 +460,20 @@ static void writes_whole_or_not_at_all(void **state)
         assert_int_equal(files_in_folder(), 1);
         unlink(in_folder("full.png"));
     }
-    // A folder in the way.
+    // A folder with the name of the file.
     assert_int_equal(mkdir(in_folder("dir.png"), 0700), 0);
     expect_error(lam_image_save(&image, in_folder("dir.png"), NULL, &error), &error, LAM_CANNOT_WRITE, "dir.png");
     assert_int_equal(files_in_folder(), 1);
     assert_int_equal(rmdir(in_folder("dir.png")), 0);
 
-    // A folder that may not be written; root may.
+    // A read-only folder; root may write to it.
     if (geteuid() != 0) {
         assert_int_equal(chmod(folder, 0500), 0);
         expect_error(lam_image_save(&image, in_folder("a.png"), NULL, &error), &error, LAM_CANNOT_WRITE, "a.png");
         assert_int_equal(chmod(folder, 0700), 0);
         assert_int_equal(files_in_folder(), 0);
     }
-    // An older file is replaced whole.
+    // An older file is replaced completely.
     write_file(in_folder("a.png"), "old", 3);
     assert_true(lam_image_save(&image, in_folder("a.png"), NULL, &error));
     assert_true(lam_image_is_from_lambent(in_folder("a.png")));
@@ -491,7 +491,7 @@ static void compares_bytes(void **state)
     assert_true(lam_image_compare(&a, &b, &d, NULL));
     assert_true(d.maximum == 0 && d.mean == 0 && d.rmse == 0 && isinf(d.psnr_db) && d.psnr_db > 0);
     uint8_t *pixels = b.pixels;
-    for (int i = 0; i < 3; i++) { // off by 1, 2 and 3 in three pixels
+    for (int i = 0; i < 3; i++) { // differences of 1, 2 and 3 in three pixels
         uint8_t *channel = pixels + 4 * (i * 17) + i;
         *channel = (uint8_t)(*channel > 100 ? *channel - (i + 1) : *channel + (i + 1));
     }

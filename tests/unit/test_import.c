@@ -1,4 +1,4 @@
-// test_import.c: recognising formats, companion files, and the models of the corpus.
+// test_import.c: recognising formats, related files, and the models of the corpus.
 #include <lambent/lambent.h>
 
 #include <setjmp.h>
@@ -16,7 +16,7 @@
 
 #define READS "; lambent reads FORMATS"
 
-// A sentence with the list of formats in place of the word FORMATS.
+// An error message with the list of formats instead of the word FORMATS.
 static const char *with_formats(const char *sentence)
 {
     static char text[1000];
@@ -37,7 +37,7 @@ static const char *with_formats(const char *sentence)
     return text;
 }
 
-// Whether the ending of a name is exactly a format's only one, and not that of a format which these tests know.
+// Whether the extension of a name is exactly the only one of a format, and not of a format that these tests know.
 static bool is_read(const char *name)
 {
     const char *ending = name ? strrchr(name, '.') : NULL;
@@ -56,7 +56,7 @@ static void expect_error(const char *bytes, size_t size, const char *name, lam_c
     assert_null(lam_scene_load_memory(bytes, size, name, NULL, NULL, &error));
     assert_string_equal(error.text, with_formats(sentence));
     assert_int_equal(error.code, code);
-    assert_null(lam_scene_load_memory(bytes, size, name, NULL, NULL, NULL)); // no error wanted
+    assert_null(lam_scene_load_memory(bytes, size, name, NULL, NULL, NULL)); // the caller requests no error
 }
 
 static void test_formats(void **unused)
@@ -75,7 +75,7 @@ static void test_formats(void **unused)
                 assert_string_equal(lam_model_format_extensions(count), known[i][1]);
                 found++;
             }
-        // Its own name asks for it, so that an error is its reader's.
+        // Its own extension requests the format, so the error comes from its reader.
         lam_error error = {0};
         assert_null(lam_scene_load_memory("?", 1, "a", &(lam_load_params){.format = name}, NULL, &error));
         assert_non_null(error.text[0] ? error.text : NULL);
@@ -87,7 +87,7 @@ static void test_formats(void **unused)
     assert_null(lam_model_format_extensions(count));
 }
 
-// The content decides the format; the extension only resolves ambiguity.
+// The content determines the format; the extension only resolves ambiguity.
 static void test_choice(void **unused)
 {
     (void)unused;
@@ -164,7 +164,7 @@ static void test_foreign(void **unused)
             LAM_CANNOT_READ),
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (!is_read(rows[i].name)) // a format that has been added since
+        if (!is_read(rows[i].name)) // a format that was added later
             expect_error(rows[i].bytes, rows[i].size, rows[i].name, rows[i].code, rows[i].sentence);
 }
 
@@ -202,7 +202,7 @@ static void write_text(const char *path, const char *text)
     fclose(file);
 }
 
-// Files on disk: material files are opened in the model's folder only.
+// Files on disk: material files are opened only in the model's folder.
 static void test_files(void **unused)
 {
     (void)unused;
@@ -245,7 +245,7 @@ static void test_files(void **unused)
     rmdir(outer);
 }
 
-// --- what a model names, on disk
+// --- files that a model refers to, on disk
 
 static int make_folder(void **state)
 {
@@ -267,7 +267,7 @@ static lam_scene *load_inner(const char *text)
     return scene;
 }
 
-// Links are followed as long as they stay in the model's folder or below; a pipe is never opened.
+// Links are followed if they stay in the model's folder or below; a pipe is never opened.
 static void test_links(void **unused)
 {
     (void)unused;
@@ -282,7 +282,7 @@ static void test_links(void **unused)
     assert_int_equal(symlink("inner", in_folder("also-inner")), 0);
     assert_int_equal(mkfifo(in_folder("inner/pipe.mtl"), 0600), 0);
     static const struct {
-        const char *library, *warning; // NULL: it is read
+        const char *library, *warning; // NULL if it is read
     } rows[] = {
         {"link.mtl", NULL},
         {"absolute.mtl", NULL},
@@ -290,7 +290,7 @@ static void test_links(void **unused)
         {"out.mtl", "/inner/out.mtl: leads out of the folder "},
         {"twice.mtl", "/inner/twice.mtl: leads out of the folder "},
         {"up/outside.mtl", "/inner/up/outside.mtl: leads out of the folder "},
-        {"up/inner/sub/a.mtl", NULL}, // out and in again
+        {"up/inner/sub/a.mtl", NULL}, // out of the folder and back
         {"nowhere-link.mtl", "/inner/nowhere-link.mtl: cannot open: No such file"},
         {"pipe.mtl", "/inner/pipe.mtl: is a pipe, expected a regular file; its materials"},
         {"sub", "/inner/sub: is a directory, expected a file; its materials"},
@@ -305,7 +305,7 @@ static void test_links(void **unused)
             fail_msg("%s: %s", rows[i].library, warning ? warning : "no warning");
         lam_scene_free(scene);
     }
-    // The model's own folder may be named through a link, and from within.
+    // The model's own folder may be named through a link, and from inside.
     lam_scene_free(load_inner("mtllib sub/a.mtl\n"));
     lam_error error;
     lam_scene *scene = lam_scene_load(in_folder("also-inner/m.obj"), NULL, NULL, &error);
@@ -313,8 +313,8 @@ static void test_links(void **unused)
     lam_scene_free(scene);
 }
 
-// Warnings about a material file have its path; of a name in a file they show 32 characters, and nothing that a terminal
-// obeys.
+// Warnings about a material file contain its path; they show at most 32 characters of a name in a file, without control
+// characters.
 static void test_shown_names(void **unused)
 {
     (void)unused;
@@ -347,7 +347,7 @@ static void test_shown_names(void **unused)
     lam_scene_free(scene);
 }
 
-// A zero byte in a material file is a warning, as every mistake in it is.
+// A zero byte in a material file causes a warning, like every mistake in it.
 static void test_zero_in_materials(void **unused)
 {
     (void)unused;
@@ -403,11 +403,11 @@ static void test_libraries(void **unused)
     assert_int_equal(counts.of_a, 1);
     assert_int_equal(counts.opened, 1 + 4); // and "x.mtl a.mtl x", x.mtl, x, "a.mtl a.mtl", once each
     assert_int_equal(lam_scene_material_count(scene), 1);
-    assert_non_null(lam_scene_warning(scene, 1)); // of x.mtl and x, once each
+    assert_non_null(lam_scene_warning(scene, 1)); // for x.mtl and x, once each
     assert_null(lam_scene_warning(scene, 2));
     lam_scene_free(scene);
 
-    // Different ones: 256 are read, with a warning that names the line.
+    // Of different files, 256 are read, with a warning that names the line.
     at = text;
     for (int i = 0; i < TIMES; i++)
         at += sprintf(at, "mtllib n%d.mtl\n", i);
@@ -424,7 +424,7 @@ static void test_libraries(void **unused)
     free(text);
 }
 
-// Every OBJ model of the corpus, with the number of triangles that its table gives, on one thread and on three.
+// Every OBJ model of the corpus, with the number of triangles in its table, with one thread and with three.
 static void test_corpus(void **unused)
 {
     (void)unused;

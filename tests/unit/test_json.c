@@ -1,14 +1,14 @@
-// test_json.c: JSON is parsed as Jansson would, but without memory it is a limit, and no error of the file: whichever
-// allocation fails, and for a moment or for good.
+// test_json.c: JSON is parsed like Jansson does, but a failed allocation is reported as a limit, not as an error of the
+// file, for every allocation, failing once or permanently.
 #include "json_parse.h"
 #include "loading.h"
 
 #include <unistd.h>
 
-// --- an allocator of Jansson's that fails
+// --- an allocator for Jansson that fails
 
-static long countdown; // allocations that still succeed; −1: all
-static bool for_good;  // once failed, all fail
+static long countdown; // allocations that still succeed; −1 means all
+static bool for_good;  // after one failure, all fail
 
 static void *allocate(size_t size)
 {
@@ -105,9 +105,9 @@ static void test_save(void **state)
     unlink(path);
 }
 
-// --- what is parsed
+// --- parsed texts
 
-// Jansson's own parser accepts the same texts and makes the same trees; a tree and an error exclude each other.
+// Jansson's own parser accepts the same texts and makes the same trees; a result is either a tree or an error.
 static void expect_agreement(const char *text, size_t size)
 {
     json_error_t wrong;
@@ -230,7 +230,7 @@ static void test_sentences(void **state)
         assert_string_equal(error.text, rows[i].sentence);
         assert_null(json_parse(rows[i].text, strlen(rows[i].text), "t.json", NULL, NULL));
     }
-    // Whole numbers that 64 bits do not hold are the nearest doubles.
+    // Integers that do not fit in 64 bits become the nearest doubles.
     json_t *list = json_parse("[9223372036854775808]", 21, "t.json", NULL, NULL);
     assert_true(json_is_real(json_array_get(list, 0)) && json_real_value(json_array_get(list, 0)) == 0x1p63);
     json_decref(list);

@@ -1,6 +1,5 @@
-// test_many_lights.c: lights that are left out of a part of the picture: those that add nothing change no
-// bit, those that add little change the picture by no more than the cutoff, and which they are does not
-// depend on the machine.
+// test_many_lights.c: lights omitted in a part of the picture: lights without contribution change no bit, lights with a
+// small contribution change the picture by at most the cutoff, and the selection does not depend on the machine.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -40,7 +39,7 @@ static lam_image draw(const lam_scene *scene, const lam_draw_params *params, lam
     return draw_with(LAM_ISA_AUTO, 2, scene, params, format, report);
 }
 
-// A knot over a floor, both of different materials; `clear`: one can see through the knot.
+// A knot over a floor, with different materials; `clear`: the knot is translucent.
 static lam_scene *make_scene(bool clear)
 {
     lam_scene *scene = lam_scene_make(NULL);
@@ -67,7 +66,7 @@ static lam_vec3 somewhere(struct random *r, double reach)
     return (lam_vec3){reach * (double)x, reach * (double)y, reach * (double)z};
 }
 
-// Any kind of light, with any law of weakening.
+// Any kind of light, with any attenuation.
 static lam_light any_light(struct random *r)
 {
     static const lam_light_type types[] = {LAM_LIGHT_POINT, LAM_LIGHT_POINT, LAM_LIGHT_SPOT, LAM_LIGHT_SPOT,
@@ -94,8 +93,8 @@ static lam_light any_light(struct random *r)
     return light;
 }
 
-// The picture of four lights, few enough to be evaluated everywhere, has the same bits among black lights, so
-// many that lists are made: nothing that adds anything was left out, nothing was added in another order.
+// The picture of four lights, few enough to be evaluated everywhere, has the same bits among so many black lights that
+// lists are made: no contributing light was omitted, and the order of the sum did not change.
 static void test_exact(void **state)
 {
     (void)state;
@@ -129,10 +128,10 @@ static void test_exact(void **state)
         lam_image_free(&many);
         lam_scene_free(scene);
     }
-    assert_true(asked * 10 < all); // at most 4 of 34 are left, and some of these are behind the surface
+    assert_true(asked * 10 < all); // at most 4 of 34 remain, and some of these are behind the surface
 }
 
-// 400 lights: with an end (`ranged`), or fading for ever.
+// 400 lights, with a range (`ranged`) or without.
 static lam_scene *make_many(bool ranged, bool clear)
 {
     lam_scene *scene = make_scene(clear);
@@ -161,7 +160,7 @@ static int largest_byte_difference(const lam_image *a, const lam_image *b)
     return most;
 }
 
-// By default no byte is off by more than 1, and far fewer lights are evaluated.
+// By default, no byte differs by more than 1, and far fewer lights are evaluated.
 static void test_default(void **state)
 {
     (void)state;
@@ -183,8 +182,8 @@ static void test_default(void **state)
     }
 }
 
-// Linear pictures: the difference stays below the cutoff itself, with any cutoff, exposure and method; a
-// larger one saves more. Terms are those of the same lights, and still add up.
+// Linear pictures: the difference stays below the cutoff, with any cutoff, exposure and method; a larger cutoff saves
+// more. Terms use the same lights, and still add up.
 static void test_bound(void **state)
 {
     (void)state;
@@ -234,7 +233,7 @@ static void test_bound(void **state)
     }
 }
 
-// The same bytes with every instruction set and number of threads, also where many layers lie over one another.
+// The bytes are the same with every instruction set and number of threads, also with many layers over one another.
 static void test_same_everywhere(void **state)
 {
     (void)state;
@@ -256,7 +255,7 @@ static void test_same_everywhere(void **state)
     }
 }
 
-// A pixel explained is the picture's; its lights tell which are left out, and those that are not add up.
+// An explained pixel equals the picture's; its lights state which are omitted, and the others add up.
 static void test_explained(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// test_materials.c: the default and the named materials; default lights, their checks, and the rigs.
+// test_materials.c: the default material and the named materials; default lights, their checks, and the rigs.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 #include <lambent/material.h>
 #include <lambent/scene.h>
 
-// The published table: ambient, diffuse, specular, shininess/128. Typed independently of the library's.
+// The published table: ambient, diffuse, specular, shininess/128. Typed in independently of the library's table.
 static const struct {
     lam_material_id id;
     const char *name;
@@ -217,7 +217,7 @@ static void test_light_checks(void **state)
     refused(&cone, "'lamp'");
     assert_false(lam_light_check(NULL, NULL));
 
-    GOOD(LAM_LIGHT_POINT, attenuation, ((lam_attenuation){0, 0, 0})); // stands for 1, 0, 0
+    GOOD(LAM_LIGHT_POINT, attenuation, ((lam_attenuation){0, 0, 0})); // means 1, 0, 0
     GOOD(LAM_LIGHT_POINT, attenuation, ((lam_attenuation){0, 0, 1}));
     GOOD(LAM_LIGHT_SPOT, cutoff_rad, 0.0f);
     GOOD(LAM_LIGHT_SPOT, cutoff_rad, (float)M_PI);
@@ -257,12 +257,12 @@ static void test_rigs(void **state)
         }
     }
     assert_int_equal(hemispheres, 1);
-    // The key comes from the upper left, in front.
+    // The key light comes from the upper left, in front.
     assert_true(lights[0].position.x < 0 && lights[0].position.y > 0 && lights[0].position.z > 0);
 }
 
 // Diffuse and ambient light of the rig on the default material, over all visible directions and camera elevations:
-// never near black, never clipped.
+// never nearly black, never clipped.
 static void test_studio_range(void **state)
 {
     (void)state;
@@ -273,7 +273,7 @@ static void test_studio_range(void **state)
     for (int tilt = -60; tilt <= 60; tilt += 30) {
         double ux = 0, uy = cos(tilt * M_PI / 180), uz = sin(tilt * M_PI / 180);
         for (int a = 0; a < 360; a += 3)
-            for (int b = 0; b <= 90; b += 3) { // b: from the view's axis
+            for (int b = 0; b <= 90; b += 3) { // b is measured from the view's axis
                 double z = cos(b * M_PI / 180), r = sin(b * M_PI / 180);
                 double x = r * cos(a * M_PI / 180), y = r * sin(a * M_PI / 180), sum = 0;
                 for (int i = 0; i < count; i++) {
@@ -298,10 +298,10 @@ static void test_studio_range(void **state)
     }
     assert_true(least > 0.03);     // sRGB 50
     assert_true(most < 0.7);       // sRGB 218: darker than paper, with room for the highlight
-    assert_true(most > 8 * least); // and the form shows
+    assert_true(most > 8 * least); // and the shape is visible
 }
 
-// For each number of a row: the default is valid; numbers outside the range give an error with the field's name.
+// For each number of a row, the default is valid, and numbers outside the range give an error with the field's name.
 static void check_material_field(lam_scene *scene, const lam_field *field)
 {
     const double wrong[] = {field->min - 1, field->max + 1, NAN};
@@ -334,7 +334,7 @@ static void test_fields(void **state)
     lam_scene_free(scene);
     assert_true(count >= 8);
     assert_null(lam_material_field(-1));
-    // A light of a type has each key once.
+    // A light of each type has each key once.
     for (int type = LAM_LIGHT_AMBIENT; type <= LAM_LIGHT_SPOT; type++) {
         lam_light light = lam_light_default((lam_light_type)type);
         for (int i = 0; lam_light_field(i); i++) {

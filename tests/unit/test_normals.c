@@ -1,6 +1,6 @@
 // test_normals.c: smooth and facet normals.
-// Above 600 lines: one test for each rule, each shape of file that once broke it, and the reference that all
-// are held to.
+// The file has more than 600 lines because it contains a test for each rule, each kind of file that once failed, and
+// the reference for all of them.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,8 +24,8 @@
 
 #define RADIANS(degrees) ((degrees) * M_PI / 180)
 
-// Makes the normals of those of a mesh's triangles that `take` picks (0: all), numbered from `first` on; the arrays lie in
-// `arena`.
+// Computes the normals of the triangles of a mesh that `take` selects (0: all), numbered from `first` on; the arrays
+// are in `arena`.
 static bool make_some(const lam_mesh *mesh, uint32_t first, uint32_t take, int lanes, double crease_rad,
                       struct visible_normals *visible, struct arena *arena, struct pool *pool, lam_error *error)
 {
@@ -34,7 +34,7 @@ static bool make_some(const lam_mesh *mesh, uint32_t first, uint32_t take, int l
     size_t words = rank_bitset_words(set->size);
     set->bits = arena_alloc_zeroed(arena, words * sizeof *set->bits);
     set->ranks = arena_array(arena, words, sizeof *set->ranks);
-    // Other meshes' triangles on both sides.
+    // Other meshes' triangles precede and follow.
     for (uint32_t i = 0; set->bits && i < set->size; i++)
         if (i < first ? i % 2 : i - first >= mesh->triangle_count || !take || (i - first) * 2654435761u % take == 0)
             rank_bitset_add(set, i);
@@ -50,7 +50,7 @@ static bool make_some(const lam_mesh *mesh, uint32_t first, uint32_t take, int l
         return false;
     }
     memset(visible->elements, 0xff, (size_t)set->count * 12);
-    // With scratch memory for a part of what is needed, and without any.
+    // With scratch memory for a part of the required size, and without any.
     struct scratch_memory scratch = {.capacity = take == 17 ? 64 * (size_t)mesh->triangle_count : 0};
     scratch.memory = arena_alloc(arena, scratch.capacity + 64);
     if (scratch.memory && scratch.capacity)
@@ -60,7 +60,8 @@ static bool make_some(const lam_mesh *mesh, uint32_t first, uint32_t take, int l
                                 error);
 }
 
-// The normals of any subset of the triangles are those of the whole mesh, and corners that share one there do here.
+// The normals of any subset of the triangles equal the normals of the whole mesh, and corners that share one there also
+// share it here.
 static void visible_as_all(const lam_mesh *mesh, double crease_degrees, struct pool *pool)
 {
     static const uint32_t firsts[] = {0, 70, 64, 70, 0}, takes[] = {0, 3, 17, 3, 0};
@@ -95,7 +96,7 @@ static void visible_as_all(const lam_mesh *mesh, double crease_degrees, struct p
             assert_true(wanted[i]);
         assert_true(members > 0 || !mesh->triangle_count);
         assert_true(visible.used <= 3 * members);
-        // What belongs to other meshes is left alone.
+        // Data of other meshes does not change.
         for (uint32_t i = 1; i < firsts[k]; i += 2)
             assert_int_equal(visible_element(&visible, i, 0), UINT32_MAX);
         assert_int_equal(visible_element(&visible, firsts[k] + mesh->triangle_count, 2), UINT32_MAX);
@@ -114,8 +115,8 @@ static int compare_placed(const void *left, const void *right)
     return order ? order : a->corner < b->corner ? -1 : 1;
 }
 
-// The normals of all triangles are those that the corners at each position, found by sorting, give one position at a time;
-// they are numbered by their first corners.
+// The normals of all triangles equal the normals computed one position at a time from the corners at each position,
+// found by sorting; they are numbered by their first corners.
 static void all_as_one_by_one(const lam_mesh *mesh, double crease_degrees)
 {
     uint32_t corners = 3 * mesh->triangle_count, fans = 0, next = 0;
@@ -196,14 +197,14 @@ static void test_cube(void **state)
     struct arena arena;
     arena_start(&arena, NULL);
     lam_mesh mesh = cube();
-    smooth(&mesh, 40, &arena, NULL); // each face its own
+    smooth(&mesh, 40, &arena, NULL); // each face has its own
     assert_int_equal(mesh.normal_count, 24);
     for (size_t c = 0; c < 36; c++) {
         const float *face = cube_faces[c / 6];
         assert_normal(&mesh, c, (double)face[0], (double)face[1], (double)face[2]);
     }
-    // At 90° all are one. Some faces have two triangles at a corner, some one: the angles, 45° and 45° or 90°, make up
-    // for that, so that the diagonal does not show.
+    // At 90° all are joined. Some faces have two triangles at a corner, some one; the angles, 45° and 45° or 90°,
+    // compensate for that, so the diagonal is invisible.
     static const double creases[] = {90, 120, 180};
     for (int k = 0; k < 3; k++) {
         mesh = cube();
@@ -214,7 +215,7 @@ static void test_cube(void **state)
             double s = 1 / sqrt(3);
             const float *n = normal_of(&mesh, c);
             for (int a = 0; a < 3; a++)
-                assert_true(fabs((double)n[a] - (double)p[a] * s) < 3e-6); // the angle's own error
+                assert_true(fabs((double)n[a] - (double)p[a] * s) < 3e-6); // the error of the angle itself
         }
     }
     mesh = cube();
@@ -225,15 +226,15 @@ static void test_cube(void **state)
 
 // --- The weight of a corner: its triangle's area × its angle
 
-// A sum of v weighted by `weight`, unit.
+// Adds v, weighted by `weight`, to a sum, as a unit vector.
 static void add_weighted(double sum[3], const double v[3], double weight)
 {
     for (int a = 0; a < 3; a++)
         sum[a] += v[a] * weight;
 }
 
-// A tip where three triangles of areas 1 : 10 : 100 or so, and angles from 20° to 150°, meet; in metres, micrometres and
-// light years.
+// A tip where three triangles of areas about 1 : 10 : 100, and angles from 20° to 150°, meet; in metres, micrometres
+// and light years.
 static void test_area_times_angle(void **state)
 {
     (void)state;
@@ -264,16 +265,16 @@ static void test_area_times_angle(void **state)
         double apart = 0;
         for (int a = 0; a < 3; a++) {
             const double n = (double)normal_of(&mesh, 0)[a];
-            assert_true(fabs(n - expected[a] / length) < 1e-5); // the angle's own error
+            assert_true(fabs(n - expected[a] / length) < 1e-5); // the error of the angle itself
             apart = fmax(apart, fabs(n - by_angle[a] / other));
         }
-        assert_true(apart > 0.05); // the test can tell the weights apart
+        assert_true(apart > 0.05); // the test distinguishes the weights
         arena_free(&arena);
     }
 }
 
-// The wall of a cylinder as CAD programs write it: between its facets lie slivers, whose normals are tilted by the
-// rounding of their corners, here by 20°. Weighted by the angle alone, they turn the wall's normals by 10°.
+// The wall of a cylinder as CAD programs write it: between its facets there are slivers, whose normals are tilted by
+// the rounding of their corners, here by 20°. Weighted by the angle alone, they would tilt the wall's normals by 10°.
 static void test_slivers_do_not_streak(void **state)
 {
     (void)state;
@@ -297,7 +298,7 @@ static void test_slivers_do_not_streak(void **state)
     for (size_t c = 0; c < 6 * POINTS; c++) {
         const float *n = normal_of(&mesh, c), *at = p + 3 * (size_t)indices[c];
         double radial = (double)n[0] * (double)at[0] + (double)n[1] * (double)at[1];
-        assert_true(radial > cos(RADIANS(1.1))); // a facet's own is 1° off at its edges
+        assert_true(radial > cos(RADIANS(1.1))); // a facet's own normal is 1° off at its edges
     }
     arena_free(&arena);
 }
@@ -342,7 +343,7 @@ static void test_sphere(void **state)
                 worst = fmax(worst, fabs((double)n[a] - (double)p[a])); // p is the normal of the unit sphere
         }
         assert_true(worst < 20.0 / (slices * slices));
-        assert_true(before == 0 || worst < before / 3.5); // fourfold for each doubling
+        assert_true(before == 0 || worst < before / 3.5); // a quarter for each doubling
         before = worst;
     }
     arena_free(&arena);
@@ -377,7 +378,7 @@ static void test_smoothing_groups(void **state)
     (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
-    // A strip of three triangles in a plane; the groups alone decide which normals may be shared.
+    // A strip of three triangles in a plane; only the groups determine which normals may be shared.
     static const float strip[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
     static const uint32_t indices[] = {0, 1, 2, 2, 1, 3, 2, 3, 4};
     static const struct {
@@ -407,8 +408,7 @@ static void test_degenerate(void **state)
     (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
-    // A floor triangle, a needle along its edge (two equal corners), one with three equal corners, a line on
-    // its own.
+    // A floor triangle, a needle along its edge (two equal corners), one with three equal corners, and a separate line.
     static const float p[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5, 6, 6, 6, 7, 7, 7};
     static const uint32_t indices[] = {0, 1, 2, 1, 0, 0, 2, 2, 2, 3, 4, 5};
     lam_mesh mesh = {.positions = p, .vertex_count = 6, .indices = indices, .triangle_count = 4};
@@ -418,7 +418,7 @@ static void test_degenerate(void **state)
     for (size_t c = 9; c < 12; c++)
         assert_normal(&mesh, c, 0, 0, 0);
 
-    // A sliver on a crease does not smooth it over, and takes a side that it shares an edge with.
+    // A sliver on a crease does not smooth it, and joins a side with which it shares an edge.
     static const float corner[] = {0, 0, 0, 2, 0, 0, 1, 0, 0, 1, 1, 0, 1, 0, 1};
     static const uint32_t bent[] = {0, 1, 3, /* floor side */ 1, 0, 2, /* sliver, on the edge's middle */ 0, 4, 2,
                                     2, 4, 1};
@@ -453,7 +453,7 @@ static void test_bow_tie(void **state)
     (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
-    // Two pyramids' tips touch at vertex 0, without a common edge: two normals there, whatever the crease.
+    // The tips of two pyramids touch at vertex 0, without a common edge: two normals there, for any crease.
     static const float p[] = {0, 0, 0, 1, -1, 1, 1,  -1, -1, -1, -1, -1, -1, -1,
                               1, 1, 1, 1, 1,  1, -1, -1, 1,  -1, -1, 1,  1};
     static const uint32_t indices[] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1, 0, 6, 5, 0, 7, 6, 0, 8, 7, 0, 5, 8};
@@ -465,8 +465,8 @@ static void test_bow_tie(void **state)
     arena_free(&arena);
 }
 
-// Closed vertices are not welded to others at their position, open ones are: three octahedra in the same place, the last
-// without its face towards +x +y +z.
+// Closed vertices are not welded to others at their position, open ones are: three octahedra in the same place, the
+// last without its face towards +x +y +z.
 static void test_closed_vertices(void **state)
 {
     (void)state;
@@ -507,7 +507,7 @@ static void test_inconsistent_winding(void **state)
     smooth(&mesh, 180, &arena, NULL);
     assert_int_equal(mesh.normal_count, 4);
     mesh.indices = turned;
-    smooth(&mesh, 180, &arena, NULL); // not joined even at a crease of 180°, else they would cancel
+    smooth(&mesh, 180, &arena, NULL); // not joined even at a crease of 180°, because they would cancel
     assert_int_equal(mesh.normal_count, 6);
     for (size_t c = 0; c < 6; c++)
         assert_normal(&mesh, c, 0, 0, c < 3 ? 1 : -1);
@@ -525,7 +525,7 @@ static void test_threads(void **state)
     int index = lam_scene_add_shape(scene, "teapot", &(lam_shape_params){.slices = 200, .stacks = 40}, NULL);
     const lam_mesh *teapot = lam_scene_mesh(scene, index);
     size_t corners = 3 * (size_t)teapot->triangle_count;
-    // As it is, and as a soup of triangles as STL files are, without indices and with them.
+    // Unchanged, and as a soup of triangles as in STL files, without indices and with them.
     float *soup = malloc(corners * 12);
     uint32_t *counted = malloc(corners * sizeof *counted);
     for (size_t c = 0; c < corners; c++) {
@@ -561,10 +561,10 @@ static void test_threads(void **state)
     lam_scene_free(scene);
 }
 
-// --- Meshes made to be slow: each must take about as long as any other mesh of its size
+// --- Meshes designed to be slow: each must take about as long as any other mesh of its size
 
-// Triangles between random points of all magnitudes, some of them the same point, some zeros with a sign;
-// most positions have few corners, some very many.
+// Triangles between random points of all magnitudes, some of them equal, some zeros with a sign; most positions have
+// few corners, some very many.
 static void test_random(void **state)
 {
     (void)state;
@@ -605,7 +605,7 @@ static void test_random(void **state)
     }
 }
 
-// Of the processor's time, not of the clock on the wall: some hundred times what is needed.
+// Processor time, not elapsed time: some hundred times what is needed.
 static void within_seconds(clock_t start, double seconds)
 {
     assert_true((double)(clock() - start) / CLOCKS_PER_SEC < seconds);
@@ -614,7 +614,7 @@ static void within_seconds(clock_t start, double seconds)
 static void test_crowd_at_one_vertex(void **state)
 {
     (void)state;
-    enum { COUNT = 200000 }; // squared, they would take minutes
+    enum { COUNT = 200000 }; // quadratic time would be minutes
     struct arena arena;
     arena_start(&arena, NULL);
     float *p = malloc((COUNT + 1) * 12);
@@ -635,7 +635,7 @@ static void test_crowd_at_one_vertex(void **state)
     for (size_t t = 1; t < COUNT; t++)
         assert_int_equal(mesh.normal_indices[3 * t], mesh.normal_indices[0]);
 
-    // The same from several threads, which list their corners in any order.
+    // The same with several threads, which list their corners in any order.
     struct pool *pool = pool_make(3);
     lam_mesh other = mesh;
     smooth(&other, 40, &arena, pool);
@@ -644,7 +644,7 @@ static void test_crowd_at_one_vertex(void **state)
     assert_memory_equal(mesh.normal_indices, other.normal_indices, (size_t)COUNT * 12);
     pool_free(pool);
 
-    // All on one edge, every other one turned.
+    // All on one edge, every other one reversed.
     for (uint32_t i = 0; i < COUNT; i++) {
         uint32_t triangle[3] = {0, i & 1 ? 1 : i / 2 + 2, i & 1 ? i / 2 + 2 : 1};
         memcpy(indices + 3 * (size_t)i, triangle, 12);
@@ -653,7 +653,7 @@ static void test_crowd_at_one_vertex(void **state)
     smooth(&mesh, 40, &arena, NULL);
     within_seconds(start, 20);
 
-    // One triangle as many times, and as many times nothing.
+    // One triangle many times, and the same number of degenerate triangles.
     for (uint32_t i = 0; i < COUNT; i++)
         memcpy(indices + 3 * (size_t)i, (uint32_t[]){0, 1, COUNT / 4}, 12);
     start = clock();
@@ -675,8 +675,8 @@ static uint32_t inverse(uint32_t odd) // modulo 2³², by Newton's steps
     return x;
 }
 
-// Positions that all have the same hash, found by running it backwards: they reach the limit of probes. Each of them once,
-// with and without indices, and twice.
+// Positions that all have the same hash, found by inverting it: they reach the limit of probes. Each of them once, with
+// and without indices, and twice.
 static void test_colliding_positions(void **state)
 {
     (void)state;
@@ -710,7 +710,7 @@ static void test_colliding_positions(void **state)
         clock_t start = clock();
         smooth(&mesh, 40, &arena, NULL);
         within_seconds(start, 20);
-        // Two equal triangles do not share an edge in opposite directions, so that they are welded, but not joined.
+        // Two equal triangles do not share an edge in opposite directions, so they are welded, but not joined.
         assert_int_equal(mesh.normal_count, vertices);
     }
     free(counted);
@@ -718,7 +718,7 @@ static void test_colliding_positions(void **state)
     arena_free(&arena);
 }
 
-// Positions whose hashes begin alike, so that one part of the table gets them all.
+// Positions whose hashes have the same first bits, so that one part of the table gets them all.
 static void test_one_part_of_the_table(void **state)
 {
     (void)state;
@@ -740,7 +740,7 @@ static void test_one_part_of_the_table(void **state)
     }
     uint32_t *indices = malloc(2 * COUNT * sizeof *indices);
     for (uint32_t i = 0; i < 2 * COUNT; i++)
-        indices[i] = i < COUNT ? i : 2 * COUNT - 1 - i; // each triangle again, turned over
+        indices[i] = i < COUNT ? i : 2 * COUNT - 1 - i; // each triangle again, reversed
     lam_mesh mesh = {.positions = p, .vertex_count = COUNT, .indices = indices, .triangle_count = 2 * COUNT / 3};
     smooth(&mesh, 180, &arena, NULL);
     assert_int_equal(mesh.normal_count, COUNT);
@@ -782,7 +782,7 @@ static void test_controls(void **state)
     arena_free(&arena);
     assert_int_equal(call.memory_used, 0);
 
-    // Each allocation failing in turn.
+    // Each allocation fails once.
     bool done = false;
     for (long k = 0; !done; k++) {
         assert_true(k < 100);

@@ -1,4 +1,4 @@
-// test_number.c: numbers are correctly rounded: compared with the C library on random and hard cases.
+// test_number.c: numbers are rounded correctly, compared with the C library on random and hard cases.
 #include "number.h"
 #include "number_scan.h"
 
@@ -19,7 +19,7 @@ static uint64_t random64(void)
     return state;
 }
 
-// A NaN's payload is free: one pattern stands for all.
+// The payload of a NaN is arbitrary, so one pattern represents all.
 static uint64_t bits_of_double(double x)
 {
     uint64_t bits;
@@ -39,7 +39,7 @@ static uint32_t bits_of_float(float x)
 }
 
 // Reads the text with every function, from a block that ends with it, so that the sanitizer detects reads past the end.
-// Compares bits and length with the C library's.
+// It compares bits and length with the C library's.
 static void check(const char *text)
 {
     size_t length = strlen(text);
@@ -181,14 +181,14 @@ static void test_forms(void **unused)
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         check(texts[i]);
-    // Not hexadecimal: the C library would read 16.
+    // Not hexadecimal; the C library would read 16.
     float x;
     const uint8_t *hex = (const uint8_t *)"0x10\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
     assert_ptr_equal(number_float(hex, hex + 4, &x), hex + 1);
     assert_true(x == 0);
 }
 
-// Plain decimals as files have them.
+// Plain decimals as in files.
 static void test_plain(void **unused)
 {
     (void)unused;
@@ -235,7 +235,7 @@ static void test_middles(void **unused)
     static char text[2400];
     for (int i = 0; i < 4000; i++) {
         double middle;
-        if (i % 2) { // of floats, exact as a double; every eighth denormal
+        if (i % 2) { // between floats, exact as a double; every eighth denormal
             uint32_t bits = (uint32_t)random64() & 0x7fffffff;
             if (i % 8 == 1)
                 bits &= 0x007fffff;
@@ -247,7 +247,7 @@ static void test_middles(void **unused)
             if (middle - middle != 0)
                 continue;
             snprintf(text, sizeof text, "%.160f", middle);
-        } else { // of doubles: digits of the exact sum of x and half a unit, in long double
+        } else { // between doubles: digits of the exact sum of x and half a unit, in long double
             uint64_t bits = random64() & INT64_MAX;
             if (i % 8 == 0)
                 bits &= UINT64_C(0x000fffffffffffff);
@@ -265,7 +265,7 @@ static void test_middles(void **unused)
         strcpy(text + length + 500, "1");
         check(text);
         text[length] = 0;
-        for (size_t at = length; at-- > 0;) { // the last digit that is not 0, one less
+        for (size_t at = length; at-- > 0;) { // the last digit that is not 0, minus one
             if (text[at] > '0' && text[at] <= '9') {
                 text[at]--;
                 memset(text + length, '9', 700);

@@ -1,6 +1,7 @@
 // test_obj.c: OBJ and MTL: every form of statement, every error and warning, and results that do not depend on the
 // number of threads and the size of chunks.
-// Above 600 lines: one table-like test for each feature and sentence of one format.
+// The file has more than 600 lines because it contains a table-like test for each feature and error message of one
+// format.
 #include "obj.h"
 
 #include <lambent/image.h>
@@ -95,7 +96,7 @@ static void expect_error(const char *text, lam_code code, const char *sentence)
     assert_int_equal(error.code, code);
 }
 
-// The first warning, and no second one.
+// Expects this warning, and no second one.
 static void expect_warning(const char *text, const struct library *libraries, const char *sentence)
 {
     lam_error error = {0};
@@ -145,7 +146,7 @@ static void test_face_forms(void **unused)
         "\tv\t0 0\t0  \n  v 1 0 0\n v 0 1 0\t\n  f  1\t2   3  \n",
         "v 0 0 0 # first\nv 1 0 0 #\nv 0 1 0 # f 9 9 9\nf 1 2 3 # done \\\n# \\\n",
         "v 0 \\\n0 0\nv 1 0 0\\\n\nv 0 1 0\nf 1 \\\r\n 2\\\n 3\n",
-        "f 1 2 3\n" TRIANGLE, // ahead of its vertices
+        "f 1 2 3\n" TRIANGLE, // before its vertices
         "v 0 0 0 1\nv 1.0 0 0 0.5\nv 0 1e0 -0.0 2\nf 00000001 0000000002 3\n",
         "# nothing\n\n#\\\n" TRIANGLE "#f 1 1 1\nf 1 2 3\n#",
     };
@@ -174,14 +175,14 @@ static void test_attributes(void **unused)
     static const uint32_t normals[6] = {0, 1, 1, 0, 1, 0}, texcoords[6] = {0, 1, 2, 0, 2, 3};
     assert_memory_equal(mesh->normal_indices, normals, sizeof normals);
     assert_memory_equal(mesh->texcoord_indices, texcoords, sizeof texcoords);
-    assert_int_equal(mesh->texcoord_count, 4); // one more, for the corner without
+    assert_int_equal(mesh->texcoord_count, 4); // one more, for the corner without coordinates
     static const float numbers[8] = {0, 0, 1, 0, 0.5f, 0.25f, 0, 0};
     assert_memory_equal(mesh->texcoords, numbers, sizeof numbers);
     assert_true(mesh->normals[3] == 0 && mesh->normals[4] == 1 && mesh->normals[5] == 0);
     lam_scene_free(scene);
 }
 
-// Corners with normals keep them; faces without get computed normals.
+// Corners with normals keep them; faces without normals get computed ones.
 static void test_missing_normals(void **unused)
 {
     (void)unused;
@@ -205,7 +206,7 @@ static void test_missing_normals(void **unused)
 static void test_polygons(void **unused)
 {
     (void)unused;
-    // A concave quad and a concave pentagon beside a triangle; attributes follow their corners.
+    // A concave quad and a concave pentagon next to a triangle; attributes follow their corners.
     lam_scene *scene =
         load("v 0 0 0\nv 2 0 0\nv 0.3 0.3 0\nv 0 2 0\nv 2 2 0\nvt 0 0\nvt 2 0\nvt 0.3 0.3\nvt 0 2\nvt 2 2\n"
              "f 1/1 2/2 3/3 4/4\nf 2/2 5/5 3/3\nf 4/4 1/1 2/2 5/5 3/3\n");
@@ -226,7 +227,7 @@ static void test_polygons(void **unused)
     lam_scene_free(scene);
 }
 
-// One face of a few thousand corners, written over continued lines.
+// One face of a few thousand corners, written on continued lines.
 static void test_large_polygon(void **unused)
 {
     (void)unused;
@@ -369,7 +370,7 @@ static void test_parts(void **unused)
     expect_part(lam_scene_mesh(scene, 0), 0, NULL, 0, 1, 0);
     lam_scene_free(scene);
 
-    // A path that leaves the model's folder is confined to it.
+    // A path that leads out of the model's folder is confined to it.
     scene =
         load_with("mtllib ..\\x\\b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n", (lam_load_params){0}, libraries, &error);
     assert_int_equal(lam_scene_material_count(scene), 2);
@@ -410,7 +411,7 @@ static void test_colors(void **unused)
     lam_scene_free(scene);
 }
 
-// A detail of a millimetre is kept 500 km from zero.
+// A detail of a millimetre is preserved 500 km from zero.
 static void test_origin(void **unused)
 {
     (void)unused;
@@ -473,7 +474,7 @@ static void test_mtl(void **unused)
     lam_scene_free(scene);
 }
 
-// Ns 0 takes the highlight away, where there is one; a small exponent does not.
+// Ns 0 removes the highlight if there is one; a small exponent does not.
 static void test_mtl_exponents(void **unused)
 {
     (void)unused;
@@ -518,13 +519,13 @@ static void test_mtl_maps(void **unused)
                         "t.obj: 1 reflection map (refl) is not drawn: materials mirror the scene's environment, which "
                         "they have in common");
     assert_string_equal(lam_scene_warning(scene, 1), "t.obj: 1 map of materials that this version does not draw");
-    for (int i = 2; i <= 5; i++) // none of the pictures is there
+    for (int i = 2; i <= 5; i++) // none of the pictures exists
         assert_non_null(strstr(lam_scene_warning(scene, i), "drawn without this texture"));
     assert_null(lam_scene_warning(scene, 6));
     lam_scene_free(scene);
 }
 
-// Options with numbers that are none, or absurd: a warning each, and the map as without the option.
+// Options with invalid or absurd numbers: a warning each, and the map without the option.
 static void test_mtl_options(void **unused)
 {
     (void)unused;
@@ -598,7 +599,7 @@ static void test_mtl_warnings(void **unused)
     }
 }
 
-// Where a picture would show nothing, all is opaque: MeshLab writes Tr 1 for that. One warning says so.
+// If a picture would show nothing, everything is opaque, because MeshLab writes Tr 1 for this. One warning states this.
 static void test_clear(void **unused)
 {
     (void)unused;
@@ -614,12 +615,12 @@ static void test_clear(void **unused)
          "a.mtl:3: material 'a' is fully transparent (d 0)" OPAQUE},
         {"usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\nd 0\n", 1, 1,
          "a.mtl:2: material 'a' is fully transparent (Tr 1), the first of 2" OPAQUE},
-        // Something is seen: nothing changes.
+        // Something is visible, so nothing changes.
         {"usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\nTr 0.999\n", 0, 1 - 0.999f,
          "a.mtl:2: material 'a' is fully transparent (Tr 1)"},
         {"f 1 2 3\nusemtl a\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\n", 0, 1,
          "a.mtl:2: material 'a' is fully transparent (Tr 1)"},
-        // A material that no face shows does not count.
+        // A material that no face uses is ignored.
         {"usemtl b\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\n", 0, 1,
          "a.mtl:2: material 'a' is fully transparent (Tr 1)"},
         {"usemtl b\nusemtl a\nf 1 2 3\n", "newmtl a\nTr 1\nnewmtl b\n", 1, 1,
@@ -776,7 +777,7 @@ static void test_memory(void **unused)
             assert_int_equal(error.code, LAM_LIMIT);
             continue;
         }
-        // A warning may be lost for lack of memory; all other allocations must succeed.
+        // A warning may be lost if memory is insufficient; all other allocations must succeed.
         bool all = lam_scene_warning(scene, 2) != NULL;
         lam_scene_free(scene);
         if (all)

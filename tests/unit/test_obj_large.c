@@ -1,4 +1,4 @@
-// test_obj_large.c: large OBJ files that are read piece by piece give the same scene as files that are read whole.
+// test_obj_large.c: large OBJ files read piece by piece give the same scene as files read as a whole.
 #include "loading.h"
 
 #include "obj.h"
@@ -14,8 +14,8 @@ static size_t size, faces_begin;
 
 // The style of a generated file.
 struct style {
-    const char *first;    // stands before all
-    const char *corner;   // of a face, by printf: its number, up to three times
+    const char *first;    // precedes everything
+    const char *corner;   // of a face, for printf: its number, up to three times
     const char *line_end; // NULL: "\n"
     const char *number;   // NULL: "%.6f"
     bool texcoords, normals, quads, parts, mixed, last_line_open;
@@ -150,7 +150,7 @@ static void assert_same_scene(const lam_scene *a, const lam_scene *b)
         assert_same_text(lam_scene_warning(a, w), lam_scene_warning(b, w));
 }
 
-// Loads the file from disk and from memory, and compares the scenes or the errors. Returns whether it loaded.
+// Loads the file from disk and from memory, and compares the scenes or the errors. It returns whether the file loaded.
 static bool load_both(void)
 {
     bool loaded = false;
@@ -174,7 +174,7 @@ static bool load_both(void)
     return loaded;
 }
 
-// Usual files are read piece by piece.
+// Typical files are read piece by piece.
 static void usual_files(void **state)
 {
     (void)state;
@@ -201,14 +201,14 @@ static void usual_files(void **state)
     for (size_t i = 0; i < sizeof styles / sizeof *styles; i++) {
         make(styles[i]);
         assert_true(load_both());
-        bool lines = styles[i].first && styles[i].first[0] == 'l'; // warned of, with a line number
+        bool lines = styles[i].first && styles[i].first[0] == 'l'; // with a warning that contains a line number
         for (int threads = 1; threads <= 3; threads++)
             assert_int_equal(served(threads), !lines);
     }
 }
 
-// Groups, materials and smoothing groups between the faces. The warning about an undefined material names its line, so
-// the file is read whole.
+// Groups, materials and smoothing groups between the faces. The warning about an undefined material contains its line,
+// so the file is read as a whole.
 static void statements(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static void statements(void **state)
     assert_true(served(3));
 }
 
-// Valid but unusual files are read whole.
+// Valid but unusual files are read as a whole.
 static void unusual_files(void **state)
 {
     (void)state;
@@ -288,7 +288,7 @@ static void edges(void **state)
             memmove(text + at + comment + length, copy + next, whole - next);
             memcpy(text + at + comment, lines[l], length);
             size = at + comment + length + (whole - next);
-            // Fewer vertices: faces of the last ones go too.
+            // Fewer vertices, without the faces of the last ones.
             size = (size_t)(strstr(text, "f 41") - text);
             assert_true(load_both());
         }
@@ -327,7 +327,7 @@ static void errors_are_those_of_small_files(void **state)
     make((struct style){0});
     size = faces_begin; // no faces
     assert_false(load_both());
-    make((struct style){.first = "# a comment\r", .line_end = "\r"}); // of old Macintosh programs
+    make((struct style){.first = "# a comment\r", .line_end = "\r"}); // from old Macintosh programs
     assert_true(load_both());
     assert_false(served(2));
 }
@@ -346,7 +346,7 @@ static void can_be_stopped(void **state)
     assert_int_equal(error.code, LAM_LIMIT);
 }
 
-// Each allocation fails in turn: the file is refused, or read whole; nothing leaks.
+// Each allocation fails once: the file is refused, or read as a whole; nothing leaks.
 static void memory(void **state)
 {
     (void)state;

@@ -34,7 +34,7 @@ static int readers(obj_lines_reader *out[2])
 
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
 
-// A position line with numbers of that form; `digits`: up to that many of each are random.
+// A position line with numbers of that form; up to `digits` digits of each are random.
 static size_t make_position(char *at, const char *form, uint64_t digits, const char *end, float *out)
 {
     size_t length = 1;
@@ -98,7 +98,7 @@ static void positions(void **state)
     }
 }
 
-// Decimals beside the middle between two floats, where a product's roundings decide nothing.
+// Decimals next to the midpoint of two floats, where the rounding of a product must not decide.
 static void halves(void **state)
 {
     (void)state;
@@ -106,7 +106,8 @@ static void halves(void **state)
     for (int i = 0; i < LINES; i++) {
         text[size++] = 'v';
         for (int k = 0; k < 3; k++) {
-            // Of a float between 1 and 2, and the next one, the middle: 25 bits; as 15 digits, and one beside.
+            // The midpoint of a float between 1 and 2 and the next one has 25 bits; it is written with 15 digits, and
+            // with one digit changed.
             double middle = 1 + (double)(2 * (next_random() % (1 << 23)) + 1) / (1 << 24);
             char number[64];
             snprintf(number, sizeof number, k ? "%.14f" : "%.7f", middle);
@@ -128,7 +129,7 @@ static void triangles(void **state)
             static const uint32_t most[] = {9, 99, 999, 9999, 99999, 999999, 9999999, 99999999, 2147483647};
             uint32_t corner = (uint32_t)(next_random() % most[next_random() % 9]) + 1;
             expected_corners[3 * i + k] = corner - 1;
-            // Leading zeros, and more than one space, are allowed too.
+            // Leading zeros, and more than one space, are also allowed.
             size += (size_t)sprintf(text + size, i % 50 == 49 ? "  %u" : i % 50 == 48 ? " 00%u" : " %u", corner);
         }
         size += (size_t)sprintf(text + size, "%s", i % 9 ? "\n" : i % 2 ? " \n" : "\r\n");
@@ -136,13 +137,13 @@ static void triangles(void **state)
     check(size, 0, LINES);
 }
 
-// Lines of another form are refused by the fast path.
+// The fast path refuses lines of another form.
 static void others(void **state)
 {
     (void)state;
     static const struct {
         const char *line;
-        int positions, triangles; // that it makes; −1: it is refused
+        int positions, triangles; // that it makes; −1 if it is refused
     } lines[] = {
         {"v 1.0 2.0 3.0 4.0\n", 1, 0},
         {"v 1.0 2.0\n", -1, 0},

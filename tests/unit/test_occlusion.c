@@ -1,5 +1,5 @@
-// test_occlusion.c: ambient occlusion against what is known: planes have none, and a floor beside a wall has the integral over
-// all directions; and when a frame has any.
+// test_occlusion.c: compares ambient occlusion with known results: planes have none, and a floor next to a wall has the
+// integral over all directions; it also tests when a frame has any.
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -29,7 +29,7 @@ static void add_rectangle(lam_scene *scene, lam_vec3 at, lam_vec3 u, lam_vec3 v)
     assert_true(object.mesh >= 0 && lam_scene_add_object(scene, &object, NULL) >= 0);
 }
 
-// The share at each pixel; −1 where nothing is. The caller frees it.
+// The share at each pixel; −1 for the background. The caller frees it.
 static float *shares(const lam_scene *scene, const lam_camera *camera, lam_draw_params params)
 {
     lam_error error;
@@ -50,7 +50,7 @@ static float *shares(const lam_scene *scene, const lam_camera *camera, lam_draw_
     return out;
 }
 
-// However a plane lies, in perspective or not: exactly all of the light, but for rounding.
+// A plane at any angle, in perspective or not, has exactly all of the light, except for rounding.
 static void test_planes(void **state)
 {
     (void)state;
@@ -65,7 +65,7 @@ static void test_planes(void **state)
             float *a = shares(scene, &camera, (lam_draw_params){.samples = turn % 2 ? 8 : 1});
             int seen = 0;
             for (int i = 3 * SIZE + 3; i < SIZE * (SIZE - 3) - 3; i++) {
-                // At the plane's rim samples do not lie around the pixels' centres, and the filter spreads that.
+                // At the plane's rim, samples are not around the pixels' centres, and the filter spreads this.
                 bool inside = true;
                 for (int y = -3; y <= 3; y++)
                     for (int x = -3; x <= 3; x++)
@@ -80,8 +80,8 @@ static void test_planes(void **state)
         }
 }
 
-// A floor with a wall across, looked down upon. Near the wall the radius does not matter, and the wall is as good as infinite
-// to the sides; beyond the radius nothing occludes.
+// A floor with a wall across, seen from above. Near the wall, the radius has no effect, and the wall is practically
+// infinite to the sides; beyond the radius nothing occludes.
 static void check_wall(lam_occlusion method)
 {
     bool rays = method == LAM_OCCLUSION_RAYS;
@@ -99,14 +99,15 @@ static void check_wall(lam_occlusion method)
             .samples = 1, .occlusion = method, .occlusion_radius = (float)(radius / half), .occlusion_samples = 128});
     // The middle column, from the wall's foot towards the eye: each row is a step dz along the floor.
     double slope = sqrt(3 * 3 + 2.5 * 2.5), dz = 3.0 / SIZE * slope / 3;
-    double foot = SIZE / 2 - 0.5 / dz; // row of the foot: the view's middle is at z = 0.5
+    double foot = SIZE / 2 - 0.5 / dz; // the row of the foot: the view's middle is at z = 0.5
     double before = 0;
     int checked = 0;
     for (int row = (int)foot + 2; row < SIZE; row++) {
         double d = (row + 0.5 - foot) * dz, share = (double)a[row * SIZE + SIZE / 2];
-        assert_true(share > before - 0.03); // lighter and lighter, but for noise
+        assert_true(share > before - 0.03); // increasingly bright, except for noise
         before = share > before ? share : before;
-        // The mean over cosine-weighted directions, each occluded by the share that its way to the wall leaves of the radius.
+        // The mean over cosine-weighted directions, each occluded according to the distance to the wall relative to the
+        // radius.
         double exact = 0, all = 0;
         for (int i = 0; i < 200; i++)
             for (int k = 0; k < 400; k++) {
@@ -133,7 +134,7 @@ static void test_wall(void **state)
 
 // --- rays
 
-// Whether a triangle is in the way of a ray, and where (Möller and Trumbore 1997), in double.
+// Whether a triangle blocks a ray, and at which distance (Möller and Trumbore 1997), in double.
 static double crossing(const double p[3][3], const double o[3], const double d[3])
 {
     double a[3], b[3], s[3], h[3], q[3], det = 0, u = 0, v = 0, t = 0;
@@ -155,8 +156,8 @@ static double crossing(const double p[3][3], const double o[3], const double d[3
     return det != 0 && u / det >= 0 && v / det >= 0 && (u + v) / det <= 1 && t / det > 0 ? t / det : HUGE_VAL;
 }
 
-// The integral at the point o with the normal n: `rings` × 4 `rings` cosine-weighted directions against all triangles but
-// `own`, each occluded by what its way to the nearest of them leaves of the radius.
+// The integral at the point o with the normal n: `rings` × 4 `rings` cosine-weighted directions against all triangles
+// except `own`, each occluded according to the distance to the nearest of them relative to the radius.
 static double integral(const double (*triangles)[3][3], int count, int own, const double o[3], const double n[3],
                        double radius, int rings)
 {
@@ -183,7 +184,7 @@ static double integral(const double (*triangles)[3][3], int count, int own, cons
     return sum / (4.0 * rings * rings);
 }
 
-// Where a pixel's surface is, and its triangle in its mesh. False: nothing is shown.
+// The surface point of a pixel, and its triangle in its mesh. False if no surface is visible.
 static bool explained(lam_device *device, const lam_scene *scene, const lam_camera *camera, int x, int y, double o[3],
                       uint32_t *triangle)
 {
@@ -207,7 +208,7 @@ static bool explained(lam_device *device, const lam_scene *scene, const lam_came
 
 static uint32_t random_bits(uint32_t *state) { return *state = *state * 1664525 + 1013904223; }
 
-// Triangles in disorder: the device's rays against the integral, at pixels over the picture.
+// Random triangles: the device's rays compared with the integral, at pixels over the picture.
 static void test_rays_integral(void **state)
 {
     (void)state;
@@ -293,8 +294,8 @@ static float mean_share(const float *a, double *deviation)
     return (float)(sum / count);
 }
 
-// Known shares: a plane has all of the light, the inside of a closed box none, and a bowl that is half of a ball ½ everywhere,
-// since all parts of a ball are equally bright to one another.
+// Known shares: a plane has all of the light, the inside of a closed box none, and a hemispherical bowl ½ everywhere,
+// because all parts of a sphere are equally bright to one another.
 static void test_rays_known(void **state)
 {
     (void)state;
@@ -356,7 +357,7 @@ static void test_rays_known(void **state)
     lam_scene_free(scene);
 }
 
-// A plate over a floor: a translucent one takes the share of its opacity, a masked one all or nothing.
+// A plate over a floor: a translucent plate blocks the share of its opacity, and a masked one everything or nothing.
 static void test_rays_opacity(void **state)
 {
     (void)state;
@@ -381,7 +382,7 @@ static void test_rays_opacity(void **state)
         lam_draw_params params = {
             .samples = 1, .occlusion = LAM_OCCLUSION_RAYS, .occlusion_radius = 1, .occlusion_samples = 32};
         float *a = shares(scene, &camera, params);
-        taken[i] = 1 - (double)a[SIZE / 2 * SIZE + SIZE / 2]; // of the floor, under the plate
+        taken[i] = 1 - (double)a[SIZE / 2 * SIZE + SIZE / 2]; // on the floor, under the plate
         free(a);
         lam_scene_free(scene);
     }
@@ -389,8 +390,8 @@ static void test_rays_opacity(void **state)
     assert_true(fabs(taken[1] - 0.25 * taken[0]) < 1e-6);
 }
 
-// A plate that hovers over a floor, seen from the front at a slant: what the eye sees of the floor under it is dark. The screen's
-// shares against those by rays, over the whole picture.
+// A plate above a floor, seen at an angle from the front: the visible floor under it is dark. Compares the screen's
+// shares with the ray-traced shares, over the whole picture.
 static void test_screen_beside_rays(void **state)
 {
     (void)state;
@@ -422,12 +423,12 @@ static void test_screen_beside_rays(void **state)
     lam_scene_free(scene);
 }
 
-// The cavity leaves planes as they are, darkens the inner edges of a step and lightens the outer ones.
+// Cavity shading leaves planes unchanged, darkens the inner edges of a step and lightens the outer ones.
 static void test_cavity(void **state)
 {
     (void)state;
     lam_scene *scene = lam_scene_make(NULL);
-    // Two levels and the wall between them, seen from in front and above.
+    // Two levels and the wall between them, seen from the front and above.
     add_rectangle(scene, (lam_vec3){-1, 0, 0}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 0, 1});
     add_rectangle(scene, (lam_vec3){-1, 0, 0}, (lam_vec3){0, 0.5, 0}, (lam_vec3){2, 0, 0});
     add_rectangle(scene, (lam_vec3){-1, 0.5, 0}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 0, -1});
@@ -467,7 +468,7 @@ static bool same_picture(const lam_scene *scene, lam_draw_params a, lam_draw_par
     return same;
 }
 
-// The studio has occlusion and lights by hand have none, unless they say so; it needs Phong shading.
+// The studio has occlusion, and lights given by hand have none unless requested; occlusion needs Phong shading.
 static void test_when(void **state)
 {
     (void)state;
@@ -494,7 +495,7 @@ static void test_when(void **state)
     lam_light light = lam_light_default(LAM_LIGHT_DIRECTIONAL);
     assert_int_equal(lam_scene_add_light(scene, &light, &error), 0);
     assert_true(same_picture(scene, plain, off));
-    assert_true(same_picture(scene, screen, off)); // no light that it could dim
+    assert_true(same_picture(scene, screen, off)); // there is no light that it could dim
     light.occluded = 1;
     assert_int_equal(lam_scene_add_light(scene, &light, &error), 1);
     assert_false(same_picture(scene, plain, off));

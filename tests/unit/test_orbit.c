@@ -1,4 +1,4 @@
-// test_orbit.c: the orbit of a fitted camera, turned, moved and zoomed.
+// test_orbit.c: the orbit of a fitted camera: rotating, moving and zooming.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,7 +28,7 @@ static lam_scene *teapot(lam_up up)
     return scene;
 }
 
-// Where a point of the world lies in a picture of 100 × 100 pixels.
+// The position of a point of the world in a picture of 100 × 100 pixels.
 static void project(const lam_camera *camera, lam_vec3 p, double *x, double *y)
 {
     lam_mat4 m = lam_camera_view_matrix(camera);
@@ -104,7 +104,7 @@ static void pans_and_zooms(void **state)
         lam_orbit_pan(&orbit, INFINITY, 0);
         assert_memory_equal(&orbit, &before, sizeof orbit);
         orbit.reserved[3] = 1;
-        assert_true(lam_orbit_camera(&orbit).reserved[0] != 0); // refused when drawn
+        assert_true(lam_orbit_camera(&orbit).reserved[0] != 0); // refused when drawing
     }
 }
 

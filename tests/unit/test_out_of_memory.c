@@ -1,8 +1,8 @@
-// test_out_of_memory.c: loads and draws small files of every format while one request for memory after the other fails, and while
-// reads of them fall short.
+// test_out_of_memory.c: loads and draws small files of every format while single memory requests fail, and while reads
+// return too little.
 //
-// However memory runs out, a call gives the same picture as ever, or LAM_LIMIT and a sentence about memory; nothing stays
-// allocated. `test-out-of-memory FILE N`, for a debugger: one request alone, of one row.
+// Whenever memory runs out, a call gives the same picture as usual, or LAM_LIMIT and a message about memory; nothing
+// stays allocated. `test-out-of-memory FILE N`, for a debugger: one request of one row.
 #include "failing_memory.h"
 
 #include <lambent/lambent.h>
@@ -19,7 +19,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 
-#ifndef TESTS // by hand, from the root of the sources
+#ifndef TESTS // for a call by hand, from the root of the sources
 #define TESTS "tests"
 #endif
 
@@ -30,10 +30,10 @@ enum {
     ENVIRONMENT = 4,
     TANGENTS = 8,
     NORMALS_LATE = 16,
-    SAVE = 32, // encodes the picture, too
+    SAVE = 32, // also encodes the picture
     ANIMATED = 64,
-    // All requests from one on fail, never one alone: libraries of pictures call a file damaged when they find no memory, and
-    // are asked again with a request that must fail too.
+    // All requests from one on fail, never one alone: picture libraries report a damaged file if memory is
+    // insufficient, and are called again with a request that must also fail.
     ONWARDS = 128,
     TWO_THREADS = 256,
 };
@@ -66,7 +66,7 @@ static const struct row {
     {"exr.obj", ONWARDS},
 };
 
-// Models in a folder of their own: one with a picture of every format as a map, and one with EXR's.
+// Models in a separate folder: one with a picture of every format as a map, and one with EXR's.
 static const char *const pictures[] = {
     "pictures/png/palette8.png",      "pictures/png/bits16-interlaced.png",
     "pictures/jpeg/color420.jpg",     "pictures/jpeg/cmyk-progressive.jpg",
@@ -131,12 +131,12 @@ static int make_files(void **state)
         snprintf(text, sizeof text, model, i ? "e" : "t");
         write_file(i ? "exr.obj" : "textured.obj", text, strlen(text));
     }
-    // Libraries stay open: what the loader itself needs to open them again and again is not of this test.
+    // Libraries stay open, because this test does not cover the loader's own requests for opening them again and again.
     static const char *const libraries[LIBRARIES] = {"libwebp.so.7", "libOpenEXRCore-3_1.so.30",
                                                      "libmeshoptimizer.so.2d", "libfreetype.so.6"};
     for (int i = 0; i < LIBRARIES; i++)
         dlopen(libraries[i], RTLD_NOW | RTLD_NODELETE);
-    // libwebp 1.2 follows a null pointer in some places where it finds no memory (src/image/formats/webp.c).
+    // libwebp 1.2 dereferences a null pointer in some places if memory is insufficient (src/image/formats/webp.c).
     memory_spare("libwebp");
     return 0;
 }
@@ -149,7 +149,7 @@ static int remove_files(void **state)
     return system(command);
 }
 
-// What a run gave.
+// The results of a run.
 struct outcome {
     bool ok;
     _Alignas(16) uint8_t pixels[4 * PIXELS];
@@ -225,7 +225,7 @@ static int fail_each_request(const struct row *row)
 {
     int mistakes = 0;
     struct outcome whole, now;
-    // Twice: the first run may leave something with the process, as the C library's own buffers.
+    // Runs twice: the first run may leave something in the process, such as the C library's own buffers.
     render(row, &whole);
     memory_fail_at(-1, false);
     render(row, &whole);
@@ -248,7 +248,7 @@ static int fail_each_request(const struct row *row)
             const bool failed = memory_failed();
             memory_fail_at(-1, false);
             const struct memory_held after = memory_held();
-            // A warning that finds no memory is left out; nothing else may be.
+            // A warning may be omitted if memory is insufficient; nothing else may.
             const bool good =
                 now.ok ? memcmp(now.pixels, whole.pixels, sizeof now.pixels) == 0 && now.warnings <= whole.warnings
                        : failed && now.error.code == LAM_LIMIT && strstr(now.error.text, "memory");
@@ -276,8 +276,8 @@ static void test_requests_fail(void **state)
     assert_int_equal(mistakes, 0);
 }
 
-// Reads of a byte or three at a time give the same picture. A file that ends earlier than it says, or an error of the disk at
-// any offset, is LAM_CANNOT_READ.
+// Reads of one or three bytes at a time give the same picture. A file that ends too early, or a disk error at any
+// offset, is LAM_CANNOT_READ.
 static void test_reads_fall_short(void **state)
 {
     (void)state;
@@ -287,10 +287,10 @@ static void test_reads_fall_short(void **state)
         struct outcome whole, now;
         char path[512];
         if (row->ways & ENVIRONMENT)
-            continue; // takes long, and reads nothing else
+            continue; // slow, and reads nothing else
         render(row, &whole);
         if (!whole.ok && whole.error.code == LAM_UNSUPPORTED)
-            continue; // the other test says why
+            continue; // the other test gives the reason
         assert_true(whole.ok);
         for (size_t most = 1; most <= 7; most += 2) {
             reads_return_at_most(most);
@@ -308,7 +308,7 @@ static void test_reads_fall_short(void **state)
                 const bool ended = reads_ended();
                 reads_end_at(-1, false);
                 const struct memory_held after = memory_held();
-                // A map that cannot be read is a warning, and the picture another one.
+                // An unreadable map causes a warning and another picture.
                 if (now.ok ? now.warnings == whole.warnings : now.error.code != LAM_CANNOT_READ || !now.error.text[0])
                     fail_msg("%s, %s at byte %ld: %s (code %d)", row->file, error ? "an error" : "the end", at,
                              now.ok ? "a picture" : now.error.text, now.error.code);
@@ -321,7 +321,7 @@ static void test_reads_fall_short(void **state)
     }
 }
 
-// The first bytes of each file from standard input, three at a time, give what they give in memory.
+// The first bytes of each file, from standard input, three at a time, give the same result as in memory.
 static void test_pipes(void **state)
 {
     (void)state;

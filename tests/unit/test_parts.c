@@ -1,4 +1,4 @@
-// test_parts.c: large files are read part by part; what comes of it is what comes of reading them whole.
+// test_parts.c: large files read part by part give the same result as files read as a whole.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -93,7 +93,7 @@ static void write_file(void)
     assert_int_equal(fclose(file), 0);
 }
 
-// Loads the file, and its bytes by the same name: both scenes, or both errors, are equal. Whether it loaded.
+// Loads the file, and its bytes under the same name; both scenes, or both errors, are equal. Returns whether it loaded.
 static bool load_both(void)
 {
     write_file();
@@ -134,7 +134,7 @@ static bool load_both(void)
     return loaded;
 }
 
-// Whether the file can be loaded within a budget that has no room for the whole of it beside what comes of it.
+// Whether the file can be loaded within a memory limit that has no room for both the whole file and the result.
 static bool fits(size_t kept)
 {
     lam_error error;
@@ -195,7 +195,7 @@ static void errors_are_those_of_whole_files(void **state)
     size -= 5;
     assert_false(load_both());
     make_ply("", 0, usual_list);
-    size += 5; // more behind the end
+    size += 5; // more data after the end
     assert_true(load_both());
     make_stl(0);
     float infinite = __builtin_inff();

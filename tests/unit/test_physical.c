@@ -1,4 +1,4 @@
-// test_physical.c: metallic–roughness materials beside classic ones, and each as the other.
+// test_physical.c: metallic–roughness materials next to classic ones, and conversions between them.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -45,7 +45,7 @@ static void test_as_classic(void **state)
     assert_memory_equal(&same.diffuse, &classic.diffuse, sizeof same.diffuse);
 }
 
-// What a physical material becomes comes back.
+// Converting a physical material and back preserves it.
 static void test_and_back(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void test_and_back(void **state)
     }
 }
 
-// Two spheres side by side, with a material each.
+// Two spheres side by side, each with a material.
 static lam_scene *two_spheres(const lam_material *left, const lam_material *right)
 {
     lam_error error;
@@ -106,7 +106,7 @@ static void test_two_kinds_in_one_scene(void **state)
     draw(scene, LAM_REFLECTION_AUTO, picture[0]);
     draw(scene, LAM_REFLECTION_GGX, picture[1]);
     draw(scene, LAM_REFLECTION_BLINN_PHONG, picture[2]);
-    // Without a model of the caller's, each has its own: left GGX, right Blinn–Phong.
+    // Without a reflection model from the caller, each has its own: left GGX, right Blinn–Phong.
     int other = 0;
     for (int y = 0; y < HEIGHT; y++) {
         assert_memory_equal(picture[0][y], picture[1][y], sizeof picture[0][y] / 2);
@@ -115,7 +115,7 @@ static void test_two_kinds_in_one_scene(void **state)
         other += memcmp(picture[1][y] + WIDTH / 2, picture[2][y] + WIDTH / 2, sizeof picture[0][y] / 2) != 0;
     }
     assert_true(other > HEIGHT / 2); // and the models differ
-    // What another model shows is the material as lam_material_as_classic has it.
+    // Another reflection model draws the material as lam_material_as_classic converts it.
     lam_material classic = lam_material_as_classic(&metal);
     lam_error error;
     assert_true(lam_scene_set_material(scene, 0, &classic, &error));
@@ -140,7 +140,7 @@ static void test_unlit(void **state)
     lam_scene_free(scene);
 }
 
-// An object whose front and back are of different kinds is drawn by the model of its front.
+// If the front and back of an object are of different kinds, the reflection model of the front draws both.
 static void test_back_of_the_other_kind(void **state)
 {
     (void)state;
@@ -165,7 +165,8 @@ static void test_back_of_the_other_kind(void **state)
     lam_scene_free(scene);
 }
 
-// A square that faces the eye, with normals that face away from it, and light that they face: neither a metal nor a layer is black.
+// A square that faces the eye, with normals that point away from it, and light in their direction: neither a metal nor
+// a layer is black.
 static void test_leaning_normals(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// test_pick.c: lam_pick finds the surface that lam_explain, and so the picture, has at a pixel's centre.
+// test_pick.c: lam_pick finds the same surface at a pixel's centre as lam_explain and the picture.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 
 #include "device_fixture.h"
 
-enum { WIDTH = 60, HEIGHT = 44, STEP = 5 }; // pixels between two that are compared
+enum { WIDTH = 60, HEIGHT = 44, STEP = 5 }; // pixels between two compared ones
 
 static int add(lam_scene *scene, const char *shape, double x, int material)
 {
@@ -49,7 +49,7 @@ static const lam_explained_fragment *nearest(const lam_explanation *e, const lam
     return found;
 }
 
-// Compares pixels of a grid, but for one on an edge, where rounding decides. Returns how many show a surface.
+// Compares the pixels of a grid, except pixels on an edge, where rounding decides. Returns how many show a surface.
 static int compare(const lam_scene *scene, const lam_camera *camera)
 {
     lam_error error = {0};
@@ -105,7 +105,7 @@ static void as_explained(void **state)
     lam_camera orthographic = lam_camera_fit(scene, WIDTH, HEIGHT, &flat);
     assert_true(compare(scene, &orthographic) > 15);
     for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) { // what is not drawn is not found
+        for (int x = 0; x < WIDTH; x++) { // culled surfaces are not found
             lam_picked picked;
             assert_true(
                 lam_pick(scene, &camera, NULL, &(lam_pick_pixel){WIDTH, HEIGHT, x, y, {0}}, NULL, &picked, NULL));

@@ -1,5 +1,5 @@
-// test_picture_limits.c: reading pictures obeys the limits of the call in every format, and takes no memory for a header
-// that claims too much.
+// test_picture_limits.c: reading pictures obeys the limits of the call in every format, and allocates no memory for a
+// header that claims too much.
 #include "codec.h"
 
 #include <setjmp.h>
@@ -62,7 +62,7 @@ static struct file make_hdr(void)
     return file;
 }
 
-// 24 bits a pixel after a header.
+// 24 bits per pixel after a header.
 static struct file make_plain(const uint8_t *header, size_t size)
 {
     struct file file = {malloc(size + 3 * PIXELS), size + 3 * PIXELS};
@@ -80,7 +80,7 @@ static struct file encode(const char *format, lam_pixel_format pixels)
     assert_true(lam_image_make(&image, SIDE, SIDE, pixels, NULL));
     memset(image.pixels, 0, PIXELS * (pixels == LAM_RGBA8 ? 4 : 16));
     bool ok = lam_image_encode(&image, format, NULL, &bytes, &error);
-    if (!ok && error.code != LAM_UNSUPPORTED) // EXR and WebP, where their libraries are not
+    if (!ok && error.code != LAM_UNSUPPORTED) // EXR and WebP, if their libraries are missing
         fail_msg("%s", error.text);
     lam_image_free(&image);
     return (struct file){bytes.data, bytes.size};
@@ -174,7 +174,7 @@ static void test_time(void **state)
     }
 }
 
-// The pixels are charged while they are there; a limit just below what is needed refuses the picture.
+// The pixels are counted while they exist; a limit just below the required memory refuses the picture.
 static void test_memory(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static void test_memory(void **state)
             assert_int_equal(call.memory_used, 0);
         }
     }
-    // A progressive JPEG's coefficients count too: 6 bytes a pixel beside the 4 of the picture.
+    // A progressive JPEG's coefficients also count: 6 bytes per pixel in addition to the 4 of the picture.
     struct call_control call;
     lam_image image;
     lam_error error;
@@ -283,15 +283,15 @@ static void test_claims(void **state)
         lam_image image = {0};
         lam_error error = {0};
         struct call_control call;
-        // A memory limit of one byte: the size is refused before memory is thought of.
+        // A memory limit of one byte: the size is refused before memory is considered.
         call_start(&call, &(lam_control){.memory_limit_bytes = 1});
         struct picture_file file = {large.bytes, large.size, names[i], &call};
         assert_false(picture_decode(&file, &image, &error));
         assert_int_equal(error.code, LAM_LIMIT);
         if (!strstr(error.text, "40000×20000") || !strstr(error.text, "at most 400000000 (lam_control.pixel_limit)"))
             fail_msg("%s", error.text);
-        // 400 million are not refused for their number, but because the file does not hold them (JPEG's few bytes may)
-        // or for the limit.
+        // 400 million pixels are not refused for their number, but because the file does not contain them (a JPEG of
+        // few bytes may) or because of the limit.
         file = (struct picture_file){most.bytes, most.size, names[i], &call};
         assert_false(picture_decode(&file, &image, &error));
         assert_null(strstr(error.text, "pixel_limit"));
@@ -301,7 +301,7 @@ static void test_claims(void **state)
     }
 }
 
-// --- what is no regular file
+// --- other things than regular files
 
 static void test_kinds(void **state)
 {

@@ -1,4 +1,4 @@
-// test_pictures.c: Radiance, JPEG and deep PNG files are read as they were meant, and broken ones are refused.
+// test_pictures.c: Radiance, JPEG and 16-bit PNG files are decoded correctly, and broken ones are refused.
 #include "codec.h"
 
 #include <math.h>
@@ -56,7 +56,7 @@ static lam_image read_hdr(const struct file *file)
 static void test_hdr_numbers(void **state)
 {
     (void)state;
-    // 128·2^(129 − 136) = 1; exponent 0 is black whatever the mantissas; the largest; below the normal floats.
+    // 128·2^(129 − 136) = 1; exponent 0 is black for any mantissas; the largest value; a value below the normal floats.
     static const uint8_t rows[] = {128, 64, 32, 129, 200, 100, 50, 0, 255, 0, 1, 255, 255, 255, 255, 9};
     struct file file = hdr_of(HEADER "-Y 2 +X 2\n", rows, sizeof rows);
     lam_image image = read_hdr(&file);
@@ -77,7 +77,7 @@ static void test_hdr_numbers(void **state)
 static void test_hdr_runs(void **state)
 {
     (void)state;
-    // New runs: 10 pixels; red 10 × 128, green 4 as they are and 6 × 8, blue 9 + 1, exponent 10 × 129.
+    // New runs: 10 pixels; red 10 × 128, green 4 literal values and 6 × 8, blue 9 + 1, exponent 10 × 129.
     static const uint8_t fresh[] = {2, 2, 0, 10, 138, 128, 4, 1, 2, 3, 4, 134, 8, 137, 16, 1, 32, 138, 129};
     struct file file = hdr_of(HEADER "-Y 1 +X 10\n", fresh, sizeof fresh);
     lam_image image = read_hdr(&file);
@@ -118,16 +118,16 @@ static void test_hdr_refusals(void **state)
     }
     uint8_t wrong[sizeof fresh];
     memcpy(wrong, fresh, sizeof wrong);
-    wrong[4] = 139; // one more than there is room for
+    wrong[4] = 139; // one more than fits
     file = hdr_of(HEADER "-Y 1 +X 10\n", wrong, sizeof wrong);
     hdr_refused(&file, LAM_CANNOT_READ, "wrong run");
-    wrong[4] = 128; // a run of none: nothing would ever end
+    wrong[4] = 128; // an empty run would never end
     file = hdr_of(HEADER "-Y 1 +X 10\n", wrong, sizeof wrong);
     hdr_refused(&file, LAM_CANNOT_READ, "wrong run");
     static const uint8_t old[] = {9, 9, 9, 9, 1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255, 1, 1, 1, 255};
     file = hdr_of(HEADER "-Y 1 +X 3\n", old, sizeof old);
     hdr_refused(&file, LAM_CANNOT_READ, "wrong run");
-    file = hdr_of(HEADER "-Y 20000 +X 20000\n", old, sizeof old); // without taking 6.4 GB
+    file = hdr_of(HEADER "-Y 20000 +X 20000\n", old, sizeof old); // without allocating 6.4 GB
     hdr_refused(&file, LAM_CANNOT_READ, "row 1 of 20000");
     file = hdr_of("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 10\n", fresh, sizeof fresh);
     hdr_refused(&file, LAM_UNSUPPORTED, "32-bit_rle_xyze");
@@ -212,7 +212,7 @@ static void test_jpeg_pixels(void **state)
             }
         }
         lam_image_free(&image);
-        // Cut anywhere, it is refused: no grey rest.
+        // A file truncated anywhere is refused; no grey remainder is drawn.
         for (size_t size = 3; size + 2 < file.size; size += 1 + size / 64) {
             assert_false(codec_jpeg.read(&(struct picture_file){file.bytes, size, "test.jpg", NULL}, &image, &error));
             assert_null(image.pixels);
@@ -237,7 +237,7 @@ static void test_jpeg_refusals(void **state)
     free(file.bytes);
 }
 
-// --- linear light from any of them
+// --- linear light from each format
 
 static void test_linear(void **state)
 {

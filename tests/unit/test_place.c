@@ -1,5 +1,5 @@
-// test_place.c: the sphere around a scene, moving and turning it, rigs in their places, lights of the model's frame,
-// materials of parts, and tangents from texture coordinates.
+// test_place.c: the sphere around a scene, moving and rotating it, rigs at their positions, lights in the model's
+// frame, materials of parts, and tangents from texture coordinates.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -39,11 +39,11 @@ static void sphere_is_the_models(void **state)
     lam_scene *scene = shape_scene("sphere", 2.5);
     lam_object object = *lam_scene_object(scene, 0);
     object.transform.m[0][3] = 7;
-    object.transform.m[1][1] = 3; // in world space it is three times as high
+    object.transform.m[1][1] = 3; // in world space, it is three times as high
     assert_true(lam_scene_set_object(scene, 0, &object, NULL));
     lam_vec3 centre;
     double radius;
-    assert_true(lam_scene_sphere(scene, 0, &centre, &radius)); // in its own space: the sphere itself
+    assert_true(lam_scene_sphere(scene, 0, &centre, &radius)); // in its own space, it is the sphere itself
     near(radius, 2.5, 1e-6);
     near(centre.x, 0, 1e-6);
     assert_true(lam_scene_sphere(scene, -1, &centre, &radius));
@@ -57,9 +57,9 @@ static void sphere_is_the_models(void **state)
     lam_scene_free(empty);
 }
 
-// A curve of points in the order of a walk along it, the same in an order that leaps about, and with numbers
-// for corners and a point far away that none has: the search for the points that decide the camera looks into
-// few of the first and all of the second, into boxes of another size in the third, and must find the same.
+// A curve of points in the order along it, the same in a scattered order, and with other vertex numbers and an unused
+// point far away. The search for the points that determine the camera visits few points of the first, all of the
+// second, and boxes of another size in the third, and must find the same.
 static void camera_does_not_depend_on_the_order(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void camera_does_not_depend_on_the_order(void **state)
                              .orthographic = turn % 4 == 3};
             int width = turn % 2 ? 340 : 120, height = 200;
             cameras[order] = lam_camera_fit(scene, width, height, &view);
-            // And every point is inside the picture, touching it somewhere.
+            // In addition, every point is inside the picture, and some point touches its border.
             lam_mat4 look = lam_camera_view_matrix(&cameras[order]);
             double farthest = 0;
             for (int i = 0; i < COUNT; i++) {
@@ -118,7 +118,7 @@ static void camera_does_not_depend_on_the_order(void **state)
     }
 }
 
-// A scene of the given corners, as a triangle strip of loose triangles.
+// A scene with the given corners, as separate triangles of a strip.
 static lam_scene *scene_of_points(const float *points, uint32_t count)
 {
     lam_scene *scene = lam_scene_make(NULL);
@@ -129,7 +129,7 @@ static lam_scene *scene_of_points(const float *points, uint32_t count)
     return scene;
 }
 
-// The smallest and largest projected coordinate on each axis, −1 to 1 being the picture.
+// The smallest and largest projected coordinate on each axis; the picture is −1 to 1.
 static void projected(const lam_camera *camera, int width, int height, const float *points, int count, double low[2],
                       double high[2])
 {
@@ -151,7 +151,7 @@ static void projected(const lam_camera *camera, int width, int height, const flo
     }
 }
 
-// Every vertex lies inside the picture, whatever its shape, and those of the tighter side take 92 % of it.
+// Every vertex is inside the picture for any shape, and the vertices fill 92 % of the tighter side.
 static void camera_fits_the_picture(void **state)
 {
     (void)state;
@@ -172,7 +172,7 @@ static void camera_fits_the_picture(void **state)
     lam_scene_free(scene);
 }
 
-// A named side looks from where its name says, for either up axis.
+// A named side shows the model from the direction of its name, for either up axis.
 static void sides_have_names(void **state)
 {
     (void)state;
@@ -207,7 +207,7 @@ static void sides_have_names(void **state)
     lam_scene_free(scene);
 }
 
-// Cameras in words: what is left out comes from the scene. (tests/cli has every error.)
+// Cameras given as text: omitted keys come from the scene. (tests/cli tests every error.)
 static void cameras_in_words(void **state)
 {
     (void)state;
@@ -236,7 +236,7 @@ static void cameras_in_words(void **state)
     lam_scene_free(scene);
 }
 
-// Materials and lights in words. (tests/cli has every error.)
+// Materials and lights given as text. (tests/cli tests every error.)
 static void materials_in_words(void **state)
 {
     (void)state;
@@ -247,11 +247,11 @@ static void materials_in_words(void **state)
     assert_true(m.shininess == 9 && m.diffuse.a == 0.25f && m.specular.r == ruby.specular.r);
     near((double)m.diffuse.r, 0.5 * (double)ruby.diffuse.r, 1e-7);
     assert_true(lam_material_parse("ruby", LAM_COLOR_RAW, &m, &error));
-    assert_true(m.diffuse.r == 0.61424f && ruby.diffuse.r < 0.34f); // raw: the published number, else decoded
+    assert_true(m.diffuse.r == 0.61424f && ruby.diffuse.r < 0.34f); // raw: the published number; otherwise decoded
     m = lam_material_default();
     float shininess = m.shininess;
     assert_true(lam_material_parse("diffuse=0.1/0.2/0.3", LAM_COLOR_SRGB, &m, &error));
-    assert_true(m.shininess == shininess && m.diffuse.g == 0.2f); // the others stay
+    assert_true(m.shininess == shininess && m.diffuse.g == 0.2f); // the others do not change
     lam_material before = m;
     static const char *const wrong[] = {"rubi", "", "shininess=-1", "kd=1,kd=2", "gold,ruby"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -303,14 +303,14 @@ static void turning_and_moving(void **state)
     lam_mat4 move = lam_mat4_identity();
     move.m[0][3] = 4;
     assert_true(lam_scene_transform(scene, &move, &error));
-    // x to −z about y, through the cube's own centre: the centre stays.
+    // x to −z about y, through the cube's own centre, which does not move.
     assert_true(lam_scene_rotate(scene, (lam_vec3){4, 0, 0}, (lam_vec3){0, 2, 0}, PI_HALF, &error));
     const lam_mat4 *m = &lam_scene_object(scene, 0)->transform;
     near(m->m[2][0], -1, 1e-12);
     near(m->m[0][2], 1, 1e-12);
     near(m->m[0][3], 4, 1e-12);
     near(m->m[2][3], 0, 1e-12);
-    // Refused, and nothing has moved.
+    // It is refused, and nothing has moved.
     lam_mat4 flat = lam_mat4_identity(), bent = lam_mat4_identity(), lost = lam_mat4_identity(), before = *m;
     flat.m[1][1] = 0;
     bent.m[3][0] = 1;
@@ -424,8 +424,8 @@ static void draw(lam_scene *scene, lam_image *image)
     lam_device_free(device);
 }
 
-// A light of the model's frame goes with the model: what it does is what a light of the world does in the place that
-// the transform moves it to.
+// A light in the model's frame moves with the model: it has the same effect as a light of the world at the position to
+// which the transform moves it.
 static void lights_go_with_the_model(void **state)
 {
     (void)state;
@@ -501,7 +501,7 @@ static void parts_change_their_material(void **state)
     assert_true(lam_scene_set_part_material(scene, 0, 1, 0, NULL));
     assert_int_equal(lam_scene_mesh(scene, 0)->parts[0].material, -1);
     assert_int_equal(lam_scene_mesh(scene, 0)->parts[1].material, 0);
-    assert_int_equal(parts[1].material, -1); // the caller's own array is not touched
+    assert_int_equal(parts[1].material, -1); // the caller's own array does not change
     lam_error error;
     assert_false(lam_scene_set_part_material(scene, 1, 0, 0, &error));
     assert_false(lam_scene_set_part_material(scene, 0, 2, 0, &error));
@@ -546,8 +546,8 @@ static void tangents_of_a_square(void **state)
     lam_scene_free(bare);
 }
 
-// A shape's own tangents, from its formula, are those that its texture coordinates tell, but for the error of the
-// segments.
+// A shape's own tangents, from its formula, equal the tangents from its texture coordinates, except for the error of
+// the segments.
 static void tangents_of_a_torus(void **state)
 {
     (void)state;
@@ -571,7 +571,7 @@ static void tangents_of_a_torus(void **state)
         assert_true(a[3] == b[3]);
     }
     near(least, 1, 2e-3);
-    // Once there, they stay.
+    // Existing tangents are kept.
     const float *kept = mesh->tangents;
     assert_true(lam_scene_make_tangents(made, NULL, NULL));
     assert_ptr_equal(lam_scene_mesh(made, 0)->tangents, kept);

@@ -1,5 +1,5 @@
-// test_ply.c: PLY: all formats and layouts, polygons, strips, colours, normals, origins, and errors.
-// Above 600 lines: one table-like test for each feature and sentence of one format.
+// test_ply.c: PLY: all formats and layouts, polygons, strips, colours, normals, origins, and errors. The file has more
+// than 600 lines because it contains a table-like test for each feature and error message of one format.
 #include "loading.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #define XYZ            "property float x\nproperty float y\nproperty float z\n"
 #define FACE(N)        "element face " N "\nproperty list uchar int vertex_indices\n"
 
-// A unit square in the plane z = 0 of four vertices, for ASCII bodies.
+// A unit square in the plane z = 0 with four vertices, for ASCII bodies.
 #define SQUARE "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 
 static const char ascii[] =
@@ -31,8 +31,8 @@ static void test_ascii(void **state)
     lam_scene_free(scene);
 }
 
-// One mesh in every format: vertices with extra properties before, between and behind, an element in between
-// with lists, faces of a triangle and a quad with properties around the list and a second list.
+// One mesh in every format: vertices with extra properties before, between and after, an element in between with lists,
+// faces of a triangle and a quad with properties around the list, and a second list.
 static void make_everything(struct made *file, const char *format)
 {
     *file = (struct made){.big = strcmp(format, "binary_big_endian") == 0};
@@ -107,7 +107,7 @@ static void test_everything(void **state)
         assert_corner(mesh, 0, 0, 0, 0, 0);
         assert_corner(mesh, 0, 1, 1, 0, 0.25);
         assert_corner(mesh, 0, 2, 0.5, -2, 1);
-        // The quad's two triangles hold its four corners.
+        // The quad's two triangles contain its four corners.
         unsigned seen = 0;
         for (int c = 3; c < 9; c++)
             seen |= 1u << mesh->indices[c];
@@ -181,7 +181,7 @@ static void test_binary_triangles(void **state)
     }
 }
 
-// Faces that take as many bytes as triangles, but are not.
+// Faces of other kinds that take as many bytes as triangles.
 static void test_mixed_of_triangle_size(void **state)
 {
     (void)state;
@@ -338,7 +338,7 @@ static void test_strips(void **state)
                                                "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
                                                "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n"
                                                "10 0 1 2 3 -1 2 3 4 4 5\n";
-    // Every second triangle has reversed winding; those with equal corners are skipped.
+    // Every second triangle has reversed winding; triangles with equal corners are skipped.
     static const uint32_t indices[] = {0, 1, 2, 2, 1, 3, 2, 3, 4};
     lam_scene *scene = load_text(text, "a.ply");
     assert_int_equal(mesh_of(scene)->triangle_count, 3);
@@ -348,8 +348,8 @@ static void test_strips(void **state)
     check_allocations(text, sizeof text - 1, "a.ply");
 }
 
-// A part with details of a millimetre, 500 km from zero: doubles in binary, decimals in ASCII though its type
-// is float.
+// A part with details of a millimetre, 500 km from zero: doubles in binary, and decimals in ASCII although its type is
+// float.
 static void test_far_from_zero(void **state)
 {
     (void)state;
@@ -380,7 +380,7 @@ static void test_far_from_zero(void **state)
     lam_scene_free(text);
 
     // A model near zero has no origin: its floats are the file's numbers, rounded once. The second number is just above
-    // the midpoint of two floats, where rounding through a double gives the wrong one.
+    // the midpoint of two floats, where rounding through a double gives the wrong float.
     lam_scene *near =
         load_text(HEADER("ascii") "element vertex 3\nproperty double x\nproperty double y\nproperty double z\n" FACE(
                       "1") "end_header\n0.1 1.00000005960464477540 0\n1 0 0\n0 0 1\n3 0 1 2\n",
@@ -413,7 +413,7 @@ static void test_header_errors(void **state)
                 "a.ply:6: found 'end_header', expected a format line before it");
     refuse_text("ply\nformat ascii 1.0\nvertex 3\n", "a.ply",
                 "a.ply:3: the file ends in its header, expected \"end_header\"");
-    // A zero byte anywhere in the header; one in the body of a binary file is a number.
+    // A zero byte anywhere in the header; in the body of a binary file, it is a number.
     static const char zero[] = HEADER("ascii") "comment a\0b\nelement vertex 3\n" XYZ FACE("1") "end_header\n0 0 0\n";
     refuse(zero, sizeof zero - 1, "a.ply", LAM_CANNOT_READ, "a.ply:3: found a zero byte in the header, expected text");
     static const char first[] = "ply \0\nformat ascii 1.0\n";
@@ -436,7 +436,7 @@ static void test_header_errors(void **state)
                 "a.ply", "a.ply:7: element vertex appears twice, expected one");
 }
 
-// Blender once wrote its remark without "comment".
+// Blender once wrote its comment without "comment".
 static void test_unknown_header_lines(void **state)
 {
     (void)state;
@@ -464,7 +464,7 @@ static void test_unknown_header_lines(void **state)
     }
 }
 
-// A row ends with its line; it may continue on the next one.
+// A row usually ends with its line, but may continue on the next one.
 static void test_numbers_left_over(void **state)
 {
     (void)state;
@@ -493,13 +493,13 @@ static void test_numbers_left_over(void **state)
     lam_scene_free(scene);
 }
 
-// Colours that are all clear are opaque: a picture would show nothing else.
+// If all colours are transparent, they become opaque, because a picture would show nothing else.
 static void test_clear_colors(void **state)
 {
     (void)state;
     static const struct {
         const char *text;
-        int clear; // of three numbers of alpha
+        int clear; // for three alpha values
     } rows[] = {
 #define RGBA(type) "property " type " red\nproperty " type " green\nproperty " type " blue\nproperty " type " alpha\n"
         {THREE RGBA("uchar") FACE("1") "end_header\n0 0 0 9 9 9 0\n1 0 0 9 9 9 0\n0 1 0 9 9 9 0\n3 0 1 2\n", 3},
@@ -611,7 +611,7 @@ static void test_binary_errors(void **state)
     refuse(negative.bytes, negative.size, "a.ply", LAM_CANNOT_READ, sentence);
 }
 
-// Many pieces of every kind give the same for every number of threads.
+// Many pieces of every kind give the same result with every number of threads.
 static void test_threads(void **state)
 {
     (void)state;

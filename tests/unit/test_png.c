@@ -1,5 +1,6 @@
-// test_png.c: PNG files decode to the picture they were made from, and are the same bytes whoever makes them. Above 600
-// lines: the encoder's steps, each with its second version here, share the pictures they are tried on.
+// test_png.c: PNG files decode to the picture from which they were made, and have the same bytes on every machine. The
+// file has more than 600 lines because the encoder's steps, each with a second implementation here, share their test
+// pictures.
 #include "checksum.h"
 #include "deflate.h"
 #include "huffman.h"
@@ -65,7 +66,7 @@ static uint32_t pixel_of(enum content content, int x, int y, int width, int heig
     case FLAT:
         return 0xFF6496C8u;
     case GREY:
-    case OPAQUE_GREY: { // smooth, with noise in the lowest bits and a clear part; matches of all distances
+    case OPAQUE_GREY: { // smooth, with noise in the lowest bits and a transparent part; matches of all distances
         uint32_t level = ((uint32_t)x * (uint32_t)x / 40 + (uint32_t)y * 3) / 5 + (random_bits() % 7 == 0);
         uint32_t grey = (level & 255) * 0x00010101u;
         return content == OPAQUE_GREY ? grey | 0xFF000000u : (x + y) % 300 > 200 ? 0 : grey | 0xF0000000u;
@@ -170,7 +171,8 @@ static void holds_runs_of_every_length(void **state)
         assert_true(lam_image_make(&image, 256, 256, LAM_RGBA8, &error));
         for (int y = 0; y < 256; y++)
             for (int x = 0; x < 256; x++) {
-                // A first run of y pixels and a second of the rest; after filtering too there are runs of all lengths.
+                // A first run of y pixels and a second of the rest; after filtering, there are also runs of all
+                // lengths.
                 uint32_t value = x < y ? 0x00112233u : 0x00445566u + (uint32_t)(y % 3);
                 value |= opaque ? 0xFF000000u : 0x80000000u;
                 memcpy((uint8_t *)image.pixels + (y * 256 + x) * 4, &value, 4);
@@ -212,8 +214,8 @@ static uint64_t hash_of(const void *data, size_t size)
     return hash;
 }
 
-// One hash for each content, the same for every compiler, build type and instruction set. They change only
-// when the encoder is meant to write other bytes; then look at the sizes too.
+// One hash for each picture, the same for every compiler, build type and instruction set. They change only if the
+// encoder is meant to write other bytes; in this case, also check the sizes.
 static void bytes_are_the_recorded_ones(void **state)
 {
     (void)state;
@@ -244,7 +246,7 @@ static void bytes_are_the_recorded_ones(void **state)
     assert_int_equal(wrong, 0);
 }
 
-// False, with a message, where libdeflate is not installed.
+// False, with a message, if libdeflate is not installed.
 static bool have_best(void)
 {
     lam_image image;
@@ -263,7 +265,7 @@ static bool have_best(void)
     return have;
 }
 
-// The best compression: strips of several rows and of one; the same pixels in fewer bytes, whatever the threads.
+// The best compression: strips of several rows and of one; the same pixels in fewer bytes, for any number of threads.
 static void best_files_decode(void **state)
 {
     (void)state;
@@ -274,7 +276,7 @@ static void best_files_decode(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (int content = 0; content < CONTENTS; content++) {
             const bool large = sizes[i][0] * sizes[i][1] > 100000;
-            if (large && content != RUNS && content != OPAQUE_NOISE) // others take long
+            if (large && content != RUNS && content != OPAQUE_NOISE) // others are slow
                 continue;
             lam_image image;
             make_picture(&image, sizes[i][0], sizes[i][1], content);
@@ -295,7 +297,7 @@ static void best_files_decode(void **state)
         }
 }
 
-// The time runs out within the picture: the call ends long before it would be done.
+// The time limit is reached during the picture, and the call ends long before it would be done.
 static void best_keeps_its_time(void **state)
 {
     (void)state;
@@ -323,7 +325,7 @@ static void *no_memory(size_t size)
     return NULL;
 }
 
-// libdeflate's own memory has run out: an error too.
+// Running out of memory in libdeflate is also an error.
 static void best_without_memory(void **state)
 {
     (void)state;
@@ -349,7 +351,7 @@ static void best_without_memory(void **state)
     lam_image_free(&image);
 }
 
-// A cancelled call, of either compression, gives an error and no bytes.
+// A cancelled call, with either compression, gives an error and no bytes.
 static void stops_when_cancelled(void **state)
 {
     (void)state;
@@ -443,7 +445,7 @@ static void the_fewest_channels_are_written(void **state)
     }
 }
 
-// A picture of one pixel; and a single pixel, first or last, that the others' channels cannot hold.
+// A picture of one pixel; and a single pixel, first or last, that the others' channels cannot represent.
 static void one_pixel_decides(void **state)
 {
     (void)state;
@@ -456,7 +458,7 @@ static void one_pixel_decides(void **state)
         {0x00808080u, TYPE_GREY_ALPHA, TYPE_GREY_ALPHA, TYPE_GREY_ALPHA, TYPE_RGBA},
         {0xFF808081u, TYPE_RGB, TYPE_RGB, TYPE_RGBA, TYPE_RGB},    // red
         {0xFF818080u, TYPE_RGB, TYPE_RGB, TYPE_RGBA, TYPE_RGB},    // blue
-        {0x00010000u, TYPE_RGBA, TYPE_RGBA, TYPE_RGBA, TYPE_RGBA}, // the colour of a clear pixel is kept
+        {0x00010000u, TYPE_RGBA, TYPE_RGBA, TYPE_RGBA, TYPE_RGBA}, // the colour of a transparent pixel is kept
     };
     enum { WIDTH = 700, HEIGHT = 400 }; // several strips
     static const enum content contents[3] = {OPAQUE_GREY, GREY, OPAQUE_GRADIENT};
@@ -491,7 +493,7 @@ static void checksums_are_the_published_ones(void **state)
     assert_int_equal(adler_value(&part), 0x11E60398u);
 }
 
-// A row against the definition of Adler-32, byte by byte, for all pixel sizes and every tail.
+// Compares a row with the definition of Adler-32, byte by byte, for all pixel sizes and every tail.
 static void adler_of_rows(void **state)
 {
     (void)state;
@@ -530,7 +532,7 @@ static int plain_paeth(int a, int b, int c)
     return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 }
 
-// The filters against the specification's words, for every combination of left, above and above left in steps.
+// Compares the filters with the specification, for every combination of left, above and above left in steps.
 static void filters_as_specified(void **state)
 {
     (void)state;
@@ -571,7 +573,7 @@ static void filters_as_specified(void **state)
     }
 }
 
-// Zeros at a row's ends are passed over: what is left is filtered, summed and compressed as the whole row is.
+// Zeros at a row's ends are skipped: the rest is filtered, summed and compressed like the whole row.
 static void compare_ends_of_zeros(int bytes_per_pixel)
 {
     enum { WIDTH = 150, ROWS = 6, WORDS = WIDTH + 4 };
@@ -638,7 +640,7 @@ static void ends_of_zeros_change_nothing(void **state)
         compare_ends_of_zeros(bytes_per_pixel);
 }
 
-// Codes of limited length: complete (Kraft's sum is 1), within the limit, the more frequent never longer.
+// Codes of limited length: complete (Kraft's sum is 1), within the limit, and more frequent ones are never longer.
 static void codes_are_complete(void **state)
 {
     (void)state;
@@ -648,7 +650,7 @@ static void codes_are_complete(void **state)
         int used = 0, limit = round % 2 ? 14 : 9;
         uint32_t a = 1, b = 1;
         for (int i = 0; i < 286; i++) {
-            if (round % 5 == 0) { // Fibonacci's numbers make the deepest tree
+            if (round % 5 == 0) { // Fibonacci numbers make the deepest tree
                 counts[i] = i < 29 ? a : 0;
                 uint32_t next = a + b;
                 a = b;
@@ -678,7 +680,7 @@ static void codes_are_complete(void **state)
     assert_int_equal(lengths[0] + lengths[1] + lengths[3], 0);
 }
 
-// Each allocation fails in turn: an error, nothing left behind (a leak checker sees to that).
+// Each allocation fails once: the result is an error, and nothing leaks (which a leak checker verifies).
 static void survives_without_memory(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// test_png_read.c: pictures read at once (png_whole.c) have libspng's pixels, and files that libspng refuses are refused.
+// test_png_read.c: pictures read in one step (png_whole.c) have libspng's pixels, and files that libspng refuses are
+// refused.
 #include "dynamic_library.h"
 #include "pixels.h"
 #include "png_whole.h"
@@ -13,7 +14,8 @@
 #include <spng.h>
 #include <zlib.h>
 
-enum { WIDTH = 151, HEIGHT = 113, FILE_BYTES = 1 << 20 }; // more pixels than the smallest picture that is read at once
+// WIDTH × HEIGHT is more than the pixels of the smallest picture that is read in one step.
+enum { WIDTH = 151, HEIGHT = 113, FILE_BYTES = 1 << 20 };
 
 static uint32_t random_bits(void)
 {
@@ -44,15 +46,15 @@ static void put_chunk(struct file *file, const char *type, const void *data, siz
     put_u32(file, crc);
 }
 
-// What is wrong with a file, or unusual.
+// A fault or a peculiarity of a file.
 enum fault {
     NOTHING,
     EMPTY_CHUNKS,
     TEXT_BEFORE,
-    TEXT_CRC, // libspng passes over it
+    TEXT_CRC, // libspng skips it
     TEXT_BEHIND,
     JUNK_BEHIND_END,
-    LAST_SOUND = JUNK_BEHIND_END, // those before are read
+    LAST_SOUND = JUNK_BEHIND_END, // faults up to this one are accepted
     PIXELS_CRC,
     END_CRC,
     NO_END,
@@ -111,13 +113,13 @@ static struct file make_file(int color_type, int channels, enum fault fault)
         memcpy(file.bytes + file.size, "junk", 4), file.size += 4;
     free(filtered);
     free(compressed);
-    // Of exactly the size: a sanitizer finds every read beyond it.
+    // A block of exactly this size: a sanitizer detects every read beyond it.
     file.bytes = realloc(file.bytes, file.size);
     assert_non_null(file.bytes);
     return file;
 }
 
-// libspng's pixels; false: it refuses the file.
+// libspng's pixels; false if it refuses the file.
 static bool reference(const struct file *file, uint8_t *pixels)
 {
     spng_ctx *spng = spng_ctx_new(0);
@@ -154,7 +156,7 @@ static void test_files(void **state)
         }
 }
 
-// Without alpha, three bytes a pixel where the caller takes them: the same numbers.
+// Without alpha, three bytes per pixel if the caller accepts them: the same numbers.
 static void test_opaque(void **state)
 {
     (void)state;
@@ -176,7 +178,7 @@ static void test_opaque(void **state)
         }
 }
 
-// What is read at once: no file in which anything is wrong, and none behind whose pixels something comes.
+// Files with a fault, or with data after their pixels, are not read in one step.
 static void test_at_once(void **state)
 {
     (void)state;
@@ -198,7 +200,7 @@ static void test_at_once(void **state)
             bool expected = fault <= TEXT_CRC || fault == JUNK_BEHIND_END;
             if (png_read_whole(&picture, kinds[kind].channels, &image) != expected)
                 fail_msg("kind %d, fault %d: %s", kind, (int)fault, expected ? "not read" : "read");
-            // Without room for it, it is not read at once, and nobody hears of that.
+            // Without memory for it, it is not read in one step, and no error is reported.
             call_start(&call, &(lam_control){.memory_limit_bytes = 1000});
             assert_false(png_read_whole(&picture, kinds[kind].channels, &image));
             assert_true(call_should_continue(&call) && !call.over_memory && call.memory_used == 0);

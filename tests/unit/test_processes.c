@@ -1,4 +1,4 @@
-// test_processes.c: a process ends with the one that started it, also if that ended before the process could ask for it.
+// test_processes.c: a process ends with its parent, even if the parent ended before the process could request this.
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 
 #include "interrupt.h"
 
-// The child of a child, which answers a byte for each time that it is still there, until the pipe closes.
+// A grandchild that writes a byte for each time that it is still alive, until the pipe closes.
 static void grandchild(pid_t parent, bool late, int answer)
 {
     while (late && getppid() == parent)
@@ -22,7 +22,8 @@ static void grandchild(pid_t parent, bool late, int answer)
     _exit(0);
 }
 
-// Starts both and returns the end of the pipe to read. The child lives until it is killed, or ends immediately (`late`).
+// Starts both and returns the reading end of the pipe. The child lives until it is killed, or ends immediately
+// (`late`).
 static int start(bool late, pid_t *child)
 {
     int pipes[2];
@@ -51,7 +52,7 @@ static void killed_with_its_parent(void **state)
     assert_int_equal(read(answers, &byte, 1), 1);
     kill(child, SIGKILL);
     waitpid(child, NULL, 0);
-    alarm(20); // a process that stays would write for ever
+    alarm(20); // a process that stays would write forever
     while (read(answers, &byte, 1) > 0)
         continue;
     alarm(0);

@@ -1,4 +1,4 @@
-// test_rays.c: rays against the hierarchy: the answer is the one of every triangle tested by itself, whatever the scene.
+// test_rays.c: rays in the hierarchy give the same answer as testing every triangle separately, for any scene.
 #include <lambent/scene.h>
 
 #include <math.h>
@@ -69,7 +69,7 @@ static void build(struct soup *s, int threads, const lam_mat4 *transform)
     if (!s->hierarchy)
         fail_msg("%s", error.text);
     assert_true(built);
-    // The same again is not built again.
+    // An unchanged scene is not built again.
     assert_true(hierarchy_of_frame(&s->memory, &s->frame, pool, NULL, &built, &error) == s->hierarchy && !built);
     pool_free(pool);
 }
@@ -88,7 +88,7 @@ static void random_point(float p[3], double size)
         p[i] = (float)between(-size, size);
 }
 
-// Triangles of all sizes, among them needles, points and lines.
+// Triangles of all sizes, including needles, points and lines.
 static void random_soup(struct soup *s, uint32_t count, double size)
 {
     s->count = 0;
@@ -191,7 +191,7 @@ static void test_random(void **unused)
         check_rays(&soup, 300);
         drop(&soup);
     }
-    // A turned object far away.
+    // A rotated object far away.
     lam_mat4 m = {{{0.6, 0.8, 0, 1e7}, {-0.8, 0.6, 0, -3e6}, {0, 0, 1, 5}, {0, 0, 0, 1}}};
     random_soup(&soup, 500, 3);
     build(&soup, 2, &m);
@@ -200,7 +200,7 @@ static void test_random(void **unused)
     assert_true(found > 2000 && missed > 2000);
 }
 
-// Each triangle is in a leaf once, within the boxes above it.
+// Each triangle is in one leaf, within the boxes above it.
 static uint32_t check_node(const struct hierarchy *h, uint32_t child, uint32_t count, const float low[3],
                            const float high[3], uint8_t *seen, int depth)
 {
@@ -221,7 +221,7 @@ static uint32_t check_node(const struct hierarchy *h, uint32_t child, uint32_t c
             own_high[k] = n->planes[1][k][i];
             ended |= own_low[k] > own_high[k];
         }
-        if (ended) { // no child, and none behind it
+        if (ended) { // no child, and none after it
             assert_true(own_low[0] > 1e38f && own_high[0] < -1e38f && i > 0);
             continue;
         }
@@ -249,7 +249,7 @@ static void test_tree(void **unused)
                     soup.p[3 * i + 1][k] = -soup.p[3 * i][k];
                     soup.p[3 * i + 2][k] = 0;
                 }
-            for (uint32_t i = 0; i < soup.count && kind == 2; i++) // ever smaller towards a corner
+            for (uint32_t i = 0; i < soup.count && kind == 2; i++) // smaller and smaller towards a corner
                 for (int k = 0; k < 9; k++)
                     soup.p[3 * i + (uint32_t)k / 3][k % 3] =
                         (float)((double)soup.p[3 * i + (uint32_t)k / 3][k % 3] * 1e-3 + 1) *
@@ -282,15 +282,15 @@ static bool fits(size_t limit, size_t *used)
         assert_int_equal(error.code, LAM_LIMIT);
         assert_non_null(strstr(error.text, "lam_control.memory_limit_bytes"));
     }
-    assert_int_equal(call.memory_used, hierarchy_bytes(&memory)); // what was for the call alone is given back
+    assert_int_equal(call.memory_used, hierarchy_bytes(&memory)); // memory used only during the call is returned
     *used = call.memory_used;
     hierarchy_free(&memory);
     pool_free(pool);
     return ok;
 }
 
-// The memory limit counts what is used while the hierarchy is built: the cells of large ranges, and a group of triangles with
-// the same middle while it is sorted.
+// The memory limit counts the memory used while the hierarchy is built: the cells of large ranges, and a group of
+// triangles with the same middle while it is sorted.
 static void test_memory_limit(void **unused)
 {
     (void)unused;
@@ -303,7 +303,8 @@ static void test_memory_limit(void **unused)
                 soup.p[3 * i + 2][k] = 0;
             }
         build(&soup, 2, NULL);
-        // The boxes of all triangles, twice; the cell of each; of the group, a record of more than a triangle's corners.
+        // The boxes of all triangles, twice; the cell of each; for the group, a record larger than a triangle's
+        // corners.
         size_t boxes = 64 * (size_t)soup.count, kept, used;
         size_t keys = 2 * (size_t)soup.count, group = same_middles ? 72 * (size_t)soup.count : 0;
         assert_true(fits(SIZE_MAX, &kept));
@@ -345,8 +346,7 @@ static void test_twins(void **unused)
     drop(&soup);
 }
 
-// A closed surface of thin triangles around a point: no ray from there leaves it, least of all through its edges and
-// corners.
+// A closed surface of thin triangles around a point: no ray from there leaves it, even through its edges and corners.
 static void test_watertight(void **unused)
 {
     (void)unused;
@@ -358,7 +358,7 @@ static void test_watertight(void **unused)
             double r = j == 0 || j == DOWN ? 0 : sin(b) * (1 + 0.3 * uniform());
             p[j][i][0] = (float)(r * cos(a) + 0.3);
             p[j][i][1] = (float)cos(b);
-            p[j][i][2] = (float)(r * sin(a) * 1e-3 + 0.7); // flat: triangles seen at a slant
+            p[j][i][2] = (float)(r * sin(a) * 1e-3 + 0.7); // flat: triangles seen at a grazing angle
         }
     soup.count = 0;
     for (int j = 0; j < DOWN; j++)
@@ -378,7 +378,7 @@ static void test_watertight(void **unused)
             for (int k = 0; k < 3; k++) {
                 ray.origin[k][i] = ray.point[k][i] = centre[k];
                 ray.direction[k][i] = t->p[0][k] + share * (t->p[1][k] - t->p[0][k]) - centre[k];
-                if (i & 1) // no direction in particular
+                if (i & 1) // no special direction
                     ray.direction[k][i] = between(-1, 1) * (k == 2 ? 1e-3 : 1);
             }
             ray.own[i] = NO_TRIANGLE;
@@ -390,7 +390,7 @@ static void test_watertight(void **unused)
     drop(&soup);
 }
 
-// Whether a triangle is crossed, in exact terms: corners and rays on a grid, in whole numbers.
+// Whether a ray crosses a triangle, computed exactly: corners and rays on a grid, in integers.
 static void test_exact(void **unused)
 {
     (void)unused;
@@ -403,7 +403,7 @@ static void test_exact(void **unused)
             for (int c = 0; c < 3; c++)
                 triangle.p[c][k] = (double)(p[c][k] = (int64_t)(uniform() * 8) - 4);
             o[k] = (int64_t)(uniform() * 8) - 4;
-            d[k] = (int64_t)(uniform() * 4) * 2 - 4; // powers of two or 0: divisions are exact
+            d[k] = (int64_t)(uniform() * 4) * 2 - 4; // powers of two or 0, so divisions are exact
             d[k] = d[k] == 0 || d[k] == 2 || d[k] == -2 || d[k] == -4 ? d[k] : 4;
             for (int i = 0; i < LANES; i++) {
                 ray.origin[k][i] = (double)o[k];
@@ -424,7 +424,7 @@ static void test_exact(void **unused)
                    d[2] * (u[0] * v[1] - u[1] * v[0]);
             det += w[c];
         }
-        // o + t d lies in the plane: t = det[a b c] / det.
+        // o + t d is in the plane: t = det[a b c] / det.
         t = a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) + a[0][1] * (a[1][2] * a[2][0] - a[1][0] * a[2][2]) +
             a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
         bool inside =
@@ -434,7 +434,7 @@ static void test_exact(void **unused)
         view_along(&view, &ray);
         view_common(&view, 0xff);
         assert_int_equal(crosses(&triangle, &ray, &view, 0xff, NULL, NULL), wanted ? 0xff : 0);
-        view.k = -1; // the same by the operations of rays that differ
+        view.k = -1; // the same with the operations for rays that differ
         assert_int_equal(crosses(&triangle, &ray, &view, 0xff, NULL, NULL), wanted ? 0xff : 0);
         ray.own[2] = 3;
         assert_int_equal(crosses(&triangle, &ray, &view, 0xff, NULL, NULL), wanted ? 0xfb : 0);
@@ -443,8 +443,8 @@ static void test_exact(void **unused)
     assert_true(hits > 100);
 }
 
-// Triangles of one plane in general position, whose corners are rounded to floats: rays from points of one cross no other.
-// They do cross a triangle that lies a little above the plane, by some times what rounding can move a corner.
+// Triangles of one plane in general position, whose corners are rounded to floats: rays from points of one cross no
+// other. They do cross a triangle slightly above the plane, by a few times the rounding of a corner.
 static void test_coplanar(void **unused)
 {
     (void)unused;

@@ -1,6 +1,6 @@
-// test_sandbox.c: what the sandbox of the program takes away, tried from inside: files outside, links, programs, sockets,
-// other processes, system calls of 32 bits; and what stays. Each attempt is a process of its own, which enters the sandbox
-// and ends with the number of its error.
+// test_sandbox.c: tries forbidden operations from inside the program's sandbox: files outside, links, programs,
+// sockets, other processes, 32-bit system calls; and allowed operations. Each attempt is a separate process, which
+// enters the sandbox and ends with its error number.
 #include "sandbox.h"
 
 #include <errno.h>
@@ -283,7 +283,7 @@ static int open_by_handle(void) { return error_of(syscall(SYS_open_by_handle_at,
 struct attempt {
     const char *name;
     int (*run)(void);
-    int expected; // an errno, or −1: any
+    int expected; // an errno, or −1 for any
 };
 
 #define ATTEMPT(name, expected) {#name, name, expected}
@@ -309,7 +309,7 @@ static const struct attempt attempts[] = {
     ATTEMPT(folder_link_out, EACCES),
     ATTEMPT(own_memory, EACCES),
     ATTEMPT(change_model, EACCES),
-    ATTEMPT(truncate_model, -1), // EACCES by Landlock 3, and the filter has no such call
+    ATTEMPT(truncate_model, -1), // EACCES by Landlock 3, and the filter does not allow the call
     ATTEMPT(remove_model, ENOSYS),
     ATTEMPT(add_to_model, EACCES),
     ATTEMPT(read_output, EACCES),
@@ -380,7 +380,8 @@ static void test_attempts(void **state)
     assert_int_equal(wrong, 0);
 }
 
-// The filter of a kernel whose Landlock does not know how files are emptied, or that has none: Landlock forbids nothing here.
+// The filter for a kernel without Landlock, or with a Landlock that cannot control truncation: Landlock forbids nothing
+// here.
 static int with_filter(const struct attempt *attempt, unsigned kind)
 {
     int status = 0;
@@ -415,7 +416,7 @@ static void test_filter_alone(void **state)
     assert_int_equal(with_filter(&make, SANDBOX_OPENS_PIPES), EACCES);
 }
 
-// A server that has its listening socket makes processes, which can hold themselves to the stricter filter, and still nothing else.
+// A server with its listening socket starts processes, which can use the stricter filter, and nothing else is allowed.
 static int stricter_process(void)
 {
     return !sandbox_filter_install(SANDBOX_DRAWS) ? EINVAL : make_process() == EPERM ? 0 : ECHILD;
@@ -455,7 +456,7 @@ static void test_server(void **state)
     }
 }
 
-// The attempts themselves work: without the sandbox these succeed.
+// The attempts are valid: without the sandbox, they succeed.
 static void test_without(void **state)
 {
     (void)state;
@@ -485,7 +486,7 @@ static void test_without(void **state)
     }
 }
 
-// A thread from before is held to the filter as well.
+// The filter also applies to a thread that started earlier.
 static int go;
 static void *try_later(void *user)
 {
@@ -517,7 +518,8 @@ static void test_threads(void **state)
 }
 
 #if defined(__x86_64__)
-// getpid() by the interface of 32 bits, whose numbers are other calls': the end of the process, or a kernel without it.
+// getpid() through the 32-bit interface, whose numbers mean other calls: the process ends, or the kernel does not
+// support it.
 static int call_of_32_bits(void)
 {
     long result;

@@ -1,4 +1,4 @@
-// test_scene_file.c: scene files: every key, every error, files cut short, memory that runs out, and writing.
+// test_scene_file.c: scene files: every key, every error, truncated files, failed allocations, and writing.
 #include "loading.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
-// The files beside the scene.
+// The files next to the scene.
 static bool open_beside(void *user, const char *name, lam_bytes *bytes, lam_error *error)
 {
     (void)user;
@@ -131,14 +131,14 @@ static void test_objects(void **unused)
     const lam_object *one = lam_scene_object(scene, 0), *two = lam_scene_object(scene, 1),
                      *three = lam_scene_object(scene, 2);
     assert_string_equal(one->name, "one");
-    // The last step acts first: (1, 0, 0) → scaled (2, 0, 0) → turned (0, 2, 0) → moved (1, 4, 3).
+    // The last step acts first: (1, 0, 0) → scaled (2, 0, 0) → rotated (0, 2, 0) → moved (1, 4, 3).
     const double(*m)[4] = one->transform.m;
     assert_true(fabs(m[0][0] + m[0][3] - 1) < 1e-15 && fabs(m[1][0] + m[1][3] - 4) < 1e-15 && m[2][0] + m[2][3] == 3);
     const lam_material *front = lam_scene_material(scene, one->material),
                        *back = lam_scene_material(scene, one->back_material);
     assert_true(front->diffuse.a == 0.25f && front->ambient.g == 0.2f && front->specular.r == 1 &&
                 front->emission.b == 3 && front->shininess == 7 && front->reflectivity.r == 0.1f && front->fibre);
-    // What the back leaves out is the front's.
+    // Omitted properties of the back are the front's.
     assert_true(back->diffuse.r == 1 && back->ambient.g == 0.2f && back->shininess == 7 && back->fibre);
     assert_true(one->one_sided && one->cull == LAM_CULL_BACK);
     assert_null(lam_scene_mesh(scene, one->mesh)->tangents);
@@ -383,7 +383,7 @@ static void test_memory(void **unused)
     assert_int_equal(error.code, LAM_LIMIT);
 }
 
-// Everything that a scene can hold comes back as it was, bit for bit.
+// Everything that a scene can contain is restored bit for bit.
 static void test_writing(void **unused)
 {
     (void)unused;
@@ -463,7 +463,7 @@ static void test_writing(void **unused)
                                .occlusion_radius = 0.3f,
                                .occlusion_samples = 9,
                                .single_scattering = true};
-    // Every row of the table with a value that is not its default. Those above go together.
+    // Every row of the table with a value other than its default. The ones above are consistent with each other.
     for (int i = 0; lam_draw_setting(i); i++) {
         const lam_setting *setting = lam_draw_setting(i);
         void *member = (char *)&s.draw + setting->offset;
@@ -544,12 +544,12 @@ static void test_writing(void **unused)
         assert_true(a.sky.r == b.sky.r && a.ground.b == b.ground.b);
         assert_true(a.radius == b.radius && a.no_shadows == b.no_shadows);
     }
-    assert_true(lam_scene_light(back, 2)->attenuation.constant == 1); // what three zeros stand for
+    assert_true(lam_scene_light(back, 2)->attenuation.constant == 1); // the meaning of three zeros
     lam_rgb ambient = lam_scene_ambient(back);
     assert_true(ambient.r == 0.1f && ambient.g == 0.7f && ambient.b == 1e-3f);
     lam_scene_free(back);
 
-    // A mesh made by hand has no name that a file could give it.
+    // A mesh made by hand has no name for the file.
     float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     lam_mesh mesh = {.positions = corners, .vertex_count = 3, .triangle_count = 1};
     lam_object extra = lam_object_default();

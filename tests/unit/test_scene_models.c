@@ -1,4 +1,4 @@
-// test_scene_models.c: the files that scene files name: what objects share, and which folders they may lie in.
+// test_scene_models.c: the files that scene files name: data shared by objects, and the allowed folders.
 #include "loading.h"
 #include "temporary_folder.h"
 
@@ -7,7 +7,7 @@
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
-// --- files beside a scene in memory
+// --- files next to a scene in memory
 
 struct counts {
     int models, materials, pictures;
@@ -59,7 +59,7 @@ static const char *material_of(const lam_scene *scene, int object, int part, lam
 
 #define A "{\"file\": \"a.obj\"}"
 
-// The same model is read once, and objects that change nothing of it share one mesh.
+// The same model is read once, and objects that do not change it share one mesh.
 static void test_shared(void **unused)
 {
     (void)unused;
@@ -96,19 +96,19 @@ static void test_shared(void **unused)
             counts.models != rows[i].models)
             fail_msg("row %zu: %d meshes, %d materials, %d models opened", i, lam_scene_mesh_count(scene),
                      lam_scene_material_count(scene), counts.models);
-        // The warning about the material file comes once for each model that is read.
+        // The warning about the material file appears once for each model that is read.
         int warnings = 0;
         while (lam_scene_warning(scene, warnings))
             warnings++;
         assert_int_equal(warnings, rows[i].models == 0 ? 0 : rows[i].models == 2 ? 2 : 1);
-        // Meshes that are not shared share their vertices where they can.
+        // Meshes that are not shared share their vertices if possible.
         for (int k = 0; k < lam_scene_object_count(scene); k++)
             assert_non_null(lam_scene_mesh(scene, lam_scene_object(scene, k)->mesh)->normals);
         lam_scene_free(scene);
     }
 }
 
-// An object's changes do not reach the others.
+// An object's changes do not affect the others.
 static void test_changes(void **unused)
 {
     (void)unused;
@@ -133,7 +133,7 @@ static void test_changes(void **unused)
     lam_scene_free(scene);
 }
 
-// It is the whole scene that a picture shows: a clear model beside another object stays clear.
+// The whole scene decides: a transparent model next to another object stays transparent.
 static void test_clear(void **unused)
 {
     (void)unused;
@@ -171,7 +171,7 @@ static void test_clear(void **unused)
     }
 }
 
-// Objects that share a mesh are written one by one, and come back as they were.
+// Objects that share a mesh are written separately, and are restored.
 static void test_written(void **unused)
 {
     (void)unused;
@@ -214,7 +214,7 @@ static void test_written(void **unused)
     rmdir(shared);
 }
 
-// A thousand objects of one model need little more than one; so do a thousand with changes of their own.
+// A thousand objects of one model need little more memory than one, even with changes of their own.
 static void test_memory(void **unused)
 {
     (void)unused;
@@ -270,7 +270,8 @@ static int make_folder(void **state)
                : 0;
 }
 
-// The files that a load looks for: the model, what it names, and what a scene file's models name; also missing ones.
+// The files that a load looks for: the model, files that it names, and files of a scene file's models; also missing
+// ones.
 static void test_files(void **unused)
 {
     (void)unused;
@@ -301,12 +302,12 @@ static void test_files(void **unused)
     assert_null(lam_scene_file(NULL, 0));
     struct counts counts;
     lam_scene *scene = load_objects(A, &counts);
-    assert_string_equal(lam_scene_file(scene, 0), "a.mtl"); // the names that the function was given
+    assert_string_equal(lam_scene_file(scene, 0), "a.mtl"); // the names passed to the function
     assert_string_equal(lam_scene_file(scene, 1), "a.obj");
     lam_scene_free(scene);
 }
 
-// A scene file's own folder is the root of what it names, models and pictures; models_anywhere lifts that.
+// A scene file's own folder is the root for its models and pictures; models_anywhere lifts this.
 static void test_root(void **unused)
 {
     (void)unused;
@@ -315,7 +316,7 @@ static void test_root(void **unused)
     snprintf(absolute_out, sizeof absolute_out, "%s", in_folder("m.obj"));
     const struct {
         const char *model, *picture;
-        const char *sentence; // NULL: it is read
+        const char *sentence; // NULL if it is read
         bool anywhere;        // then it is read with models_anywhere
     } rows[] = {
         {"m.obj", "sky.ppm", NULL, true},
@@ -356,7 +357,7 @@ static void test_root(void **unused)
             lam_scene_free(scene);
         }
     }
-    // Six faces likewise.
+    // The same for six faces.
     write_bytes("in/s.json", "{\"lambent\": 1, \"environment\": {\"faces\": [\"sky.ppm\", \"sky.ppm\", \"../sky.ppm\", "
                              "\"sky.ppm\", \"sky.ppm\", \"sky.ppm\"]}, \"objects\": [{\"shape\": \"cube\"}]}");
     lam_error error;
@@ -365,7 +366,7 @@ static void test_root(void **unused)
     assert_non_null(strstr(error.text, "/in/../sky.ppm: leads out of the folder"));
 }
 
-// The caller's function gets names within the folder, for models, what they name, and pictures; others are refused.
+// The caller's function gets names within the folder, for models, their files, and pictures; others are refused.
 static void test_function(void **unused)
 {
     (void)unused;
@@ -396,7 +397,7 @@ static void test_function(void **unused)
         if (!strstr(error.text, "which does not lie in the scene file's folder"))
             fail_msg("%s: %s", names[i / 2], error.text);
     }
-    // Without a function and without a folder nothing can be opened.
+    // Without a function and without a folder, nothing can be opened.
     assert_null(lam_scene_load_memory(good, sizeof good - 1, "s.json", NULL, NULL, &error));
     assert_non_null(strstr(error.text, "cannot be opened: the model has no folder"));
 }

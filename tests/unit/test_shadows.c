@@ -1,4 +1,4 @@
-// test_shadows.c: the share of light that passes what is in its way, as pictures and explanations have it.
+// test_shadows.c: the share of light that passes blocking surfaces, in pictures and explanations.
 #include <lambent/explain.h>
 #include <lambent/lambent.h>
 
@@ -73,14 +73,14 @@ static lam_image draw(const lam_scene *scene, lam_draw_params params)
     return image;
 }
 
-// What passes of light 0 at a point of the floor (x, 0, z), or of what lies over it.
+// The share of light 0 that reaches a point of the floor (x, 0, z), or of a surface over it.
 static lam_explained_light explained(const lam_scene *scene, lam_draw_params params, double x, double z)
 {
     int px = (int)((x + 4) / 8 * SIZE), py = (int)((z + 4) / 8 * SIZE);
     lam_explanation *e = lam_explain(device(), scene, &camera, &params, SIZE, SIZE, LAM_RGBA32F, px, py, NULL, &error);
     if (!e)
         fail_msg("%s", error.text);
-    const lam_explained_fragment *f = &e->fragments[e->fragment_count - 1]; // the floor: opaque ones come last
+    const lam_explained_fragment *f = &e->fragments[e->fragment_count - 1]; // the floor: opaque surfaces come last
     lam_explained_light light = f->points[0].lights[0];
     lam_explanation_free(e);
     return light;
@@ -88,7 +88,7 @@ static lam_explained_light explained(const lam_scene *scene, lam_draw_params par
 
 // --- layers
 
-// Translucent plates over one another multiply; masked ones pass all or nothing; an opaque one nothing.
+// Translucent plates over one another multiply; masked ones pass everything or nothing; an opaque one passes nothing.
 static void test_layers(void **unused)
 {
     (void)unused;
@@ -97,19 +97,19 @@ static void test_layers(void **unused)
     for (int i = 0; i < 3; i++)
         add_plate(scene, 1, 1, -2 + 2 * i, alphas[i]); // apart
     for (int i = 0; i < 3; i++)
-        add_plate(scene, 1.0 - 0.1 * i, 10 + i, 0.5, alphas[i]); // over one another, out of sight of the camera's side
+        add_plate(scene, 1.0 - 0.1 * i, 10 + i, 0.5, alphas[i]); // over one another, out of the camera's sight
     lam_scene_add_light(scene, sun(), &error);
     sun()->direction = (lam_vec3){0, -1, 0};
     lam_light straight = *sun();
     straight.direction = (lam_vec3){0.05, -1, 0};
     assert_true(lam_scene_set_light(scene, 0, &straight, &error));
-    // The layers at y = 10…12 over x = 0.5 fall on x = 1 … 1.1.
+    // The layers at y = 10…12 over x = 0.5 cast shadows on x = 1 … 1.1.
     lam_explained_light l = explained(scene, with, 1.05, 0);
     assert_true(fabs((double)l.passed.r - 0.75 * 0.5 * 0.875) < 1e-6);
     assert_true(l.casts_shadows && l.shadow_object == 4 && fabs((double)l.shadow_distance - 10 * sqrt(1.0025)) < 1e-3);
     assert_true(explained(scene, with, 3.5, 3).passed.r == 1);
     lam_material m;
-    for (int i = 0; i < 3; i++) { // masked: the second has an alpha of its cutoff, and stays
+    for (int i = 0; i < 3; i++) { // masked: the second has an alpha equal to its cutoff, and remains
         m = *lam_scene_material(scene, 4 + i);
         m.alpha_mode = LAM_ALPHA_MASK;
         m.alpha_cutoff = 0.5f;
@@ -119,13 +119,13 @@ static void test_layers(void **unused)
     m.diffuse.a = 0.4f;
     assert_true(lam_scene_set_material(scene, 5, &m, &error));
     assert_true(explained(scene, with, 1.05, 0).passed.r == 1);
-    m.alpha_mode = LAM_ALPHA_OPAQUE; // whatever its alpha
+    m.alpha_mode = LAM_ALPHA_OPAQUE; // for any alpha
     assert_true(lam_scene_set_material(scene, 5, &m, &error));
     assert_true(explained(scene, with, 1.05, 0).passed.r == 0);
     lam_scene_free(scene);
 }
 
-// The sides of a plate may let different shares through: the side that the light falls on counts.
+// The sides of a plate may pass different shares: the side that the light hits decides.
 static void test_sides(void **unused)
 {
     (void)unused;
@@ -150,7 +150,7 @@ static void test_sides(void **unused)
         }
 }
 
-// --- who casts shadows, and where
+// --- which objects cast shadows, and where
 
 static void test_lights(void **unused)
 {
@@ -165,7 +165,7 @@ static void test_lights(void **unused)
     lam_device_report(device(), &report);
     assert_true(report.rays > 1000 && report.rays <= report.points_lit);
     lam_image_free(&shadowed);
-    // A light that casts no shadows, and a picture without one that does, are as before.
+    // A light without shadows, and a picture without shadows, do not change.
     l.no_shadows = true;
     assert_true(lam_scene_set_light(scene, 0, &l, &error));
     shadowed = draw(scene, with);
@@ -173,7 +173,7 @@ static void test_lights(void **unused)
     lam_device_report(device(), &report);
     assert_true(report.rays == 0);
     lam_image_free(&shadowed);
-    // Ambient light and emission do not change: the shadow takes the light's own terms, once.
+    // Ambient light and emission do not change: the shadow removes the light's own terms, once.
     l.no_shadows = false;
     lam_scene_set_light(scene, 0, &l, &error);
     lam_scene_set_ambient(scene, (lam_rgb){0.3f, 0.3f, 0.3f});
@@ -187,7 +187,7 @@ static void test_lights(void **unused)
         lam_image_free(&without);
         lam_image_free(&also);
     }
-    // Two lights at one place: each loses its own.
+    // Two lights at one position: each loses its own terms.
     lam_scene_add_light(scene, &l, &error);
     lam_image sum = draw(scene, with);
     lam_draw_params one = with;
@@ -203,7 +203,8 @@ static void test_lights(void **unused)
     lam_scene_free(scene);
 }
 
-// The same shadow from a point, a spot and a directional light; culled things cast it too; a thing behind the light does not.
+// A point, a spot and a directional light cast the same shadow; culled objects also cast it; an object behind the light
+// does not.
 static void test_kinds(void **unused)
 {
     (void)unused;
@@ -222,7 +223,7 @@ static void test_kinds(void **unused)
             lam_draw_params params = with;
             lam_image image = draw(scene, params);
             const float *under = (const float *)image.pixels + 4 * (SIZE / 2 * SIZE + SIZE * 5 / 8);
-            // Seen from above the plate hides its own shadow, unless it is culled.
+            // From above, the plate hides its own shadow, unless it is culled.
             assert_true(o.cull == LAM_CULL_BACK || o.cull == LAM_CULL_NONE ? under[0] > 0.1f : under[0] == 0);
             lam_image_free(&image);
         }
@@ -244,7 +245,7 @@ static void test_soft(void **unused)
 {
     (void)unused;
     lam_scene *scene = floor_scene();
-    add_plate(scene, 2000, 4, 1000, 1); // its edge is over x = 0
+    add_plate(scene, 2000, 4, 1000, 1); // its edge is above x = 0
     lam_light l = *sun();
     l.direction = (lam_vec3){0, -1, 0};
     l.angular_radius_rad = 0.2f;
@@ -291,8 +292,8 @@ static int count_dark(const lam_image *shadowed, const lam_image *bare, float le
     return dark;
 }
 
-// A convex body alone has no shadow but its own dark side: with the cure no point is shadowed where n·l > 0, without it the
-// terminator of a coarse ball is, and that of flat shading is not.
+// A single convex body has no shadow except its own dark side: with the correction, no point is shadowed where n·l > 0;
+// without it, the terminator of a coarse ball is shadowed, but not with flat shading.
 static void test_convex(void **unused)
 {
     (void)unused;
@@ -322,7 +323,7 @@ static void test_convex(void **unused)
             lam_image_free(&a);
             lam_image_free(&b);
             lam_image_free(&c);
-            // Samples at edges, where the light falls steeply: no neighbour is in the way.
+            // Samples at edges, where the light falls steeply: no neighbour blocks it.
             lam_draw_params edges = bare, edges_literal = literal;
             edges.samples = edges_literal.samples = 8;
             a = draw(scene, edges);
@@ -340,8 +341,8 @@ static void test_convex(void **unused)
         }
 }
 
-// Models of files: pixels that alone are dark among neighbours that are lit. Most of them are tips of true shadows; rays that
-// met what they start on would make many times as many.
+// Models from files: single pixels that are dark among lit neighbours. Most of them are tips of real shadows; rays that
+// hit their own surface would cause many times as many.
 static void test_models(void **unused)
 {
     (void)unused;
@@ -402,7 +403,7 @@ static void test_models(void **unused)
     assert_true(alone <= 1e-4 * covered);
 }
 
-// A box that stands on the floor: the shadow begins at its foot, and the floor beside it is lit up to the edge.
+// A box on the floor: the shadow begins at its foot, and the floor next to it is lit up to the edge.
 static void test_contact(void **unused)
 {
     (void)unused;
@@ -439,8 +440,9 @@ static void test_twins(void **unused)
     lam_scene_free(scene);
 }
 
-// Adds overlapping triangles in one plane, in general position: the corners of two pentagons, whose coordinates are rounded to
-// floats. `spread` of the normals makes rays start above the plane (the cure of the terminator). *n: the plane's normal.
+// Adds overlapping triangles in one plane, in general position: the corners of two pentagons, whose coordinates are
+// rounded to floats. `spread` of the normals makes rays start above the plane (the correction of the terminator). *n
+// gets the plane's normal.
 static void add_pentagons(lam_scene *scene, double turn, double spread, lam_vec3 *n)
 {
     static const uint32_t corners[] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 1, 3, 4, 5, 6, 7, 6, 8, 9, 5, 7, 9};
@@ -466,7 +468,8 @@ static void add_pentagons(lam_scene *scene, double turn, double spread, lam_vec3
     *n = (lam_vec3){m.m[0][2], m.m[1][2], m.m[2][2]};
 }
 
-// None of them shadows another, wherever the light is: above, beside, or below, where spread normals still face it.
+// None of them shadows another for any position of the light: above, beside, or below, where spread normals still face
+// it.
 static void test_coplanar(void **unused)
 {
     (void)unused;
@@ -498,7 +501,8 @@ static void test_coplanar(void **unused)
     }
 }
 
-// A sheet right above another shadows it, unless it is nearer than numbers are rounded. It is culled, so that one sees through it.
+// A sheet right above another shadows it, unless it is closer than the rounding of numbers. It is culled, so that one
+// sees through it.
 static void test_near_sheet(void **unused)
 {
     (void)unused;
@@ -513,7 +517,7 @@ static void test_near_sheet(void **unused)
     }
 }
 
-// Limits: a budget that the hierarchy exceeds, and parameters out of range.
+// Limits: a memory limit that the hierarchy exceeds, and parameters out of range.
 static void test_refused(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-// test_shapes.c: built-in shapes, and tessellation of parametric and implicit surfaces.
-// Above 600 lines: each shape's own facts are listed, and the checks that all shapes share.
+// test_shapes.c: built-in shapes, and tessellation of parametric and implicit surfaces. The file has more than 600
+// lines because it lists the properties of each shape, and contains the checks that all shapes share.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +18,7 @@
 
 #include <lambent/scene.h>
 
-// --- Looking at meshes
+// --- Inspecting meshes
 
 typedef struct {
     double x, y, z;
@@ -56,7 +56,7 @@ static int compare_places(const void *a, const void *b)
     return order ? order : ((const struct place *)a)->vertex < ((const struct place *)b)->vertex ? -1 : 1;
 }
 
-// vertex → lowest vertex with the same bits of position.
+// vertex → the lowest vertex with the same position bits.
 static uint32_t *weld(const lam_mesh *mesh)
 {
     uint32_t *same = malloc((mesh->vertex_count + 1) * sizeof *same);
@@ -81,7 +81,7 @@ static int compare_edges(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-// Edges that do not occur exactly once in each direction, positions welded.
+// Edges that do not occur exactly once in each direction, with welded positions.
 static size_t open_edges(const lam_mesh *mesh)
 {
     uint32_t *same = weld(mesh);
@@ -141,8 +141,7 @@ static uint64_t hash_mesh(const lam_mesh *mesh)
     return h;
 }
 
-// Unit normals on the outward side of each face, unit tangents perpendicular to them, everything finite and
-// in range.
+// Unit normals on the outward side of each face, unit tangents perpendicular to them, and only finite numbers in range.
 static void check_attributes(const lam_mesh *mesh, const char *name)
 {
     for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++) {
@@ -168,7 +167,7 @@ static void check_attributes(const lam_mesh *mesh, const char *name)
         point face = cross(minus(position(mesh, 3 * t + 1), a), minus(position(mesh, 3 * t + 2), a));
         if (!(length(face) > 0))
             fail_msg("%s: triangle %zu has no area", name, t);
-        if (length(face) < 1e-9) // its own normal is rounding
+        if (length(face) < 1e-9) // its own normal consists of rounding errors
             continue;
         for (size_t k = 0; k < 3; k++)
             if (!(dot(face, normal(mesh, 3 * t + k)) > 0))
@@ -176,7 +175,7 @@ static void check_attributes(const lam_mesh *mesh, const char *name)
     }
 }
 
-// Tangents follow the texture: s grows along them, t along n × tangent.
+// Tangents follow the texture: s grows along them, and t along n × tangent.
 static void check_texture_frame(const lam_mesh *mesh, const char *name)
 {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -202,8 +201,8 @@ static void check_texture_frame(const lam_mesh *mesh, const char *name)
 struct expected {
     const char *name;
     bool closed;
-    double volume; // of the exact body; 0: none known
-    double reach;  // how near to ±1 the box comes
+    double volume; // of the exact body; 0 if unknown
+    double reach;  // how close to ±1 the box comes
     uint64_t hash; // positions, indices, normals: the same for every compiler and build
 };
 
@@ -278,7 +277,7 @@ static void test_shape_options(void **state)
     (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     for (int i = 0; i < lam_shape_count(); i++) {
-        // The coarsest, an odd and a finer tessellation are closed too.
+        // The coarsest, an odd and a finer tessellation are also closed.
         static const lam_shape_params tries[] = {{.slices = 3, .stacks = 3},
                                                  {.slices = 17, .stacks = 5, .radius = 250},
                                                  {.slices = 40, .stacks = 21, .radius = 1e-3}};
@@ -320,8 +319,8 @@ static void test_shape_options(void **state)
     lam_scene_free(scene);
 }
 
-// However coarse a shape is, no side of a triangle occurs twice in one direction: of a tube that is so coarse that it is
-// flat, both sheets lie in one place and share all sides.
+// For any coarseness, no side of a triangle occurs twice in one direction. In a tube that is so coarse that it is flat,
+// both sheets are in one place and share all sides.
 static void test_coarsest_segments(void **state)
 {
     (void)state;
@@ -352,9 +351,8 @@ static void test_coarsest_segments(void **state)
     lam_scene_free(scene);
 }
 
-// A sphere's triangles approach it: of the face normals against the vertex normals the error halves when the
-// segments double, of the normal of the sphere at the face's middle (the mean of the vertex normals) it falls
-// by four.
+// A sphere's triangles approach it. When the segments double, the error between face normals and vertex normals halves,
+// and the error between the face normal and the mean of the vertex normals falls to a quarter.
 static void sphere_errors(int slices, double *at_vertices, double *at_middle)
 {
     lam_scene *scene = lam_scene_make(NULL);
@@ -373,8 +371,8 @@ static void sphere_errors(int slices, double *at_vertices, double *at_middle)
         for (int k = 0; k < 3; k++)
             sum += length(cross(face, n[k])) / length(face) / 3;
         *at_vertices += sum / mesh->triangle_count;
-        // Where the mean of the corners points, in truth, and where the interpolated normal does before it is
-        // made unit: its length falls short of 1 by the square of the segment.
+        // The true direction of the mean of the corners, and the direction of the interpolated normal before
+        // normalization: its length falls short of 1 by the square of the segment.
         *at_middle += fabs(1 - length(mean) / 3) / mesh->triangle_count;
         assert_true(length(cross(middle, mean)) / (length(middle) * length(mean)) < 1e-6);
     }
@@ -397,7 +395,7 @@ static void test_convergence(void **state)
     }
 }
 
-// --- The unit sphere three ways, with the mathematics library's functions as a user would write it
+// --- The unit sphere in three ways, with the mathematics library's functions, as a user would write it
 
 static lam_parametric parametric(lam_surface_fn *surface, double u_max, double v_max, int u_segments, int v_segments,
                                  bool u_closed)
@@ -437,7 +435,7 @@ static void test_unit_sphere(void **state)
     lam_scene *scene = lam_scene_make(NULL);
     lam_error error = {0};
     int yes = 1;
-    // With the limit's direction at the poles, and with derivatives that vanish there.
+    // With the limit direction at the poles, and with derivatives that vanish there.
     for (int k = 0; k < 2; k++) {
         lam_parametric sphere = parametric(user_sphere, 2 * M_PI, M_PI, 48, 24, true);
         sphere.user = k ? NULL : &yes;
@@ -450,13 +448,13 @@ static void test_unit_sphere(void **state)
         check_texture_frame(mesh, "sphere");
         assert_int_equal(open_edges(mesh), 0);
         for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++) {
-            // The parametric normal ∂p/∂u × ∂p/∂v, ∇f/|∇f| and the position are one vector on the unit sphere.
+            // The parametric normal ∂p/∂u × ∂p/∂v, ∇f/|∇f| and the position are the same vector on the unit sphere.
             point p = position(mesh, c), n = normal(mesh, c);
             lam_vec3 g = ball_gradient(NULL, (lam_vec3){p.x, p.y, p.z});
             point gradient = {g.x / 2, g.y / 2, g.z / 2};
             assert_true(length(minus(n, gradient)) < 3e-7);
         }
-        // The seam: both sides' normals are the same bits.
+        // At the seam, the normals of both sides have the same bits.
         for (int j = 0; j <= 24; j++)
             assert_memory_equal(mesh->normals + 3 * (size_t)(49 * j), mesh->normals + 3 * (size_t)(49 * j + 48), 12);
     }
@@ -486,13 +484,13 @@ static void test_unit_sphere(void **state)
 // Every case of the table, by random values on the lattice: closed meshes without an edge in more than two triangles.
 struct noise {
     int n;
-    signed char *sign; // of the inner lattice points
+    signed char *sign; // for the inner lattice points
 };
 static double noise_value(void *user, lam_vec3 p)
 {
     const struct noise *noise = user;
     int n = noise->n;
-    // Trilinear between lattice points 0…n, outside around them.
+    // Trilinear between lattice points 0…n, and outside around them.
     double f = 0;
     int x = (int)floor(p.x), y = (int)floor(p.y), z = (int)floor(p.z);
     for (int k = 0; k < 8; k++) {
@@ -518,7 +516,7 @@ static void test_every_cell_case(void **state)
     enum { N = 24 };
     static signed char sign[N * N * N];
     uint32_t random = 1;
-    for (int share = 1; share < 4; share++) { // a quarter, a half, three quarters inside
+    for (int share = 1; share < 4; share++) { // a quarter, a half, or three quarters inside
         for (int i = 0; i < N * N * N; i++) {
             random = random * 1664525u + 1013904223u;
             sign[i] = (int)(random >> 30) < share ? -1 : 1;
@@ -560,7 +558,7 @@ static void test_tip(void **state)
     assert_int_equal(mesh->vertex_count, 16 * 4 + 1);
     for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++) {
         point n = normal(mesh, c);
-        // ∂p/∂u × ∂p/∂v points inward here (down and in): the mesh is turned the same way.
+        // ∂p/∂u × ∂p/∂v points inward here (down and in), so the mesh is reversed in the same way.
         assert_true(fabs(n.z + sqrt(0.5)) < 1e-6);
         point a = position(mesh, c / 3 * 3),
               face = cross(minus(position(mesh, c / 3 * 3 + 1), a), minus(position(mesh, c / 3 * 3 + 2), a));
@@ -620,7 +618,7 @@ static void test_bad_formulas(void **state)
     bad[3].u_segments = 0;
     bad[4].v_segments = 16385;
     bad[5].surface = infinite_point;
-    bad[5].u_segments = 10; // meets 0.3, which the coarse sample does not
+    bad[5].u_segments = 10; // includes 0.3, which the coarse sample does not
     for (int i = 0; i < 6; i++) {
         assert_int_equal(lam_scene_add_parametric(scene, &bad[i], NULL, &error), -1);
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
@@ -651,7 +649,7 @@ static void test_bad_formulas(void **state)
     assert_int_equal(lam_scene_add_implicit(scene, &wrong, NULL, &error), 0);
     check_attributes(lam_scene_mesh(scene, 0), "half ball");
 
-    // Controls: cancelled, out of time, out of its memory.
+    // Controls: cancelled, out of time, out of memory.
     lam_cancel cancel = {0};
     lam_cancel_raise(&cancel);
     assert_int_equal(lam_scene_add_implicit(scene, &ball, &(lam_control){.cancel = &cancel}, &error), -1);
@@ -665,7 +663,7 @@ static void test_bad_formulas(void **state)
     lam_scene_free(scene);
 }
 
-// Each allocation failing in turn gives an error and nothing else.
+// If an allocation fails, the call gives an error and nothing else.
 static void test_allocations_fail(void **state)
 {
     (void)state;
@@ -694,7 +692,7 @@ static void test_allocations_fail(void **state)
 static void test_teapot_data(void **state)
 {
     (void)state;
-    // Some of the 306 published points, as they stand in the list (numbers from 1).
+    // Some of the 306 published points, as printed in the list (numbers from 1).
     assert_true(teapot_body[3][0].radius == 1.5 && teapot_body[3][0].step == 0.84 &&
                 teapot_body[3][0].height == 2.4);                                    // 13, 14
     assert_true(teapot_body[3][3].radius == 1.4 && teapot_body[3][3].step == 0.784); // 1, 2
@@ -702,7 +700,7 @@ static void test_teapot_data(void **state)
                 teapot_lid[1][2].height == 3.15);                                    // 207
     assert_true(teapot_spout[1][1].bx == 3.525 && teapot_spout[1][1].bz == 2.49375); // 188
     assert_true(teapot_handle[1][3].ax == -2.0 && teapot_handle[1][3].bz == 0.6);    // 69, 155
-    // Bands that follow each other share their ring.
+    // Consecutive bands share a ring.
     for (int i = 0; i < 3; i++)
         assert_memory_equal(&teapot_body[i][3], &teapot_body[i + 1][0], sizeof(struct teapot_ring));
     assert_memory_equal(&teapot_lid[0][3], &teapot_lid[1][0], sizeof(struct teapot_ring));
@@ -710,7 +708,8 @@ static void test_teapot_data(void **state)
     assert_memory_equal(&teapot_spout[0][3], &teapot_spout[1][0], sizeof(struct teapot_section));
 }
 
-// The shared teapot.obj is the same patches cut into 10 × 10: our vertices with 10 segments a patch are its vertices.
+// The shared teapot.obj consists of the same patches divided into 10 × 10: the vertices with 10 segments per patch are
+// its vertices.
 static void test_teapot_against_file(void **state)
 {
     (void)state;
@@ -734,12 +733,12 @@ static void test_teapot_against_file(void **state)
     lam_scene *scene = lam_scene_make(NULL);
     const lam_mesh *mesh = make(scene, "teapot", &(lam_shape_params){.slices = 40, .stacks = 10});
     assert_int_equal(mesh->triangle_count,
-                     6320); // 32 patches of 200, less 10 at each of the 8 that end in a pole
+                     6320); // 32 patches of 200, minus 10 at each of the 8 that end in a pole
     double worst = 0;
     static bool found[ROOM];
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         point p = from_floats(mesh->positions + 3 * (size_t)i);
-        // Back to Newell's measures, on the ground.
+        // Converts back to Newell's measures, on the ground.
         p = (point){p.x * 3.2170375625 + 0.2170375625, p.y * 3.2170375625 + 1.575, p.z * 3.2170375625};
         double nearest = 1e9;
         for (size_t k = 0; k < count; k++) {
@@ -755,7 +754,7 @@ static void test_teapot_against_file(void **state)
     lam_scene_free(scene);
 }
 
-// Poles and joints of the teapot: the lid's top looks up, the bottom down, and across joints normals do not jump.
+// Poles and joints of the teapot: the lid's top faces up, the bottom faces down, and normals do not jump across joints.
 static void test_teapot_normals(void **state)
 {
     (void)state;
@@ -778,8 +777,8 @@ static void test_teapot_normals(void **state)
     }
     assert_int_equal(tops, 128);
     assert_int_equal(bottoms, 128);
-    // One position, one normal: no vertex of the teapot is a crease. (The handle's lower end touches the
-    // body's widest ring in one point; those are two surfaces.)
+    // One position has one normal: no vertex of the teapot is a crease. (The handle's lower end touches the body's
+    // widest ring in one point; these are two surfaces.)
     uint32_t *same = weld(mesh);
     point *first = calloc(mesh->vertex_count, sizeof *first);
     for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++) {
@@ -795,7 +794,7 @@ static void test_teapot_normals(void **state)
     lam_scene_free(scene);
 }
 
-// circle(): exact at quarters, mirrored, and true.
+// circle(): exact at quarters, mirrored, and accurate.
 static void test_circle(void **state)
 {
     (void)state;

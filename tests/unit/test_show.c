@@ -1,5 +1,5 @@
-// test_show.c: pictures of terms add up to the picture; pictures of numbers hold the numbers that they say, and their
-// codes.
+// test_show.c: pictures of terms add up to the picture; pictures of quantities contain the documented numbers and
+// encodings.
 #include "scenes.h"
 
 #include <math.h>
@@ -44,7 +44,7 @@ static void add(double *sums, lam_image image)
     lam_image_free(&image);
 }
 
-// Channels that the sums and the picture do not share, at most some roundings of float numbers of this size.
+// Channels in which the sums and the picture differ by at most some rounding errors of float numbers of this size.
 static void check_sums(const char *what, const double *sums, const lam_image *picture)
 {
     const float *p = picture->pixels;
@@ -65,19 +65,19 @@ static void check_sums(const char *what, const double *sums, const lam_image *pi
         fail_msg("%s: the picture is black", what);
 }
 
-// Both ways to add up: the five terms; and the lights, with what is no light's.
+// Both sums: the five terms; and the lights, with the light that belongs to no light.
 static void check_scene(const char *name, lam_scene *scene, const lam_camera *camera, lam_draw_params params)
 {
     static double sums[CHANNELS];
     params.background = (lam_rgba){0};
     if (strcmp(name, "layers-transmission") == 0 || strcmp(name, "layers-refraction") == 0)
-        params.background.a = 1; // over nothing, coloured glass holds white that is no term's
+        params.background.a = 1; // over nothing, coloured glass contains white that belongs to no term
     lam_image picture = draw_show(scene, camera, params, LAM_OUTPUT_PICTURE, 0);
     memset(sums, 0, sizeof sums);
     for (int show = LAM_OUTPUT_AMBIENT; show <= LAM_OUTPUT_REFLECTION; show++)
         add(sums, draw_show(scene, camera, params, (lam_output)show, 0));
     check_sums(name, sums, &picture);
-    // What is unlit is no light's: lines without normals too.
+    // Unlit surfaces belong to no light, including lines without normals.
     if (params.reflection == LAM_REFLECTION_NONE || strcmp(name, "lines") == 0) {
         lam_image_free(&picture);
         return;
@@ -88,7 +88,7 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
         add(sums, draw_show(scene, camera, params, LAM_OUTPUT_LIGHT, i));
     add(sums, draw_show(scene, camera, params, LAM_OUTPUT_EMISSION, 0));
     add(sums, draw_show(scene, camera, params, LAM_OUTPUT_ENVIRONMENT, 0));
-    // What is left is the scene's own ambient light: that of a scene without others.
+    // The remainder is the scene's own ambient light, as in a scene without others.
     lam_light ambient = lam_light_default(LAM_LIGHT_AMBIENT);
     ambient.ambient = lam_scene_ambient(scene);
     lam_scene_set_ambient(scene, (lam_rgb){0});
@@ -116,7 +116,8 @@ static void test_demos(void **state)
     }
 }
 
-// A scene of every kind of light and term: emission, ambient of lights and scene, hemisphere, spot, coloured vertices.
+// A scene with every kind of light and term: emission, ambient light of lights and of the scene, hemisphere, spot,
+// coloured vertices.
 static lam_scene *full_scene(bool colors)
 {
     lam_scene *scene = lam_scene_make(NULL);
@@ -180,7 +181,7 @@ static void test_every_method(void **state)
                     char name[80];
                     snprintf(name, sizeof name, "colours %d, shading %d, model %d, gl1 %d", colors, shading, model,
                              gl1);
-                    // the scene's ambient light goes with the lights' there, and is weakened as theirs
+                    // the scene's ambient light is added to the lights' there, and is attenuated like theirs
                     if (params.gl1)
                         lam_scene_set_ambient(scene, (lam_rgb){0});
                     check_scene(name, scene, &camera, params);
@@ -188,7 +189,7 @@ static void test_every_method(void **state)
                 }
 }
 
-// The other lights and the shows of no light are none of its business.
+// The other lights, and terms that belong to no light, do not affect it.
 static void test_one_light(void **state)
 {
     (void)state;
@@ -216,7 +217,8 @@ static void test_one_light(void **state)
     lam_scene_free(scene);
 }
 
-// --- numbers: a rectangle across the picture at z = 0, its left half seen from behind, over a second one at z = -1
+// --- quantities: a rectangle across the picture at z = 0, whose left half is seen from behind, over a second one at z
+// = -1
 
 static lam_scene *two_sheets(lam_camera *camera)
 {
@@ -224,7 +226,7 @@ static lam_scene *two_sheets(lam_camera *camera)
     static const float positions[] = {-2, -2, 0, 0, -2, 0, 0, 2, 0, -2, 2, 0, 2, -2, 0, 2, 2, 0};
     static const uint32_t indices[] = {0, 2, 1, 0, 3, 2, 1, 4, 5, 1, 5, 2}; // the left half clockwise
     lam_mesh near_sheet = {.vertex_count = 6, .triangle_count = 4, .positions = positions, .indices = indices};
-    static const float behind[] = {-2, -2, -1, 2, -2, -1, 2, 0, -1, -2, 0, -1}; // the lower half only
+    static const float behind[] = {-2, -2, -1, 2, -2, -1, 2, 0, -1, -2, 0, -1}; // only the lower half
     static const uint32_t quad[] = {0, 1, 2, 0, 2, 3};
     lam_mesh far_sheet = {.vertex_count = 4, .triangle_count = 2, .positions = behind, .indices = quad};
     lam_object object = lam_object_default();
@@ -246,11 +248,11 @@ static lam_scene *two_sheets(lam_camera *camera)
 
 struct expected {
     lam_output show;
-    float left[4], right[4], outside[4]; // floats at a pixel of each
+    float left[4], right[4], outside[4]; // floats at a pixel of each part
     uint8_t left_code[4], right_code[4], outside_code[4];
 };
 
-// 8 bits of the background {1, 0.5, 0, 0.4}: sRGB, and not premultiplied, as in the picture.
+// 8 bits of the background {1, 0.5, 0, 0.4}: sRGB and not premultiplied, as in the picture.
 #define BACK {255, 188, 0, 102}
 
 static void test_numbers(void **state)
@@ -281,7 +283,7 @@ static void test_numbers(void **state)
          {255, 255, 255, 255},
          {255, 255, 255, 255},
          {0, 0, 0, 255}},
-        // two sheets below, one above: left is asked for below
+        // two sheets below, one above: the left pixel is in the lower half
         {LAM_OUTPUT_OVERDRAW,
          {2, 2, 2, 1},
          {1, 1, 1, 1},
@@ -322,8 +324,8 @@ static void test_numbers(void **state)
     lam_scene_free(scene);
 }
 
-// 8 bits of depth spread over the scene's vertices, seen or not, wherever the eye stands; the camera's planes cut the
-// range. A range that floats cannot tell apart is all near.
+// 8 bits of depth cover the scene's vertices, visible or not, from any eye position; the camera's planes limit the
+// range. If floats cannot distinguish the ends of the range, every depth is near.
 static void test_depth_range(void **state)
 {
     (void)state;
@@ -335,7 +337,7 @@ static void test_depth_range(void **state)
         lam_object object = lam_object_default();
         object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 128, .stacks = 64}, NULL);
         object.transform.m[2][2] = cases[i / 2].scale_z;
-        object.transform.m[0][3] = 300; // the sphere's place does not matter
+        object.transform.m[0][3] = 300; // the sphere's position has no effect
         assert_true(lam_scene_add_object(scene, &object, NULL) == 0);
         lam_camera camera = {.eye = {300, 0, 8}, .target = {300, 0, 0}, .up = {0, 1, 0}, .fovy_rad = 0.35};
         camera.ortho_half_height = i % 2 ? 1.2 : 0;
@@ -394,7 +396,7 @@ static void test_ids(void **state)
     lam_scene_free(scene);
 }
 
-// Where the picture's linear numbers are over 1, and by how much.
+// The pixels whose linear numbers exceed 1, and the excess.
 static void test_clipped(void **state)
 {
     (void)state;
@@ -426,7 +428,8 @@ static void test_clipped(void **state)
     lam_scene_free(scene);
 }
 
-// Coverage is the picture's alpha; tangents are unit and perpendicular to the normals; depth is the eye's own distance.
+// Coverage is the picture's alpha; tangents are unit vectors perpendicular to the normals; depth is the distance from
+// the eye.
 static void test_relations(void **state)
 {
     (void)state;
@@ -455,7 +458,7 @@ static void test_relations(void **state)
             nt += (double)n[k] * (double)t[k];
         }
         assert_true(fabs(nn - 1) < 1e-5 && fabs(tt - 1) < 1e-5 && fabs(nt) < 1e-5);
-        assert_true(n[2] > -0.35f); // two-sided: towards the eye, but for the smooth normals of triangles at the rim
+        assert_true(n[2] > -0.35f); // two-sided: towards the eye, except for the smooth normals of triangles at the rim
         float cosine = ((float *)n_l.pixels)[i], half = ((float *)n_h.pixels)[i];
         assert_true(cosine >= -1 && cosine <= 1 && half >= -1 && half <= 1);
     }

@@ -1,4 +1,5 @@
-// test_specular_aa.c: specular antialiasing: small pictures of bumpy surfaces with one sample a pixel against the means of large ones.
+// test_specular_aa.c: specular antialiasing: compares small pictures of bumpy surfaces with one sample per pixel with
+// the means of large ones.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +14,7 @@
 
 enum { SIDE = 64, FINE = 8 * SIDE, TEXELS = 256 };
 
-// A normal map of round bumps, a few texels of it wide.
+// A normal map of round bumps, each a few texels wide.
 static lam_texture *bumps(void)
 {
     static uint8_t pixels[TEXELS][TEXELS][3];
@@ -32,7 +33,7 @@ static lam_texture *bumps(void)
     return texture;
 }
 
-// A smooth metal that mirrors the studio, with bumps of a map or of the mesh.
+// A smooth metal that mirrors the studio, with bumps from a map or from the mesh.
 static lam_scene *scene_of(bool mapped, lam_texture *texture)
 {
     lam_error error;
@@ -70,7 +71,7 @@ static lam_image draw(const lam_scene *scene, int side, lam_draw_params params)
     return image;
 }
 
-// The root of the mean square between a small picture and the means of a large one, tone-mapped: x / (1 + x).
+// The root mean square difference between a small picture and the means of a large one, tone-mapped: x / (1 + x).
 static double difference(const lam_image *small, const lam_image *large)
 {
     double sum = 0;
@@ -95,7 +96,7 @@ static double difference(const lam_image *small, const lam_image *large)
     return sqrt(sum / count);
 }
 
-// It brings pixels nearer to the means over their area, which the exact equations give in a large picture.
+// It moves pixels closer to the means over their area, which the exact equations give in a large picture.
 static void test_nearer(void **state)
 {
     (void)state;
@@ -119,7 +120,7 @@ static void test_nearer(void **state)
     }
 }
 
-// Flat surfaces keep their bits, and shading by vertices refuses.
+// Flat surfaces keep their bits, and shading at vertices is an error.
 static void test_flat(void **state)
 {
     (void)state;

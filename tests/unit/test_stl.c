@@ -22,7 +22,7 @@ static void put_header(struct made *file, const char *text, uint32_t facets)
     put_u32(file, facets);
 }
 
-// Facet number n: a corner at (n, 0, 0), two beside it.
+// Facet number n: a corner at (n, 0, 0), and two next to it.
 static void put_facet(struct made *file, int n, uint16_t word)
 {
     float numbers[12] = {0, 0, 1, (float)n, 0, 0, (float)n + 1, 0, 0, (float)n, 1, 0.5f};
@@ -63,8 +63,8 @@ static void test_ascii(void **state)
     lam_scene_free(scene);
 }
 
-// Keywords in any case, lines broken anywhere, every line end, a byte order mark, normals that are not
-// numbers, a facet outside a solid, an empty solid, bytes that are not UTF-8 in a name.
+// Keywords in any case, lines broken anywhere, every line end, a byte order mark, normals that are not numbers, a facet
+// outside a solid, an empty solid, invalid UTF-8 in a name.
 static void test_ascii_oddities(void **state)
 {
     (void)state;
@@ -91,7 +91,7 @@ static void test_ascii_oddities(void **state)
     lam_scene_free(scene);
 }
 
-// A file that ends between two facets may be cut short.
+// A file that ends between two facets may be truncated.
 static void test_ascii_without_end(void **state)
 {
     (void)state;
@@ -131,7 +131,7 @@ static void test_ascii_without_end(void **state)
     }
 }
 
-// A zero byte makes a text no binary file.
+// A text with a zero byte is not a binary file.
 static void test_ascii_with_zero(void **state)
 {
     (void)state;
@@ -148,7 +148,7 @@ static void test_ascii_with_zero(void **state)
         snprintf(wanted, sizeof wanted, "a.stl:%d: found a zero byte, expected text", lines);
         refuse(changed, sizeof text - 1, "a.stl", LAM_CANNOT_READ, wanted);
     }
-    // Far behind the part that decides the format too.
+    // This also holds far behind the part that determines the format.
     size_t size = 200 * (sizeof ONE - 1) + 8;
     char *large = malloc(size);
     memcpy(large, "solid a\n", 8);
@@ -171,7 +171,7 @@ static void test_ascii_in_one_line(void **state)
     lam_scene_free(scene);
 }
 
-// A part of a millimetre's detail 500 km from zero.
+// A part with details of a millimetre, 500 km from zero.
 static void test_ascii_far_from_zero(void **state)
 {
     (void)state;
@@ -220,7 +220,7 @@ static void test_ascii_errors(void **state)
 static void test_binary(void **state)
 {
     (void)state;
-    // A header that begins with "solid" and a name with "facet" in it does not make it ASCII.
+    // A header that begins with "solid", and a name that contains "facet", do not make it ASCII.
     struct made file = {0};
     put_header(&file, "solid facet endsolid", 2);
     put_facet(&file, 3, 0);
@@ -238,7 +238,7 @@ static void test_binary(void **state)
     assert_corner(mesh, 1, 2, -7, 1, 0.5);
     lam_scene_free(scene);
 
-    // Bytes after the last facet give a warning, and the extension decides the format.
+    // Bytes after the last facet cause a warning, and the extension determines the format.
     put_text(&file, "more");
     scene = load(&file, "a.stl");
     assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 2);
@@ -329,7 +329,7 @@ static void test_colors_magics(void **state)
     assert_color(lam_scene_mesh(scene, 0), 1, 0x10, 0x20, 0x30);
     lam_scene_free(scene);
 
-    // All words are zero: the header's colour is the material's, so that options can replace it.
+    // If all words are zero, the header's colour becomes the material's, so that options can replace it.
     memset(file.bytes + 84 + 48, 0, 2);
     memset(file.bytes + 134 + 48, 0, 2);
     scene = load(&file, "a.stl");

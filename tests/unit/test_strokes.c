@@ -1,5 +1,4 @@
-// test_strokes.c: lines and points: their width in pixels, clipping, light, colours, the camera's fit, and the files that
-// hold them.
+// test_strokes.c: lines and points: their width in pixels, clipping, light, colours, the camera's fit, and their files.
 #include "device_fixture.h"
 #include "loading.h"
 
@@ -32,7 +31,7 @@ static const float *at(const lam_image *image, int x, int y)
     return (const float *)image->pixels + 4 * ((size_t)y * SIDE + (size_t)x);
 }
 
-// The area that is covered, in pixels.
+// The covered area, in pixels.
 static double area(const lam_image *image)
 {
     double sum = 0;
@@ -41,7 +40,7 @@ static double area(const lam_image *image)
     return sum;
 }
 
-// Every width, in pixels, whatever the distance and the direction.
+// Every width in pixels, at any distance and in any direction.
 static void widths(void **state)
 {
     (void)state;
@@ -75,7 +74,7 @@ static void widths(void **state)
     lam_scene_free(scene);
 }
 
-// A line from behind the eye ends at the near plane, and has the colour there of the whole line.
+// A line from behind the eye ends at the near plane, with the interpolated colour of the whole line.
 static void clipping(void **state)
 {
     (void)state;
@@ -109,7 +108,7 @@ static void clipping(void **state)
     }
     assert_true(rows > 15);
     lam_image_free(&image);
-    // Wholly before the near plane: nothing.
+    // A line completely in front of the near plane is invisible.
     camera.near_plane = 9;
     image = draw(scene, &camera, (lam_draw_params){.line_width = 3});
     assert_true(area(&image) == 0);
@@ -117,7 +116,8 @@ static void clipping(void **state)
     lam_scene_free(scene);
 }
 
-// Unlit without normals, with the emission; lit by them where they are, whichever way the line is seen and under flat shading.
+// Lines without normals are unlit, with their emission; lines with normals are lit, from any side and with flat
+// shading.
 static void light(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static void light(void **state)
     }
 }
 
-// A line on a face is seen whole from every side.
+// A line on a face is completely visible from every side.
 static void line_on_face(void **state)
 {
     (void)state;
@@ -171,7 +171,7 @@ static void line_on_face(void **state)
             wanted += ((const float *)only.pixels)[4 * k + 3] > 0;
             seen += ((const float *)both.pixels)[4 * k + 3] > 0 && ((const float *)both.pixels)[4 * k + 1] == 1;
         }
-        assert_true(wanted > 10 && seen >= wanted - 1); // at its end the face has an edge
+        assert_true(wanted > 10 && seen >= wanted - 1); // the face has an edge at its end
         lam_image_free(&both);
         lam_image_free(&only);
     }
@@ -241,7 +241,7 @@ static void ply_files(void **state)
     assert_memory_equal(lines->colors, colors, sizeof colors);
     assert_non_null(lines->normals);
     lam_scene_free(scene);
-    // Edges without numbers of vertices are left out.
+    // Edges without vertex numbers are omitted.
     scene = load_text(PLY_HEAD "element edge 1\nproperty int vertex1\nend_header\n0 0 0\n1 0 0\n0 2 0\n0\n", "a.ply");
     assert_string_equal(lam_scene_warning(scene, 0),
                         "a.ply:7: element edge has no integer property vertex2; its edges are not drawn");
@@ -295,7 +295,7 @@ static void gltf_files(void **state)
     }
 }
 
-// The fit of the camera holds lines, a single line and a single point.
+// The camera fits lines, a single line and a single point.
 static void fit(void **state)
 {
     (void)state;
@@ -353,7 +353,7 @@ static void refusals(void **state)
     lam_scene_free(scene);
 }
 
-// The explanation of a pixel names the line, and places of the model.
+// The explanation of a pixel names the line, and positions in the model.
 static void explained(void **state)
 {
     (void)state;
@@ -376,7 +376,8 @@ static void explained(void **state)
     lam_scene_free(scene);
 }
 
-// A line whose colour nobody chose is a grey that can be seen on a white and on a clear background, and as ever on a dark one.
+// A line without a chosen colour is a grey that is visible on a white and on a transparent background, and on a dark
+// one as before.
 static void unchosen_color(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// test_tangents.c: MikkTSpace: small meshes whose tangents follow from the definition, and four primitives of models against
-// the tangents that Mikkelsen's own code gives them (../shared/reference-pictures/mikktspace, where it is there).
+// test_tangents.c: MikkTSpace: small meshes whose tangents follow from the definition, and four primitives of models
+// compared with the tangents of Mikkelsen's own code (../shared/reference-pictures/mikktspace, if it exists).
 #include "cpu_features.h"
 #include "edge_twins.h"
 #include "mikktspace.h"
@@ -18,7 +18,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-// The tangents of a mesh; its arena stays until the next call.
+// The tangents of a mesh; its arena remains until the next call.
 static struct mesh_tangents tangents_of(const lam_mesh *mesh, bool t_down)
 {
     static struct arena arena;
@@ -64,7 +64,7 @@ static const lam_mesh *flat_mesh(struct flat_mesh *flat, const float (*corners)[
     return &flat->mesh;
 }
 
-// A square whose corners share no indices: one tangent for each of its four welded corners.
+// A square whose corners share no indices gets one tangent for each of its four welded corners.
 static void plane(void **state)
 {
     (void)state;
@@ -80,8 +80,9 @@ static void plane(void **state)
     }
 }
 
-// Directions are weighted by the angle at the corner, not by the area: below the common edge, from (0, 0) to (100, 0), a long
-// triangle with an angle of 45° where s grows along (1, 1); above it a short one with 90° where s grows along (0, 1).
+// Directions are weighted by the angle at the corner, not by the area. Below the common edge, from (0, 0) to (100, 0),
+// there is a long triangle with an angle of 45°, where s grows along (1, 1); above it a short one with 90°, where s
+// grows along (0, 1).
 static void angles_are_weights(void **state)
 {
     (void)state;
@@ -96,8 +97,8 @@ static void angles_are_weights(void **state)
     expect(&made, 5, 0, 1, 0, 1);
 }
 
-// Two squares with a common edge, the right one mirrored in the texture: the edge's corners are welded and have the same
-// normals and texture coordinates, and still two tangents.
+// Two squares with a common edge, the right one mirrored in the texture: the edge's corners are welded and have the
+// same normals and texture coordinates, but two tangents.
 static void mirrored_halves(void **state)
 {
     (void)state;
@@ -111,8 +112,8 @@ static void mirrored_halves(void **state)
     assert_int_equal(made.count, 8);
 }
 
-// A triangle whose texture coordinates span no area takes the tangents, and the orientation, of its neighbours, and gives
-// them nothing; alone it has the direction around the y axis.
+// A triangle whose texture coordinates span no area takes the tangents and the orientation of its neighbours, and
+// contributes nothing to them; alone, it has the direction around the y axis.
 static void degenerate_texcoords(void **state)
 {
     (void)state;
@@ -128,7 +129,7 @@ static void degenerate_texcoords(void **state)
         expect(&made, c, 1, 0, 0, 1);
 }
 
-// A triangle with two equal positions separates nothing: its corners have the tangents of their equals.
+// A triangle with two equal positions separates nothing: its corners have the tangents of the equal corners.
 static void degenerate_triangle(void **state)
 {
     (void)state;
@@ -139,11 +140,11 @@ static void degenerate_triangle(void **state)
     assert_int_equal(made.indices[0], made.indices[3]);
     assert_int_equal(made.indices[1], made.indices[6]);
     assert_int_equal(made.indices[2], made.indices[5]);
-    made = tangents_of(flat_mesh(&flat, corners, 3), false); // with nobody to copy from
+    made = tangents_of(flat_mesh(&flat, corners, 3), false); // without a corner to copy from
     expect(&made, 0, 1, 0, 0, 1);
 }
 
-// However narrow its angle is, a corner has its triangle's direction.
+// For any angle, a corner of a narrow triangle has the triangle's direction.
 static void sliver(void **state)
 {
     (void)state;
@@ -154,8 +155,8 @@ static void sliver(void **state)
         expect(&made, c, 0, -1, 0, 1);
 }
 
-// Directions that cancel, but for the rounding of √3/2, leave the tangent of meshes without texture coordinates. They lie at 210°,
-// 90° and 330°; none is mirrored.
+// Directions that cancel, except for the rounding of √3/2, leave the tangent of meshes without texture coordinates.
+// They are at 210°, 90° and 330°; none is mirrored.
 static void directions_that_cancel(void **state)
 {
     (void)state;
@@ -171,7 +172,8 @@ static void directions_that_cancel(void **state)
     expect(&made, 8, HEIGHT, -0.5f, 0, 1);
 }
 
-// Flags and sums are the same with every instruction set, for any number of triangles, with indices of one kind, of three or none.
+// Flags and sums are the same with every instruction set, for any number of triangles, with one kind of indices, with
+// three or with none.
 static void same_bytes(void **state)
 {
     (void)state;
@@ -212,7 +214,8 @@ static void same_bytes(void **state)
     }
 }
 
-// Four triangles on one edge, in the order out, in, in, out: the first goes with the first, the second with the second.
+// Four triangles on one edge, in the order out, in, in, out: the first is paired with the first, the second with the
+// second.
 static void twins_of_a_fan(void **state)
 {
     (void)state;
@@ -238,7 +241,7 @@ static void twins_of_a_fan(void **state)
     arena_free(&memory);
 }
 
-// So many vertices that some of different numbers have the same hash of 32 bits; the second half repeats the first.
+// So many vertices that some with different numbers have the same 32-bit hash; the second half repeats the first.
 static void equal_hashes_are_distinguished(void **state)
 {
     (void)state;
@@ -275,7 +278,7 @@ static void equal_hashes_are_distinguished(void **state)
 
 // --- a scene's meshes
 
-// A square whose first texture coordinates are mirrored and whose second ones are not, with a material of a normal map.
+// A square whose first texture coordinates are mirrored and whose second ones are not, with a normal-mapped material.
 static lam_scene *normal_mapped_square(int set, const float transform[2][3])
 {
     static const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
@@ -300,7 +303,7 @@ static lam_scene *normal_mapped_square(int set, const float transform[2][3])
     return scene;
 }
 
-// The tangents are those of the normal map's texture coordinates, and the bitangent points up in its picture.
+// The tangents belong to the normal map's texture coordinates, and the bitangent points up in its picture.
 static void tangents_of_a_normal_map(void **state)
 {
     (void)state;
@@ -382,7 +385,7 @@ static void compare_reference(const char *models, int row, const float *expected
         double distance = sqrt(pow((double)found[0] - (double)from[0], 2) + pow((double)found[1] - (double)from[1], 2) +
                                pow((double)found[2] - (double)from[2], 2));
         signs += found[3] != from[3];
-        if (mesh->tangents) // made by the load
+        if (mesh->tangents) // made while loading
             assert_memory_equal(mesh->tangents + 4 * (size_t)mesh->tangent_indices[c], found, 4 * sizeof *found);
         directions += !(distance <= 1e-4);
         worst = distance > worst ? distance : worst;

@@ -1,4 +1,4 @@
-// test_text.c: words in pictures: where they land, their widths, UTF-8, and what is missing.
+// test_text.c: text in pictures: its position, its widths, UTF-8, and missing characters.
 #include <lambent/caption.h>
 
 #include <setjmp.h>
@@ -36,7 +36,7 @@ static lam_image blank(int width, int height, lam_pixel_format format)
     return image;
 }
 
-// The box of what is not clear: left, top, right, bottom, the last two excluded; all 0: nothing.
+// The box of the covered pixels: left, top, right, bottom, the last two excluded; all 0 if there are none.
 static void ink(const lam_image *image, int box[4])
 {
     const uint8_t *p = image->pixels;
@@ -65,7 +65,7 @@ static void stands_on_its_baseline(void **state)
     assert_true(width > 45 && width < 85);
     assert_true(box[0] >= 19 && box[0] <= 25 && box[2] <= 20 + width + 1 && box[2] > 20 + width - 6);
     assert_int_equal(box[3], 40);
-    assert_true(box[1] >= 14 && box[1] <= 20); // capitals are some 0.73 of the size
+    assert_true(box[1] >= 14 && box[1] <= 20); // capitals are about 0.73 of the size
     const uint8_t *p = image.pixels;
     int full = 0;
     for (size_t i = 0; i < 200 * 60; i++) {
@@ -86,7 +86,7 @@ static void measures(void **state)
     assert_true(lam_text_width(font, 40, "m") > 1.8 * one);
     assert_true(lam_text_width(font, 20, "") == 0 && lam_text_width(font, 0, "m") == 0 &&
                 lam_text_width(NULL, 20, "m") == 0);
-    // One letter of two and of three bytes each; broken bytes are one replacement letter each.
+    // One letter of two bytes and one of three; each invalid byte is one replacement letter.
     double letter = lam_text_width(font, 20, "\u00e9"), replacement = lam_text_width(font, 20, "\ufffd");
     assert_true(letter > 5 && letter < 20);
     assert_true(lam_text_width(font, 20, "\xff") == replacement);
@@ -101,7 +101,7 @@ static void blends_and_clips(void **state)
         skip();
     lam_image bytes = blank(20, 20, LAM_RGBA8), floats = blank(20, 20, LAM_RGBA32F);
     memset(bytes.pixels, 255, 20 * 20 * 4);
-    // Far larger than the picture and hanging out on every side; a bar's middle covers all of it.
+    // Far larger than the picture, beyond every side; the middle of a bar covers all of it.
     assert_true(lam_text_draw(&bytes, font, -200, 200, 800, (lam_rgba){0, 0, 0, 0.5f}, "\u2588\u2588\u2588", NULL));
     assert_true(lam_text_draw(&floats, font, -200, 200, 800, (lam_rgba){2, 0, 0, 0.5f}, "\u2588\u2588\u2588", NULL));
     const uint8_t *b = (const uint8_t *)bytes.pixels + 4 * (10 * 20 + 10);

@@ -1,4 +1,5 @@
-// test_textures.c: texels against a second evaluator in double, written from OpenGL's rules; mipmaps; maps of materials.
+// test_textures.c: texels compared with a second evaluator in double, implemented from OpenGL's rules; mipmaps; maps of
+// materials.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +33,7 @@ static double linear_of(int byte)
     return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
 }
 
-// Each texel the average of the area that it covers.
+// Each texel is the average of the area that it covers.
 static void halve(struct pyramid *p, int to)
 {
     int w = p->width[to - 1], h = p->height[to - 1], nw = w / 2 ? w / 2 : 1, nh = h / 2 ? h / 2 : 1;
@@ -68,7 +69,7 @@ static void pyramid_free(struct pyramid *p)
         free(p->texels[i]);
 }
 
-// The texel that a coordinate in texels falls on, after wrapping.
+// The texel of a coordinate in texels, after wrapping.
 static int wrap_texel(int i, int size, lam_wrap wrap)
 {
     if (wrap == LAM_WRAP_CLAMP)
@@ -115,8 +116,9 @@ static double expected(const struct pyramid *p, const lam_texture_map *m, double
            in_level(p, m, m->minify, level + 1, s, t, c) * share;
 }
 
-// Every wrap, filter and mip, sizes that are not powers of two, places far outside: no texel is off, of bytes and of floats, with
-// alpha and without, which takes three numbers a texel. Near the border between two texels the nearest one may be either.
+// Every wrap, filter and mip mode, sizes that are not powers of two, coordinates far outside: no texel differs, for
+// bytes and floats, with alpha and without, which uses three numbers per texel. Near the border between two texels, the
+// nearest one may be either.
 static void test_texels(void **state)
 {
     static const int sizes[][2] = {{16, 16}, {13, 7}, {1, 9}, {32, 5}, {1, 1}};
@@ -181,7 +183,7 @@ static void test_texels(void **state)
 
 static lam_texture *constant(float r, float g, float b, float a)
 {
-    float pixel[4] = {r * a, g * a, b * a, a}; // pictures of floats are premultiplied
+    float pixel[4] = {r * a, g * a, b * a, a}; // float pictures are premultiplied
     lam_image image = {.width = 1, .height = 1, .format = LAM_RGBA32F, .pixels = pixel};
     lam_texture *texture = lam_texture_make(&image, LAM_TEXTURE_NUMBERS, "constant", NULL);
     assert_non_null(texture);
@@ -231,7 +233,8 @@ static double largest_difference(const float *a, const float *b)
     return most;
 }
 
-// Maps of one colour give what the numbers themselves give, for physical materials, classic ones, and each as the other.
+// Maps of one colour give the same picture as the numbers themselves, for physical materials, classic ones, and
+// conversions.
 static void test_constant_maps(void **state)
 {
     static float with[SIZE * SIZE * 4], without[SIZE * SIZE * 4];
@@ -277,7 +280,8 @@ static void test_constant_maps(void **state)
     lam_texture_free(flat);
 }
 
-// Under Gouraud and flat shading the diffuse map multiplies the interpolated colours, and the emission map adds to them.
+// With Gouraud and flat shading, the diffuse map multiplies the interpolated colours, and the emission map is added to
+// them.
 static void test_vertex_shading(void **state)
 {
     static float with[SIZE * SIZE * 4], without[SIZE * SIZE * 4];
@@ -293,7 +297,7 @@ static void test_vertex_shading(void **state)
         m.ambient = (lam_rgb){0.8f, 0.6f, 1};
         m.emission = (lam_rgb){0.2f, 0.1f, 0};
         plain = m;
-        if (!m.physical) // of a physical material the highlight has the colour too
+        if (!m.physical) // the highlight of a physical material also has the colour
             plain.diffuse = (lam_rgba){0.4f, 0.45f, 0.25f, 0.5f}, plain.ambient = (lam_rgb){0.4f, 0.45f, 0.25f};
         plain.emission = (lam_rgb){0.1f, 0.075f, 0};
         m.maps[LAM_MAP_EMISSION] = &map;
@@ -387,8 +391,9 @@ static double stripe_at(double u, double v)
     return sum;
 }
 
-// Stripes that run into the distance: a pixel is one texel wide and 14 long. With 16 probes its value is near the exact mean over its
-// footprint, the integral in double; with one it is the mean over a square of 14 texels.
+// Stripes that extend into the distance: a pixel is one texel wide and 14 texels long. With 16 probes, its value is
+// close to the exact mean over its footprint, the integral in double; with one probe, it is the mean over a square of
+// 14 texels.
 static void test_slanted(void **state)
 {
     (void)state;
@@ -424,7 +429,7 @@ static void test_slanted(void **state)
     assert_true(part.material >= 0 && object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){0, 1000 * slant, 1000 * sqrt(1 - slant * slant)};
-    camera.ortho_half_height = VIEW / 2.0; // a pixel is a unit, and a unit a texel
+    camera.ortho_half_height = VIEW / 2.0; // one pixel is one unit, and one unit is one texel
     lam_device *device = lam_device_cpu(NULL, &error);
     double off[2] = {0, 0};
     for (int k = 0; k < 2; k++) {

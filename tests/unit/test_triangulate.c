@@ -21,7 +21,7 @@ static double random_unit(void)
     return (double)(state >> 11) * 0x1p-53;
 }
 
-// The polygon of `count` points in the plane, laid into space by `plane` (0: z = 0; else a tilted one).
+// Places the polygon of `count` points in space by `plane` (0: z = 0; otherwise a tilted plane).
 static float *lay(const double (*points)[2], uint32_t count, int plane)
 {
     float *positions = malloc(3 * count * sizeof *positions);
@@ -105,7 +105,7 @@ static void test_small(void **unused)
 {
     (void)unused;
     static const double square[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    static const double dart[][2] = {{0, 0}, {2, 0}, {0.3, 0.3}, {0, 2}};  // corner 2 turned in
+    static const double dart[][2] = {{0, 0}, {2, 0}, {0.3, 0.3}, {0, 2}};  // corner 2 is turned inward
     static const double dart2[][2] = {{0.3, 0.3}, {0, 2}, {0, 0}, {2, 0}}; // the same from corner 2
     static const double dart3[][2] = {{0, 2}, {0, 0}, {2, 0}, {0.3, 0.3}};
     static const double flat_corner[][2] = {{0, 0}, {1, 0}, {2, 0}, {1, 2}};
@@ -125,7 +125,7 @@ static void test_small(void **unused)
     }
 }
 
-// A ring whose hole is joined by a bridge there and back, holes that touch the outline, and points that repeat.
+// A ring whose hole is connected by a bridge in both directions, holes that touch the outline, and repeated points.
 static void test_touching(void **unused)
 {
     (void)unused;
@@ -154,7 +154,7 @@ static void make_star(double (*points)[2], uint32_t count, double spikes)
     }
 }
 
-// A thick line that winds in: long corridors, few ears at a time. Corners 0 … n/2 outside, then back inside.
+// Corners 0 … n/2 are on the outside, and the rest on the inside. Corners 0 … n/2 outside, then back inside.
 static void make_spiral(double (*points)[2], uint32_t count)
 {
     uint32_t half = count / 2;
@@ -167,7 +167,7 @@ static void make_spiral(double (*points)[2], uint32_t count)
     }
 }
 
-// Long thin teeth, turned so that no tooth lies along an axis.
+// Long thin teeth, rotated so that no tooth is parallel to an axis.
 static void make_comb(double (*points)[2], uint32_t count)
 {
     for (uint32_t i = 0; i + 2 < count; i++) {
@@ -197,7 +197,7 @@ static void test_random(void **unused)
     }
 }
 
-// Large polygons; the time limit of the test run bounds the time.
+// Large polygons; the time limit of the test run limits the time.
 static void test_large(void **unused)
 {
     (void)unused;
@@ -212,7 +212,7 @@ static void test_large(void **unused)
     free(points);
 }
 
-// Polygons without area or with self-intersections are triangulated too.
+// Polygons without area or with self-intersections are also triangulated.
 static void test_hopeless(void **unused)
 {
     (void)unused;
@@ -227,12 +227,13 @@ static void test_hopeless(void **unused)
             corners[i] = i;
             for (int k = 0; k < 3; k++) {
                 double r = random_unit();
-                positions[3 * i + (uint32_t)k] = (float)(round % 6 == 0   ? 1                           // one point
-                                                         : round % 6 == 1 ? i * (k + 1)                 // a line
-                                                         : round % 6 == 2 ? r                           // a tangle
-                                                         : round % 6 == 3 ? (k == 2 ? 0 : floor(4 * r)) // few places
-                                                         : round % 6 == 4 ? (r - 0.5) * 6.8e38 // as far as floats go
-                                                                          : r * 1e-44);        // denormals
+                positions[3 * i + (uint32_t)k] =
+                    (float)(round % 6 == 0   ? 1                           // one point
+                            : round % 6 == 1 ? i * (k + 1)                 // a line
+                            : round % 6 == 2 ? r                           // a tangle
+                            : round % 6 == 3 ? (k == 2 ? 0 : floor(4 * r)) // few places
+                            : round % 6 == 4 ? (r - 0.5) * 6.8e38          // up to the limit of floats
+                                             : r * 1e-44);                 // denormals
             }
         }
         memset(triples, 0xff, sizeof triples);
@@ -244,7 +245,7 @@ static void test_hopeless(void **unused)
     triangulator_stop(&scratch);
 }
 
-// A large polygon around four points: every test of a corner meets all corners that repeat its own point.
+// A large polygon around four points: every test of a corner meets all corners at its own position.
 static void test_repeated(void **unused)
 {
     (void)unused;
@@ -257,7 +258,7 @@ static void test_repeated(void **unused)
     triangulator_start(&scratch, NULL);
     clock_t start = clock();
     assert_true(triangulate(&scratch, positions, corners, COUNT, triples));
-    assert_true(clock() - start < 10 * CLOCKS_PER_SEC); // a minute, if the steps were not bounded
+    assert_true(clock() - start < 10 * CLOCKS_PER_SEC); // a minute, if the steps were not limited
     triangulator_stop(&scratch);
     free(corners);
     free(triples);

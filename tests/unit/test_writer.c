@@ -1,4 +1,5 @@
-// test_writer.c: the process that writes files for the one in the sandbox: its rights, several threads at once, and the end of either process.
+// test_writer.c: the process that writes files for the sandboxed process: its rights, several threads at once, and the
+// end of either process.
 #include "writer.h"
 
 #include <dirent.h>
@@ -99,7 +100,7 @@ static void test_rights(void **state)
     (void)state;
     lam_error error;
     assert_true(writer_is_there() && writer_process() != getpid());
-    // Any file is replaced; a new folder is made; nothing is executable.
+    // Any file is replaced, a new folder is created, and nothing is executable.
     put("any", "a program");
     assert_int_equal(chmod(in_folder("any"), 04755), 0);
     assert_true(save("any", "1", &error));
@@ -107,7 +108,7 @@ static void test_rights(void **state)
     struct stat about;
     assert_true(stat(in_folder("any"), &about) == 0 && (about.st_mode & 07777) == 0644);
     assert_true(save("new/any", "2", &error));
-    // Of the files of one name, new ones and its own alone, as long as nobody changes them.
+    // Of the files with one name, new files and its own, as long as nobody changes them.
     assert_true(save("ours", "3", &error) && save("ours", "4", &error));
     put("ours", "of the user");
     assert_false(save("ours", "5", &error));
@@ -123,7 +124,7 @@ static void test_rights(void **state)
     assert_int_equal(mkdir(in_folder("any folder"), 0777), 0);
     assert_false(save("any folder", "8", &error));
     assert_non_null(strstr(error.text, "is a directory"));
-    // It removes what it may.
+    // It removes permitted files.
     put("log", "");
     writer_remove(in_folder("log"));
     writer_remove(in_folder("other"));
@@ -133,7 +134,7 @@ static void test_rights(void **state)
     assert_int_equal(access(in_folder("any"), F_OK), 0);
 }
 
-// A name that the user did not give is written to a regular file or none, and through no link.
+// A name that the user did not give is written only to a regular file or a new file, and not through a link.
 static void test_implied(void **state)
 {
     (void)state;
@@ -151,7 +152,7 @@ static void test_implied(void **state)
     assert_contains("new", "4");
     assert_true(save("any link", "6", &error)); // the user named the link
     assert_contains("precious", "6");
-    // The path is checked before the contents arrive, and their size too.
+    // The path and the size are checked before the contents arrive.
     size_t size = 101 << 20;
     char *large = calloc(1, size);
     assert_non_null(large);
@@ -174,7 +175,7 @@ static bool save_set(const char *second, lam_error *error)
     return writer_save_all(files, 2, error);
 }
 
-// Of a set all files are replaced or none, with the writer and without.
+// All files of a set are replaced, or none, with the writer and without.
 static void test_set(void **state)
 {
     (void)state;
@@ -237,7 +238,7 @@ static void test_threads(void **state)
     assert_int_equal(count_files(), THREADS * ROUNDS);
 }
 
-// That the writer has ended is an error, and no signal.
+// The end of the writer is an error, not a signal.
 static void test_writer_ends(void **state)
 {
     (void)state;
@@ -252,7 +253,7 @@ static void test_writer_ends(void **state)
     assert_contains("any", "1");
 }
 
-// Signals that end the process leave nothing half written, and no writer.
+// Signals that end the process leave no partial files and no writer.
 static void test_process_ends(void **state)
 {
     (void)state;

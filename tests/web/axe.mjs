@@ -1,5 +1,6 @@
-// axe.mjs PLAYWRIGHT BROWSER BUILD_WEB [GALLERY]: axe-core looks for barriers in every tab of the page, and in the gallery at the address GALLERY, in light and dark
-// colours, in a wide window and at 320 pixels. It must find none. Prints lines of the Test Anything Protocol without numbers.
+// axe.mjs PLAYWRIGHT BROWSER BUILD_WEB [GALLERY]: runs axe-core in every tab of the page, and in the gallery at the address GALLERY, in light and
+// dark colours, in a wide window and at 320 pixels. It must find no accessibility problem. Prints lines of the Test Anything Protocol without
+// numbers.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { drawn, fragment, ok, until } from './driver.mjs';
@@ -9,7 +10,7 @@ const [, , playwright, executablePath, built, gallery] = process.argv;
 const AXE = readFileSync(join(playwright, 'axe-core', 'axe.min.js'), 'utf8');
 const WORDS = ['sphere', '--size=96x96', '--background=white', '--light=point:position=0.5/0.5/3'];
 
-// Of each finding: the rule, and the first elements.
+// For each finding: the rule, and the first elements.
 async function findings(page) {
   return page.evaluate(async () => {
     const { violations } = await globalThis.axe.run(document, { resultTypes: ['violations'] });
@@ -17,7 +18,7 @@ async function findings(page) {
   });
 }
 
-// Fills each tab before axe looks at it.
+// Fills each tab before axe checks it.
 const TABS = {
   quick: async () => {},
   options: async (page) => until(page, () => document.querySelector('#options details') && [...document.querySelectorAll('#options details')].every((one) => (one.open = true))),

@@ -1,7 +1,7 @@
-// browser.mjs PLAYWRIGHT BROWSER BUILD_WEB MODELS SEQUENCES: the page in a browser, by what a person does: pointers, keys, drops. Prints lines of the
-// Test Anything Protocol without numbers, and for each random sequence of gestures "pixels {command, hash}": the command that the page copies,
-// and the SHA-256 of the canvas' colours; the caller (browser.py) draws that command with the program.
-// Above 600 lines: one test for each thing that a person does, in one browser, which takes seconds to start.
+// browser.mjs PLAYWRIGHT BROWSER BUILD_WEB MODELS SEQUENCES: tests the page in a browser with pointers, keys and drops. It prints lines of the Test
+// Anything Protocol without numbers, and for each random sequence of gestures "pixels {command, hash}": the command that the page copies, and the
+// SHA-256 of the canvas' colours; the caller (browser.py) draws that command with the program. The file has more than 600 lines because it contains
+// one test for each user action, in one browser, which takes seconds to start.
 import { createHash } from 'node:crypto';
 import { truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -10,11 +10,11 @@ import { commandOf, drawn, fragment, ok, pixels, same, settled, until, watchedPa
 import { drop, fingers, saved } from './input.mjs';
 import { isFirefox, openBrowser } from './serve.mjs';
 
-const [, , playwright, executablePath, built, models, sequences] = process.argv, all = Number(sequences) > 3; // all: of make test-long
+const [, , playwright, executablePath, built, models, sequences] = process.argv, all = Number(sequences) > 3; // all cases, in make test-long
 const { browser, origin, close } = await openBrowser(playwright, executablePath, built);
 const context = await browser.newContext({ viewport: { width: 1100, height: 800 }, permissions: isFirefox(executablePath) ? [] : ['clipboard-read', 'clipboard-write'] });
 
-// Reports of the browser about the page: errors, and everything that its content-security policy has refused.
+// The browser's reports about the page: errors, and everything that its content security policy has refused.
 const reports = [];
 async function openPage(address, where = context) {
   const page = await watchedPage(where, reports);
@@ -24,7 +24,7 @@ async function openPage(address, where = context) {
 
 const undoIn = (page) => page.locator('#undo').click();
 
-// The tab of all options, with those that a text finds.
+// The tab with all options, with the options that a search text finds.
 async function find(page, words) {
   await page.locator('#tab-options').click();
   await page.locator('#search').fill(words);
@@ -51,7 +51,7 @@ async function middle(page) {
   return { x: box.x + box.width / 2, y: box.y + box.height / 2, width: box.width, height: box.height };
 }
 
-// --- each gesture changes the command line as this table says. Numbers are within 0.002.
+// --- each gesture changes the command line as listed in this table. Numbers are within 0.002.
 
 const CAMERA = '--camera=eye=0/0/5,target=0/0/0,up=0/1/0,fovy=30', START = ['sphere', '--size=120x120', CAMERA];
 const side = 5 * Math.sin(Math.PI / 24), depth = 5 * Math.cos(Math.PI / 24), step = 0.05 * 10 * Math.tan(Math.PI / 12);
@@ -107,7 +107,7 @@ async function gestures() {
     ok(good && text.startsWith('lambent sphere --size=120x120'), `gesture: ${label}`, text);
     await undoIn(page);
     ok((await commandOf(page)) === ['lambent', ...START].join(' '), `gesture: ${label}, undone at once`, await commandOf(page));
-    await settled(page, `undo ${label}`); // the next gesture starts from the picture that is shown
+    await settled(page, `undo ${label}`); // the next gesture starts from the visible picture
     if (!all && label !== 'wheel') continue;
     await page.locator('#redo').click();
     await settled(page, `redo ${label}`);
@@ -118,7 +118,7 @@ async function gestures() {
   await page.close();
 }
 
-// Each of these makes the command line that the table says of the one that it begins with. '' stands for no change.
+// Each of these changes the initial command line to the listed one. '' means no change.
 const handle = (part) => (page) => page.locator(`.handle.${part}`);
 const press = (find, name) => async (page) => find(page).press(name);
 const dragHandle = (part, right, up, shift = false) => async (page) => {
@@ -181,10 +181,11 @@ async function words() {
   await page.close();
 }
 
-// --- while something moves: quick pictures, and the whole one when the hand rests, with the button still down
+// --- during a movement: quick pictures, and the complete picture when the pointer rests, with the button
+// still down
 
 async function rested() {
-  // With threads, whatever the machine does: a flag can end the whole picture.
+  // With threads, a flag can stop the complete picture on any machine.
   const page = await openPage(`${origin}isolated/${fragment(['sphere', '--size=400x300', '--background=white'])}`);
   await drawn(page, 'with threads');
   await until(page, () => document.body.dataset.threads);
@@ -266,7 +267,7 @@ async function controls() {
   await page.close();
 }
 
-// --- the explanation of a point has the bytes of its pixel
+// --- the explanation of a point contains the bytes of its pixel
 
 async function explained() {
   const page = await start(['sphere', '--size=200x200', '--background=#203040', '--samples=1']), at = await middle(page);
@@ -284,7 +285,8 @@ async function explained() {
 const explainedText = (page) => page.locator('#explain').textContent();
 const arrowsIn = (page) => page.evaluate(() => [...document.querySelectorAll('#overlay-arrows .arrow')].map((arrow) => ({ name: arrow.dataset.name, tip: arrow.dataset.tip.split(' ').map(Number), ring: Boolean(arrow.querySelector('.core > circle')) })));
 
-// Arrows where plane geometry has them: a ball of radius 1, seen from 5 away, half of the picture's height is 5 tan 15° there.
+// Plane geometry determines the arrows: for a ball of radius 1, seen from 5 away, half of the picture's height is 5 tan 15°
+// there.
 async function arrows() {
   const page = await start(['sphere', '--size=121x121', CAMERA, '--light=point:position=0/3/0']), at = await middle(page), before = await commandOf(page);
   await page.locator('#tab-explain').click();
@@ -300,7 +302,7 @@ async function arrows() {
   ok(middleArrows.filter(({ ring }) => ring).map(({ name }) => name).join('') === 'nv', 'arrows: what points to the eye is a ring', JSON.stringify(middleArrows));
   await hover(30 / 121, 0);
   const half = Math.tan(Math.PI / 12), slope = (30 / 121) * 2 * half, angle = Math.atan(slope);
-  // Where the ray meets the ball: 5 − t in depth.
+  // The ray meets the ball at depth 5 − t.
   const t = 5 * Math.cos(angle) - Math.sqrt(1 - (5 * Math.sin(angle)) ** 2), n = [t * Math.sin(angle), 5 - t * Math.cos(angle)], away = 5 - n[1];
   const length = 0.2 * 2 * away * half, tip = 0.5 + (n[0] + length * n[0]) / (2 * (away - length * n[1]) * half);
   const found = (await arrowsIn(page)).find(({ name }) => name === 'n');
@@ -309,7 +311,8 @@ async function arrows() {
   await until(page, () => !document.querySelector('#overlay-arrows .arrow'));
   ok((await commandOf(page)) === before, 'arrows: pointing changes no command line');
 
-  // Pinned: numbers change with the picture, the point stays on the surface, Escape lets it go.
+  // A pinned point: its numbers change with the picture, it stays on the surface, and Escape unpins
+  // it.
   await page.mouse.click(at.x + 0.1 * at.height, at.y - 0.1 * at.height);
   await until(page, () => !document.getElementById('pinned').hidden && document.querySelector('#overlay-arrows .arrow'));
   await page.locator('#tab-lights').click();
@@ -327,7 +330,7 @@ async function arrows() {
   await settled(page, 'turned');
   await until(page, (x) => !document.getElementById('explain').textContent.includes(`Pixel ${x},`), pixel[0]);
   const turned = /Pixel (\d+), (\d+)/.exec(await explainedText(page)).slice(1).map(Number);
-  // The point (x, y, z) of the ball, seen from 7.5° further around.
+  // The point (x, y, z) of the ball, seen from an angle of 7.5° further.
   const across = (pixel[0] + 0.5) / 121 - 0.5, up = 0.5 - (pixel[1] + 0.5) / 121, ray = [across * 2 * half, up * 2 * half, -1], size = Math.hypot(...ray), u = ray.map((x) => x / size);
   const meets = -5 * u[2] - Math.sqrt((5 * u[2]) ** 2 - 24), point = [meets * u[0], meets * u[1], 5 + meets * u[2]], a = Math.PI / 24;
   const seen = [point[0] * Math.cos(a) - point[2] * Math.sin(a), point[1], point[0] * Math.sin(a) + point[2] * Math.cos(a)], wanted = (0.5 + seen[0] / (2 * (5 - seen[2]) * half)) * 121;
@@ -390,7 +393,7 @@ async function lights() {
   }
 }
 
-// Formulas: a model of the menu, changed by its option, and gone with another model.
+// Formulas: a model of the menu, changed by its option, and removed by another model.
 async function formulas() {
   const page = await start(['teapot', '--size=96x96', '--background=white']);
   await page.locator('#model').selectOption('implicit');
@@ -424,7 +427,7 @@ async function sizes() {
   await large.close();
 }
 
-// --- files and folders, as the system drops them
+// --- files and folders, dropped by the system
 
 async function files() {
   const page = await start(['sphere', '--size=96x96', '--background=white']);
@@ -451,7 +454,7 @@ async function files() {
   await page.close();
 }
 
-// On a machine with little memory, as the browser says, files and pictures are refused with the numbers.
+// If the browser reports little memory, files and pictures are refused with the numbers.
 async function memory() {
   const small = await browser.newContext();
   await small.addInitScript(() => Object.defineProperty(Navigator.prototype, 'deviceMemory', { get: () => 1 }));
@@ -467,7 +470,7 @@ async function memory() {
   await small.close();
 }
 
-// --- the page in one file, and the served one without its server
+// --- the single-file page, and the served page without its server
 
 async function oneFile() {
   const page = await openPage(pathToFileURL(join(built, 'lambent.html')) + fragment(['sphere', '--size=96x96', '--background=white']));
@@ -495,7 +498,7 @@ async function oneFile() {
   await page.close();
 }
 
-// The parts that are fetched when they are used.
+// The parts that are downloaded on first use.
 async function usesLater(page, label) {
   await page.locator('#canvas').press('Enter');
   await until(page, () => document.getElementById('explain').textContent.length > 100);
@@ -522,7 +525,8 @@ async function offline() {
   await away.close();
 }
 
-// --- the module in two parts: the first picture and its turns need the first alone; what needs the second waits for it, and says when it cannot be had
+// --- the module in two parts: the first picture and its rotations need only the first part; functions of the second part wait for it, and report an
+// error if it is unavailable
 
 async function twoParts() {
   const alone = await browser.newContext({ serviceWorkers: 'block', viewport: { width: 1100, height: 800 } }), page = await alone.newPage();
@@ -551,7 +555,7 @@ async function twoParts() {
   await alone.close();
 }
 
-// --- several threads where the page is cross-origin isolated, after the first picture: the same pixels
+// --- several threads if the page is cross-origin isolated, after the first picture: the same pixels
 
 async function isolated() {
   const words = [...START, '--shadows'], page = await openPage(`${origin}isolated/${fragment(words)}`), cores = await page.evaluate(() => navigator.hardwareConcurrency);
@@ -572,7 +576,7 @@ async function isolated() {
   ok(true, 'isolated: explains');
   for (const one of [page, plain]) await one.close();
 
-  // A formula needs the other part of the module with threads, which is fetched then.
+  // A formula needs the other part of the module with threads, which is then downloaded.
   const formula = ['implicit', '--implicit=x^2+y^2+z^2-1', '--size=96x96'], hashes = [];
   for (const address of [`${origin}isolated/`, origin]) {
     const one = await openPage(address + fragment(formula));
@@ -592,9 +596,9 @@ async function isolated() {
   await alone.close();
 }
 
-// --- roles, names and the order of the focus; texts; narrow pages
+// --- roles, names and the focus order; texts; narrow pages
 
-// By the tree of Chromium, as its DevTools tell it; axe.mjs looks at both browsers.
+// Uses Chromium's accessibility tree, as reported by its DevTools; axe.mjs checks both browsers.
 async function named(page) {
   const { nodes } = await (await context.newCDPSession(page)).send('Accessibility.getFullAXTree');
   const property = (node, name) => node.properties?.find((p) => p.name === name)?.value.value;
@@ -625,7 +629,7 @@ async function accessible() {
   await page.close();
 }
 
-// Texts of the page are of one table (web/page/strings.js): under the pseudo-locale each stands between ⟦ and ⟧. Words of the program are in
+// All texts of the page are in one table (web/page/strings.js); with the pseudo-locale, each is between ⟦ and ⟧. Texts of the program are in
 // elements with translate="no".
 async function pseudo() {
   const page = await openPage(`${origin}?locale=pseudo${fragment(START)}`);
@@ -650,7 +654,7 @@ async function pseudo() {
   await page.close();
 }
 
-// --- random sequences of gestures: the canvas has the pixels of the copied command
+// --- random sequences of gestures: the canvas has the same pixels as the copied command
 
 function random(seed) { // xorshift32
   let x = seed * 2654435761 >>> 0 || 1;

@@ -1,11 +1,11 @@
-// check.mjs MODULE RECORDED...: checks shaders with the module of the page, whose painter is a file of tests/check/record_painter.c: each request
-// must be the recorded one, and gets the recorded answer; the report must be the recorded one too. Standard input: a line for each file, JSON
-// {fragment, vertex, contract}. Prints lines of the Test Anything Protocol without numbers.
+// check.mjs MODULE RECORDED...: checks shaders with the module of the page and a painter that replays a file of tests/check/record_painter.c:
+// each request must equal the recorded one, and gets the recorded answer; the report must also equal the recorded one. Standard input contains a
+// line for each file, JSON {fragment, vertex, contract}. Prints lines of the Test Anything Protocol without numbers.
 import { readFileSync } from 'node:fs';
 import { basename, dirname, join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
-const COMPONENTS = [0, 1, 1, 1, 2, 3, 4, 9, 16, 4]; // of a lam_check_type
+const COMPONENTS = [0, 1, 1, 1, 2, 3, 4, 9, 16, 4]; // for each lam_check_type
 const FIRST_HASH = 2166136261;
 const hash = (before, bytes) => bytes.reduce((sum, byte) => Math.imul(sum ^ byte, 16777619) >>> 0, before);
 
@@ -17,7 +17,7 @@ class Replay {
   #next = 1;
   #requested = []; // values since the last drawing
   #meshes = new Map();
-  #last = null; // drawing: it is recorded once where it is asked for twice in a row
+  #last = null; // drawing: it is recorded once if it is requested twice in a row
 
   constructor(bytes) {
     this.#bytes = bytes;

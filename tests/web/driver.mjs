@@ -1,4 +1,4 @@
-// driver.mjs: what the tests of the page in a browser share.
+// driver.mjs: functions that the tests of the page in a browser share.
 import { createHash } from 'node:crypto';
 
 export const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
@@ -6,7 +6,7 @@ export const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 // A line of the Test Anything Protocol without its number.
 export const ok = (good, label, why = '') => console.log(`${good ? 'ok' : 'not ok'} ${label}${good || why === '' ? '' : `\n# ${String(why).replaceAll('\n', '\n# ')}`}`);
 
-// A page, of which the browser's errors and all that its content-security policy has refused are added to `reports`.
+// Opens a page, and adds the browser's errors and all refusals of its content security policy to `reports`.
 export async function watchedPage(where, reports) {
   const page = await where.newPage();
   page.on('pageerror', (error) => reports.push(error.message));
@@ -18,13 +18,14 @@ export async function watchedPage(where, reports) {
 export const fragment = (words) => '#' + words.map(encodeURIComponent).join('&');
 export const commandOf = (page) => page.locator('#command').textContent();
 
-// Waits until `f` is true in the page. (Playwright's own way evaluates a string there, which the policy refuses, as it should.)
+// Waits until `f` is true in the page. (Playwright's own function evaluates a string in the page, which the policy correctly
+// refuses.)
 export async function until(page, f, argument) {
   for (const end = Date.now() + 60000; Date.now() < end; await new Promise((done) => setTimeout(done, 20))) if (await page.evaluate(f, argument)) return true;
   throw new Error(`nothing came of ${f}`);
 }
 
-// The picture of the command line is on the canvas, with all of its samples.
+// Waits until the picture of the command line, with all samples, is on the canvas.
 export async function drawn(page, change) {
   await until(page, () => {
     const shown = document.body.dataset.drawn;
@@ -35,7 +36,8 @@ export async function drawn(page, change) {
   });
 }
 
-// Waits until a gesture has come to an end (its last step is a timer's, and the page says that it goes on) and its picture is there.
+// Waits until a gesture has ended (its last step is a timer, and the page reports that it is in progress) and its picture is
+// visible.
 export async function settled(page, label) {
   await page.evaluate(() => new Promise((done) => setTimeout(done)));
   await until(page, () => document.body.dataset.gesture === undefined);

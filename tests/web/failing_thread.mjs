@@ -1,4 +1,4 @@
-// failing_thread.mjs: a thread in place of web/thread.js that fails as soon as it is there.
+// failing_thread.mjs: replaces web/thread.js by a thread that fails as soon as it starts.
 import { parentPort } from 'node:worker_threads';
 import { Files, system } from '../../web/wasi.js';
 

@@ -1,13 +1,13 @@
-// input.mjs: what a person does that Chromium and Firefox are told in different ways: fingers, dropped files, saved files. Chromium has its DevTools
-// protocol for it. Firefox has fingers by WebDriver BiDi; an event in the page drops files, and dialogs and saved files are caught there.
+// input.mjs: user actions that need different calls in Chromium and Firefox: touches, dropped files, saved files. Chromium uses its DevTools
+// protocol. Firefox simulates touches by WebDriver BiDi; an event in the page drops files, and the test intercepts dialogs and saved files.
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { basename, join, resolve } from 'node:path';
 
-const FILE_MAX = 1e6; // bytes; of larger files the size alone is told, and they are zeros
+const FILE_MAX = 1e6; // bytes; for larger files, only the size is sent, and the contents are zeros
 
 export const isFirefoxPage = (page) => page.context().browser().browserType().name() !== 'chromium';
 
-// A function (type, ...points): touchStart, touchMove or touchEnd of fingers at these points.
+// A function (type, ...points): touchStart, touchMove or touchEnd of touches at these points.
 export async function fingers(page) {
   if (!isFirefoxPage(page)) {
     const session = await page.context().newCDPSession(page);
@@ -27,14 +27,14 @@ export async function fingers(page) {
   };
 }
 
-// Describes a file or a folder to the page: names, and bytes in base64 or a number of zeros.
+// Describes a file or a folder to the page: names, and base64 bytes or a number of zeros.
 function described(path) {
   const about = statSync(path), name = basename(path);
   if (about.isDirectory()) return { name, children: readdirSync(path).map((child) => described(join(path, child))) };
   return about.size > FILE_MAX ? { name, size: about.size } : { name, bytes: readFileSync(path).toString('base64') };
 }
 
-// In the page: the drop of files, with entries as the File and Directory Entries API has them.
+// Runs in the page: drops files, with entries as in the File and Directory Entries API.
 function dropInPage(files) {
   const entryOf = ({ name, children, bytes, size }) => {
     if (!children) return { name, isFile: true, isDirectory: false, file: (done) => done(new File([bytes === undefined ? new ArrayBuffer(size) : Uint8Array.from(atob(bytes), (letter) => letter.charCodeAt(0))], name)) };
@@ -53,7 +53,7 @@ function dropInPage(files) {
   }
 }
 
-// Files and folders, as the system drops them.
+// Drops files and folders like the system does.
 export async function drop(page, ...paths) {
   if (isFirefoxPage(page)) return page.evaluate(dropInPage, paths.map(described));
   const session = await page.context().newCDPSession(page), box = await page.locator('#canvas').boundingBox();
@@ -61,7 +61,8 @@ export async function drop(page, ...paths) {
   for (const type of ['dragEnter', 'dragOver', 'drop']) await session.send('Input.dispatchDragEvent', { type, x: box.x + box.width / 2, y: box.y + box.height / 2, data });
 }
 
-// Puts text where the cursor of an editor is, at once. WebDriver BiDi types its letters, which an editor indents and closes brackets of: Firefox pastes.
+// Inserts text at the cursor of an editor, in one step. WebDriver BiDi would type single letters, so the editor would indent them and close
+// brackets; in Firefox, the test pastes the text.
 export async function insertText(page, editor, text) {
   if (!isFirefoxPage(page)) return page.keyboard.insertText(text);
   return editor.evaluate((node, pasted) => {
@@ -71,7 +72,7 @@ export async function insertText(page, editor, text) {
   }, text);
 }
 
-// The files that a person chooses in the dialog that `act` opens.
+// Selects files in the dialog that `act` opens.
 export async function choose(page, act, path) {
   if (!isFirefoxPage(page)) {
     const [chooser] = await Promise.all([page.waitForEvent('filechooser'), act()]);
@@ -88,7 +89,7 @@ export async function choose(page, act, path) {
   return page.locator(`#${await page.evaluate(() => globalThis.openedDialog)}`).setInputFiles(path);
 }
 
-// The name and the bytes of the file that the page saves by `act`.
+// The name and the bytes of the file that the page saves when `act` runs.
 export async function saved(page, act) {
   if (!isFirefoxPage(page)) {
     const [download] = await Promise.all([page.waitForEvent('download'), act()]);

@@ -1,5 +1,5 @@
-// newcomer.mjs: what somebody does who has never seen the page: five tasks, each within five actions and without typing; what the tabs of the picture and of
-// the model offer for it; the window's size, and the browser's Back. people.mjs runs these parts, with what it shares.
+// newcomer.mjs: typical tasks of a user who has never seen the page: five tasks, each within five actions and without typing; the tabs of the picture
+// and of the model; the window's size, and the browser's Back. people.mjs runs these parts and shares its functions with them.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -8,7 +8,8 @@ import { choose, saved } from './input.mjs';
 
 const MOST = 5;
 
-// A hand that counts what it does: it clicks what has a name, and chooses files in the system's dialog.
+// Simulates a user and counts the actions: clicks on named elements, and choosing files in the system's
+// dialog.
 class Hand {
   actions = 0;
 
@@ -39,7 +40,7 @@ class Hand {
 
 const BEHIND = '--background=#8899aa'; // opaque: a PPM has no alpha
 
-// The mean of red, green and blue where the model is.
+// The mean of red, green and blue over the pixels of the model.
 const meanColor = (page) => page.evaluate(() => {
   const canvas = document.getElementById('canvas'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height), sum = [0, 0, 0];
   let count = 0;
@@ -234,7 +235,7 @@ async function windows({ open, origin }) {
   ok((await commandOf(page)) === turned, 'and Forward to the work', await commandOf(page));
   await page.context().close();
 
-  // A message stands in the picture, and leaves the files that are missing readable.
+  // A message appears over the picture, and keeps the list of missing files readable.
   for (const width of [320, 1280]) {
     const small = await open(origin, { viewport: { width, height: 640 } });
     await drawn(small, 'small');

@@ -1,4 +1,5 @@
-// npm.mjs FOLDER: the npm package from outside, in node (tests/npm.py). FOLDER: cube.stl, ball.stl, expected.json: hashes of the program's PNG files by model.
+// npm.mjs FOLDER: tests the npm package in node (tests/npm.py). FOLDER contains cube.stl, ball.stl, and expected.json: hashes of the program's
+// PNG files by model.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -124,7 +125,7 @@ async function tryWorker() {
   setTimeout(() => lambent.dispose(), 100);
   await refused(() => waiting, 'LambentError', 'DISPOSED', 'disposed');
   await refused(() => lambent.draw('/cube.stl'), 'LambentError', 'DISPOSED', 'disposed');
-  await openWorker(wasm).then((idle) => idle.draw('cube', { size: 16 })); // not disposed of: node ends all the same
+  await openWorker(wasm).then((idle) => idle.draw('cube', { size: 16 })); // not disposed: node still ends
 }
 
 const lambent = await open(wasm);

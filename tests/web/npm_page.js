@@ -1,4 +1,5 @@
-// npm_page.js: the script of the pages of npm_page.mjs. PAGE_WASM and PAGE_WORKER: of a bundle; a page without a bundler has neither.
+// npm_page.js: the script of the pages of npm_page.mjs. PAGE_WASM and PAGE_WORKER are set in a bundle; a page without a bundler has
+// neither.
 import { open, openWorker } from 'lambent';
 
 const hash = async (bytes) => [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].map((byte) => byte.toString(16).padStart(2, '0')).join('');

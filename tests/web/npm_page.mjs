@@ -1,5 +1,5 @@
-// npm_page.mjs PLAYWRIGHT CHROMIUM FOLDER: pages with the npm package in a browser (tests/npm.py): FOLDER/plain/index.html has it without a bundler, FOLDER/bundled/index.html
-// as esbuild has bundled it. Each draws with open() and openWorker() and leaves what it found in document.title.
+// npm_page.mjs PLAYWRIGHT CHROMIUM FOLDER: tests pages with the npm package in a browser (tests/npm.py): FOLDER/plain/index.html uses it without a
+// bundler, FOLDER/bundled/index.html bundled by esbuild. Each page draws with open() and openWorker() and stores its results in document.title.
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';

@@ -1,10 +1,10 @@
-// pace.mjs: the size of quick pictures (web/page/pace.js), by the times of frames that take as long as they have pixels. Prints lines of the Test Anything
-// Protocol without numbers.
+// pace.mjs: tests the size of quick pictures (web/page/pace.js), with simulated frames whose time is proportional to their pixels. Prints lines of
+// the Test Anything Protocol without numbers.
 import { Pace } from '../../web/page/pace.js';
 
 const ok = (good, label, why = '') => console.log(`${good ? 'ok' : 'not ok'} ${label}${good ? '' : `\n# ${why}`}`);
 
-// The scales of frames of a picture, whose whole takes `ms`.
+// The scales of frames of a picture that takes `ms` at full size.
 function scales(pixels, ms, pace = new Pace()) {
   return Array.from({ length: 60 }, () => {
     const scale = pace.scale(pixels);

@@ -1,5 +1,5 @@
-// page.mjs ONE_FILE: the page's state, its camera and the page in one file, without a browser: lines of the Test Anything Protocol without
-// numbers.
+// page.mjs ONE_FILE: tests the page's state, its camera and the single-file page without a browser; prints lines of the Test Anything
+// Protocol without numbers.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync } from 'node:fs';
 import { around, cameraText, cut, cutShare, orbit, pan, project, readCamera, shifted, zoom } from '../../web/page/camera.js';
@@ -29,13 +29,14 @@ ok(same(state.values('azimuth'), ['3']) && !state.canRedo, 'and redone');
 state.set(state.withValues('two-sided', ['']));
 ok(state.words.at(-1) === '--two-sided' && same(state.withValues('two-sided', []).includes('--two-sided'), false), 'a switch has no value');
 
-// Links and commands hold every word.
+// Links and commands preserve every word.
 const odd = ["/my models/it's.obj", '--color=#ff8800', '--light=position=1/2/3,name=a&b%', '--material=Bühne'];
 ok(same(fromFragment(toFragment(odd)), odd), 'a link holds the words');
 ok(fromFragment('#%') === null && fromFragment('') === null, 'a damaged link is none');
 ok(command(odd) === "lambent 'my models/it'\\''s.obj' '--color=#ff8800' '--light=position=1/2/3,name=a&b%' '--material=Bühne'", 'a command is quoted');
 ok(command(['/teapot']) === 'lambent ./teapot' && command(['/-x.obj']) === 'lambent ./-x.obj' && command(['teapot']) === 'lambent teapot', 'files are no shapes or options');
-// A formula is a model: it is drawn by `lambent shape`, and its options go when another one is chosen.
+// A formula is a model: `lambent shape` draws it, and its options disappear when another model is
+// chosen.
 const ball_words = withModel(['teapot', '--size=64'], 'implicit');
 ok(same(ball_words, ['implicit', '--implicit=x^2+y^2+z^2-1', '--size=64']) && command(ball_words) === "lambent shape '--implicit=x^2+y^2+z^2-1' --size=64", 'an implicit surface is a model');
 ok(same(withModel([...ball_words, '--z=0..1', '--flip', '--zoom=2'], 'cube'), ['cube', '--size=64', '--zoom=2']), "a formula's options go with it");
@@ -57,7 +58,7 @@ ok(halfWords.endsWith(',fovy=30,near=5,far=25') && cutShare(readCamera(halfWords
 ok(cutShare(zoom(orbit(half, 1, 0.5, [0, 1, 0], [0, 0, 0]), 2), unitBall).toFixed(9) === '0.500000000', 'the cut stays in its place when the camera turns and comes nearer');
 ok(zoom(half, 1000).near > 0 && cameraText(cut(half, unitBall, 0)) === cameraText(camera), 'the near plane stays in front of the eye, and a cut ends');
 
-// Handles of lights: each move of a handle by a part of the picture's height, and the words that it makes. The picture is 10 tan 15° = 2.679 high
+// Handles of lights: each move of a handle by a fraction of the picture's height, and the resulting words. The picture is 10 tan 15° = 2.679 high
 // at the model's middle.
 const ball = { centre: [0, 0, 0], radius: 2 };
 const MOVES = [
@@ -81,7 +82,8 @@ ok(newLight('point', [], 0).startsWith('+point:') && newLight('spot', ['point'],
 const seen = project(camera, [5 * Math.tan(Math.PI / 12), 0, 0], 2);
 ok(near([seen.x, seen.y], [0.75, 0.5]) && project(camera, [0, 0, 9], 1).behind, 'a point where the picture shows it');
 
-// Equations: the right side, computed, is the number that the program gives. A triple counts as its red, green, blue.
+// Equations: the computed right side equals the program's number. For three numbers, they are red, green
+// and blue.
 const lambent = await open(readFileSync(join(dirname(process.argv[2]), 'wasm', 'web', 'lambent.wasm')));
 function computed(values, channel) {
   const one = values.replace(/\((-?[\d.e+-]+), (-?[\d.e+-]+), (-?[\d.e+-]+)\)/g, (...parts) => `(${parts[1 + channel]})`);
@@ -109,7 +111,7 @@ for (const words of EQUATIONS) {
 }
 ok(checked > 50, `equations: ${checked} were computed`);
 
-// The limit of memory: the program's sentence has its numbers, and the command line's own limit comes first.
+// The memory limit: the error message contains its numbers, and the command line's own limit has priority.
 const refusal = (words) => {
   try {
     return lambent.draw(words) && '';
@@ -127,13 +129,14 @@ ok(refusal(['sphere', '--size=1024']) === '', 'memory: without a limit');
 for (const [name, formula] of Object.entries(FORMULAS)) ok(lambent.draw([name, `--${name}=${formula}`, '--size=64']).triangles > 1000, `the model ${name}`);
 ok(refusal(['cube', '--implicit=x', '--size=64']) === "option '--implicit' belongs to the model 'implicit'" && /column 3/.test(refusal(['implicit', '--implicit=x+w', '--size=64'])), 'a formula that is wrong');
 
-// The lights of a picture as words draw the same picture.
+// The lights of a picture, converted to options, draw the same picture.
 for (const words of [['teapot'], ['torus-knot', '--rig=three-point', '--shadows'], ['cube', '--rig=headlight']]) {
   const all = [...words, '--size=64'], { lights } = lambent.lights(all), own = [...all.filter((word) => !word.startsWith('--rig')), ...lights.map((light) => `--light=${lightWords(light)}`)];
   ok(lights.length > 0 && Buffer.compare(lambent.save(all, 'png'), lambent.save(own, 'png')) === 0, `the lights as words: ${words.join(' ')}`);
 }
 
-// The strings: every key that a script or the page names is in the table, and each of the table is named; a pseudo-locale keeps {names}.
+// The strings: every key that a script or the page uses is in the table, and each key of the table is used; a pseudo-locale preserves
+// {names}.
 const sources = readdirSync(new URL('../../web/page', import.meta.url)).filter((name) => /\.(js|html)$/.test(name))
   .map((name) => [name, readFileSync(new URL(`../../web/page/${name}`, import.meta.url), 'utf8')]);
 const html = Object.fromEntries(sources)['index.html'], scripts = sources.filter(([name]) => name !== 'strings.js').map(([, source]) => source).join('\n');
@@ -144,12 +147,13 @@ ok(pseudo('saved {file}') === '⟦šávéd {file}~~~~⟧' && text('saved', { fil
 const bare = html.replace(/<(title|h1 translate="no")>[^<]*/g, '').replace(/<[^>]*>/g, '').trim();
 ok(bare === '', `strings: the page itself has none${bare && ': ' + bare}`);
 
-// The page in one file: its policy names its own script and style, and nothing is fetched.
+// The single-file page: its policy allows only its own script and style, and nothing is downloaded.
 const page = readFileSync(process.argv[2], 'utf8');
 const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
 const script = /<script type="module">([^]*?)<\/script>/.exec(page)[1], style = /<style>([^]*?)<\/style>/.exec(page)[1];
 const policy = /Content-Security-Policy" content="([^"]*)"/.exec(page)[1];
 ok(policy.startsWith("default-src 'none'; ") && policy.includes(hash(script)) && policy.includes(hash(style)), 'the policy names the script and the style');
-// served.js has some, for the viewer's page, and start.js the one that this page does not call: its policy refuses them.
+// served.js contains some, for the viewer's page, and start.js contains one that this page does not call, because its
+// policy refuses them.
 const fetches = (...names) => names.reduce((sum, name) => sum + Object.fromEntries(sources)[name].split('fetch(').length - 1, 0);
 ok(!/^(import|export) /m.test(script) && script.split('fetch(').length - 1 === fetches('served.js', 'start.js') && !policy.includes('connect-src') && !/(src|href)="(?!data:)/.test(page), 'one file needs no other');

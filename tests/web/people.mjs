@@ -1,6 +1,6 @@
-// people.mjs PLAYWRIGHT BROWSER BUILD_WEB MODELS: the page as somebody meets it: what the first picture needs of the line, drawings that take long, files that are
-// missing, links without files, small screens. Prints lines of the Test Anything Protocol without numbers, and as browser.mjs commands with the
-// pixels that they have.
+// people.mjs PLAYWRIGHT BROWSER BUILD_WEB MODELS: tests typical situations: the data transferred before the first picture, slow drawings, missing
+// files, links without files, small screens. It prints lines of the Test Anything Protocol without numbers, and commands with their pixels, like
+// browser.mjs.
 import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -21,10 +21,10 @@ const open = async (address, options = {}) => {
   return page;
 };
 
-// --- the line: bytes before the first picture, and no file twice
+// --- the transferred bytes before the first picture, without repeated downloads
 
 async function firstPicture() {
-  sent.length = 0; // of this part alone
+  sent.length = 0; // of only this part
   const page = await watchedPage(await browser.newContext({ viewport: { width: 1100, height: 800 } }), reports);
   await page.addInitScript(() => new MutationObserver(() => (globalThis.firstDrawn ??= Date.now())).observe(document, { subtree: true, attributeFilter: ['data-drawn'] }));
   await page.goto(origin);
@@ -49,7 +49,7 @@ async function firstPicture() {
   await page.context().close();
 }
 
-// --- drawings that take long
+// --- slow drawings
 
 const SLOW = ['torus-knot', '--size=1600x1200', '--ao=rays', '--samples=16'];
 
@@ -122,7 +122,8 @@ async function files() {
   ok((await alone.locator('#warnings').textContent()) === '', 'its warnings are gone with their reason', await alone.locator('#warnings').textContent());
   await alone.context().close();
 
-  // A model whose buffer is missing is no picture; nor is a format that the page does not read. Neither names a package of the system.
+  // A model whose buffer is missing is not drawn, and neither is a format that the page cannot read. The error messages name no
+  // system package.
   mkdirSync(join(models, 'away'), { recursive: true });
   writeFileSync(join(models, 'away/part.gltf'), '{"asset":{"version":"2.0"},"buffers":[{"uri":"part.bin","byteLength":36}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}');
   await choose('away/part.gltf');
@@ -147,7 +148,7 @@ async function files() {
   await page.context().close();
 }
 
-// Files that are compressed: the decoders are fetched when one is opened.
+// Compressed files: the decoders are downloaded when such a file is opened.
 async function compressed() {
   const corpus = new URL('../fuzz/corpus/gltf/', import.meta.url), damaged = JSON.parse(readFileSync(new URL('draco.gltf', corpus)));
   for (const name of ['draco', 'meshopt']) copyFileSync(new URL(`${name}.gltf`, corpus), join(models, `${name}.gltf`));
@@ -173,7 +174,7 @@ async function compressed() {
   }
 }
 
-// A link to a model of one's own.
+// A link to a local model.
 async function links() {
   const camera = '--camera=eye=0/0/5,target=0/0/0,up=0/1/0,fovy=30', page = await open(origin + fragment(['/cube.ply', '--size=96x96', '--background=white', camera]));
   await until(page, () => !document.getElementById('message').hidden);
@@ -207,7 +208,7 @@ async function screens() {
     await send('touchStart', [x, low]);
     for (let step = 1; step <= 10; step++) await send('touchMove', [x, low - 20 * step]);
     await send('touchEnd');
-    if (isFirefoxPage(page)) await page.mouse.move(x, low).then(() => page.mouse.wheel(0, 200)); // fingers of WebDriver do not scroll there
+    if (isFirefoxPage(page)) await page.mouse.move(x, low).then(() => page.mouse.wheel(0, 200)); // touches of WebDriver do not scroll there
     await until(page, () => scrollY > 40);
     ok((await box('#canvas')).y < 40, `${label}: the page scrolls below the picture, which stays`, JSON.stringify(await box('#canvas')));
     await page.context().close();

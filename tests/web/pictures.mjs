@@ -1,6 +1,6 @@
-// pictures.mjs MODULE FOLDER: reads command lines from standard input, one JSON list of words on a line, whose files are those of
-// FOLDER by their names; writes one line for each: the file's SHA-256, or the sentence of the error. A line {"explain": [words], "at": [x, y]}
-// gives the explanation, {"curves": [words], "of": {...}} the curves of a light, and {"options": true} the options.
+// pictures.mjs MODULE FOLDER: reads command lines from standard input, one JSON list of words per line, whose files are in FOLDER; writes one
+// line for each: the file's SHA-256, or the error message. A line {"explain": [words], "at": [x, y]} prints the explanation, {"curves":
+// [words], "of": {...}} prints the curves of a light, and {"options": true} prints the options.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';

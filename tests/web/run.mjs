@@ -1,5 +1,5 @@
-// run.mjs THREADS MODULE WORD...: runs a WebAssembly program with no files; what it prints and its exit code are its own. THREADS 0: a module
-// without threads.
+// run.mjs THREADS MODULE WORD...: runs a WebAssembly program without files, and passes on its output and its exit code. THREADS 0 means a
+// module without threads.
 import { readFileSync } from 'node:fs';
 import { Worker } from 'node:worker_threads';
 import { addThreads, sharedMemory } from '../../web/threads.js';
@@ -9,7 +9,7 @@ const [threads, file, ...words] = process.argv.slice(2);
 const module = new WebAssembly.Module(readFileSync(file));
 const print = (stream, text) => (stream === 1 ? process.stdout : process.stderr).write(text);
 
-// The exit code of a program with threads, which are there before it begins.
+// The exit code of a program with threads, which are started in advance.
 async function runThreads(count) {
   const host = system(new Files(), ['program', ...words], print), memory = sharedMemory();
   const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, env: { memory } });

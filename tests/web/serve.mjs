@@ -1,5 +1,6 @@
-// serve.mjs: the page of build-web/page on 127.0.0.1, and a browser for it. Below /isolated/ it is cross-origin isolated. Files are sent as brotli packs
-// them, to browsers that take it; a file that the browser has is not sent again. `sent`: the names, bytes and times of the answers.
+// serve.mjs: serves the page of build-web/page on 127.0.0.1, and starts a browser for it. Below /isolated/, the page is cross-origin isolated.
+// Files are sent with brotli compression to browsers that accept it; a file in the browser's cache is not sent again. `sent` contains the
+// names, bytes and times of the answers.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -10,8 +11,9 @@ const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/cs
 
 export const isFirefox = (executablePath) => /firefox/.test(executablePath);
 
-// Firefox by WebDriver BiDi, which playwright-core has under a name of its own; Chromium by its DevTools. Firefox has WebGL with a display alone:
-// LAMBENT_DISPLAY says that there is one (tests/browser.py). `dark`: pages of Firefox are told that a person prefers dark colours; in Chromium a context is.
+// Firefox is controlled by WebDriver BiDi, which has a separate name in playwright-core; Chromium is controlled by its DevTools. Firefox supports
+// WebGL only with a display; LAMBENT_DISPLAY states that there is one (tests/browser.py). With `dark`, Firefox's pages see a preference for dark
+// colours; in Chromium, the context sets this.
 export function launch(playwright, executablePath, { dark = false } = {}) {
   const { chromium, _bidiFirefox: firefox } = createRequire(join(resolve(playwright), 'x'))('playwright-core');
   if (isFirefox(executablePath)) return firefox.launch({ executablePath, headless: !process.env.LAMBENT_DISPLAY, firefoxUserPrefs: { 'webgl.force-enabled': true, 'layout.css.prefers-color-scheme.content-override': dark ? 0 : 1 } });

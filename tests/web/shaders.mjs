@@ -1,5 +1,6 @@
-// shaders.mjs PLAYWRIGHT BROWSER BUILD_WEB TASKS EXERCISES: checks of shaders in a browser, by its WebGL 2. TASKS: a JSON file, a list of {name, vertex, fragment,
-// contract, verdict, mistakes}; EXERCISES: all or some. Prints lines of the Test Anything Protocol without numbers, and what the browser's pictures differ by from the references.
+// shaders.mjs PLAYWRIGHT BROWSER BUILD_WEB TASKS EXERCISES: tests shader checks in a browser with WebGL 2. TASKS is a JSON file, a list of {name,
+// vertex, fragment, contract, verdict, mistakes}; EXERCISES is all or some. It prints lines of the Test Anything Protocol without numbers, and
+// the differences between the browser's pictures and the references.
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -54,7 +55,7 @@ const quantile = (share) => {
 console.log(`# ${all} channels of correct shaders: 99 % within ${quantile(0.99)}/255, 99.9 % within ${quantile(0.999)}/255 of the reference; of those compared at most ` +
   `${(100 * Math.max(...shares)).toFixed(3)} % of a scene's pixels over the tolerance, the largest ${maximum.toFixed(4)}`);
 
-// Exercises: the correct texts pass, and the others have the name of their mistake.
+// Exercises: the correct texts pass, and the others get the name of their mistake.
 for (const { mistake, looks, wrong } of lists.exercises.filter((_, i) => exercises === 'all' || i % 16 === 0)) {
   const [report, correct] = await page.evaluate(async (mistake) => {
     const { texts, correct, highlight } = await ask({ call: 'exercise', mistake }), asked = { call: 'check', contract: 'lambent', highlight, size: 64 };
@@ -67,7 +68,7 @@ ok(lists.exercises.length > 40, `${lists.exercises.length} exercises`);
 
 // --- the tab
 
-// Waits for a whole report; `verdict`: of what must come.
+// Waits for a complete report with this `verdict`.
 const judged = (there, verdict) =>
   until(there, (wanted) => {
     const { verdict, searched } = document.getElementById('shader-verdict')?.dataset ?? {};
@@ -89,7 +90,7 @@ async function open(address, prepare = null) {
   return there;
 }
 
-// The pixels of a cell of the table of pictures, as a text.
+// The pixels of a cell in the table of pictures, as a string.
 const pixelsOf = (there, row, column) =>
   there.locator('.shader-scenes tbody tr').nth(row).locator('canvas').nth(column).evaluate((canvas) => canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.join());
 const textIn = (there, name) => there.getByRole('textbox', { name, exact: true });
@@ -103,7 +104,8 @@ async function tab(address, label) {
   say((await pixelsOf(there, 0, 0)) !== '' && (await there.locator('.shader-scenes tbody tr').count()) > 5, 'each scene has its pictures');
   const before = await pixelsOf(there, 0, 0);
 
-  // An error has its line, with a button that goes there; mended, it is correct again.
+  // An error shows its line, with a button that jumps there; after the correction, the shader is
+  // correct again.
   await textIn(there, 'Fragment shader').click();
   await there.keyboard.press('Control+Home');
   await there.keyboard.press('End');
@@ -117,7 +119,7 @@ async function tab(address, label) {
   await judged(there, 'passes');
   say((await pixelsOf(there, 0, 0)) === before, 'without it the pictures are as before');
 
-  // Escape and Tab leave the editor, Tab alone indents.
+  // Escape followed by Tab leaves the editor; Tab alone indents.
   await there.keyboard.press('Tab');
   say(await textIn(there, 'Fragment shader').evaluate((node) => node.getRootNode().activeElement === node), 'Tab indents');
   await there.keyboard.press('Escape');
@@ -126,7 +128,7 @@ async function tab(address, label) {
   await there.getByRole('button', { name: 'Reset' }).click();
   await judged(there, 'passes');
 
-  // An exercise: hints come when they are asked for, and writing what they say solves it.
+  // An exercise: hints appear on request, and following them solves it.
   await there.locator('#shader-task').selectOption('exercise:normal-not-unit');
   await judged(there, 'differs');
   const reportText = () => there.locator('#shader-report').innerText(), hint = there.getByRole('button', { name: 'Hint' });
@@ -154,7 +156,7 @@ async function tab(address, label) {
   await there.context().close();
 }
 
-// Delays that a test makes: checks are held back by `hold` (of their messages), time limits are kept until they are asked for.
+// Simulated delays: `hold` delays the messages of checks, and time limits are kept until they are requested.
 function delays() {
   const post = Worker.prototype.postMessage, timeout = setTimeout;
   const test = (globalThis.test = { hold: () => false, held: [], limits: [], sent: 0 });
@@ -182,7 +184,7 @@ async function delayed() {
     await insertText(there, textIn(there, 'Fragment shader'), readFileSync(new URL('../check/angel.frag', import.meta.url), 'utf8').replace('pow(', '0.5 * pow('));
   };
 
-  // The search takes too long: the report without it stays.
+  // If the search takes too long, the report without it remains.
   await testIn(there, () => (test.hold = ({ pictures }) => pictures === 0));
   await wrong();
   await heldIs(1);
@@ -194,7 +196,7 @@ async function delayed() {
     'a search that takes too long leaves the verdict as it is, and says so', JSON.stringify([before, after]));
   ok((await there.locator('.shader-scenes tbody tr').count()) > 5, 'and its pictures');
 
-  // Newer texts while a check goes on: the worker gets one at a time, and the older answer is shown nowhere.
+  // Newer texts during a check: the worker gets one at a time, and the older answer is never shown.
   await testIn(there, () => Object.assign(test, { hold: ({ pictures }) => pictures === 1, held: [], sent: 0 }));
   await textIn(there, 'Fragment shader').press('Control+End');
   await there.keyboard.type(' ');
@@ -205,7 +207,7 @@ async function delayed() {
   await judged(there, 'passes');
   ok((await testIn(there, () => test.sent)) === 2, 'texts in between are not checked', await testIn(there, () => test.sent));
 
-  // One that goes on for too long is ended by newer texts, and its time limit then means nothing.
+  // Newer texts end a check that takes too long, and its time limit then has no effect.
   await testIn(there, () => Object.assign(test, { hold: ({ pictures }) => pictures === 1, held: [], limits: [] }));
   await textIn(there, 'Fragment shader').press('Control+End');
   await there.keyboard.type(' ');
@@ -219,7 +221,7 @@ async function delayed() {
   await judged(there, 'passes');
   ok(true, 'a check that goes on is ended by newer texts, which have their own verdict');
 
-  // Nothing comes in time: that is the verdict, and the next texts have one again.
+  // Nothing arrives in time: this is the verdict, and the next texts get a verdict again.
   await testIn(there, () => Object.assign(test, { hold: ({ pictures }) => pictures === 1, held: [], limits: [] }));
   await choose('angel');
   await heldIs(1);
@@ -231,7 +233,7 @@ async function delayed() {
   await there.context().close();
 }
 
-// The module of checks cannot be fetched at first.
+// The first download of the module of checks fails.
 async function refetched() {
   const there = await newPage();
   let refused = 'abort';

@@ -1,5 +1,5 @@
-// threads.mjs MODULE THREADS_MODULE PART PART FOLDER: pictures by the module with threads, with 1, 2 and 4 of them, have the pixels of the module without; and
-// and so have the pictures of a page's two PARTs. The models are in FOLDER. Prints lines of the Test Anything Protocol without numbers.
+// threads.mjs MODULE THREADS_MODULE PART PART FOLDER: pictures of the module with 1, 2 and 4 threads, and of a page's two PARTs, have the same pixels
+// as pictures of the module without threads. The models are in FOLDER. Prints lines of the Test Anything Protocol without numbers.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';
@@ -39,7 +39,7 @@ ok(expected.every((said, i) => / [0-9a-f]{64}$/.test(said) === i < PICTURES.leng
 for (const count of [1, 2, 4]) {
   const lambent = await openThreads(module, count, worker('../../web/thread.js'), files);
   ok(lambent.threads === count, `threads: ${count} draw`, `found ${lambent.threads}`);
-  for (const round of [1, 2]) { // with what the first has kept
+  for (const round of [1, 2]) { // with the data kept by the first
     const found = [...PICTURES, ...REFUSED].map((words) => pixels(lambent, words)), differs = found.findIndex((hash, i) => hash !== expected[i]);
     ok(differs < 0, `threads: the same pixels and sentences with ${count}, round ${round}`, `${[...PICTURES, ...REFUSED][differs]}: found ${found[differs]}, expected ${expected[differs]}`);
   }
@@ -48,7 +48,8 @@ for (const count of [1, 2, 4]) {
   lambent.end();
 }
 
-// In two parts: the first draws the same without the second, and says when it needs it.
+// In two parts: the first draws the same picture without the second, and reports when it needs the
+// second.
 const parts = await Promise.all([firstPart, secondPart].map((path) => WebAssembly.compile(readFileSync(path))));
 const FORMULA = ['parametric', '--parametric=x=cos(u)*(2+cos(v)); y=sin(u)*(2+cos(v)); z=sin(v)', '--size=96'], IMPLICIT = ['implicit', '--implicit=x^2+y^2+z^2-1', '--size=96'];
 const missingPart = (call) => {
@@ -68,7 +69,7 @@ ok(same(whole.explain(['teapot', '--size=96'], 48, 48), one.explain(['teapot', '
 ok(same(whole.lights(['teapot']), one.lights(['teapot'])), 'threads: both parts list lights as the whole module does');
 whole.end();
 
-// A thread that ends in a trap ends the drawing too, which waits for it otherwise.
+// A thread that traps also ends the drawing, which would otherwise wait for it.
 const failing = await openThreads(module, 2, worker('failing_thread.mjs'));
 let said = null;
 try {
@@ -79,7 +80,7 @@ try {
 ok(said instanceof WebAssembly.RuntimeError, 'threads: a thread that fails ends the drawing', String(said));
 failing.end();
 
-// Without a worker that starts, the caller draws alone.
+// If no worker starts, the caller draws alone.
 const alone = await openThreads(module, 2, worker('no_such_thread.mjs'), files);
 ok(alone.threads === 1 && pixels(alone, PICTURES[0]) === expected[0], 'threads: those that cannot be started are done without');
 alone.end();

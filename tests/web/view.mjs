@@ -1,6 +1,6 @@
-// view.mjs PLAYWRIGHT BROWSER MODEL FOLDER PROCESS LARGE: `lambent view` in a browser. MODEL: the address of a viewer of FOLDER's part.obj, a copy of
-// cube.obj, whose process id is PROCESS. LARGE: that of a viewer of a folder with points.ply, which is too large for the page; "": none. Prints lines of the Test
-// Anything Protocol without numbers, and as browser.mjs commands with the pixels that they have.
+// view.mjs PLAYWRIGHT BROWSER MODEL FOLDER PROCESS LARGE: tests `lambent view` in a browser. MODEL is the address of a viewer of FOLDER's part.obj,
+// a copy of cube.obj, whose process id is PROCESS. LARGE is the address of a viewer of a folder with points.ply, which is too large for the page;
+// "" means none. It prints lines of the Test Anything Protocol without numbers, and commands with their pixels, like browser.mjs.
 import { copyFileSync, renameSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -12,13 +12,13 @@ const [, , playwright, executablePath, model, folder, viewer, large] = process.a
 const browser = await launch(playwright, executablePath), context = await browser.newContext({ viewport: { width: 1000, height: 760 } }), reports = [];
 const part = join(folder, 'part.obj');
 
-// The browser reports these by itself: a damaged file's answer (422), requests to a viewer that is gone.
+// The browser itself reports a damaged file's answer (422), and requests to a viewer that has ended.
 const forgetReports = (expected) => reports.splice(0, reports.length, ...reports.filter((report) => !expected.test(report)));
 
 const message = (page) => page.locator('#message').textContent();
 const said = (command, hash, label) => console.log(`pixels ${JSON.stringify({ command, hash, label })}`);
 
-// Waits until the canvas has other colours.
+// Waits until the colours of the canvas change.
 async function changed(page, before) {
   for (const end = Date.now() + 60000; Date.now() < end; await page.waitForTimeout(20)) if ((await pixels(page)) !== before) return pixels(page);
   throw new Error('the picture has not changed');
@@ -38,7 +38,7 @@ async function oneModel() {
   ok(/--camera=/.test(turned) && before !== first, 'it is turned', turned);
   said(turned.replace('part.obj', 'cube.obj'), before, 'the viewer draws it turned');
 
-  // The page that is sent has the model, and nothing of the viewer.
+  // The page that is sent contains the model, and no data of the viewer.
   await page.locator('#export').click();
   const { bytes } = await saved(page, () => page.locator('#save-page').click()), sent = join(folder, 'sent.html'), text = bytes.toString();
   writeFileSync(sent, text);
@@ -48,7 +48,7 @@ async function oneModel() {
   ok((await pixels(other)) === before && !text.includes(new URL(model).pathname.split('/')[1]), 'a page is sent from the viewer, without its address');
   await other.close();
 
-  // The file is replaced as editors do it, damaged, and written again.
+  // The file is replaced like editors do it, damaged, and written again.
   await page.evaluate(() => {
     const spoken = document.getElementById('spoken');
     globalThis.heard = [];
@@ -64,7 +64,7 @@ async function oneModel() {
   ok(heard.some((sentence) => sentence.startsWith('The file has changed')), 'a changed file is announced', heard.join('\n'));
   writeFileSync(part, 'v 0 0 0\nf 1 2 x\n');
   await until(page, () => !document.getElementById('message').hidden);
-  // Said by the viewer, or by the page where the viewer has not read the file yet.
+  // Reported by the viewer, or by the page if the viewer has not read the file yet.
   ok([part, 'part.obj'].includes((await message(page)).replace(/:2: a face names vertex '2', but the file has 1$/, '')) && (await pixels(page)) === after, 'a damaged file: the sentence, and the picture stays', await message(page));
   copyFileSync(join(folder, 'cube.obj'), part);
   await until(page, () => document.getElementById('message').hidden);

@@ -111,16 +111,19 @@ MADE = ("docs/check/contracts.md",)  # from programs of courses, in their own wo
 
 
 def c_texts(source):
-    """(number of the line, text) of each comment and each literal of a C file; consecutive lines of comments are one text."""
+    """(number of the line, text) of each comment and each literal of a C file. Consecutive lines of comments in one column are one text;
+    an empty line of a comment ends it."""
     found, before = [], None
     for m in re.finditer(r"//([^\n]*)|'(?:[^'\\\n]|\\.)+'|((?:\"(?:[^\"\\\n]|\\.)*\"\s*)+)", source):
         line = source.count("\n", 0, m.start()) + 1
         if m.group(1) is not None:
-            if before == line - 1 and not source[source.rfind("\n", 0, m.start()) + 1:m.start()].strip():
-                found[-1] = (found[-1][0], found[-1][1] + (" " + m.group(1).strip() or "\n"))
-            else:
-                found.append((line, m.group(1).strip()))
-            before = line
+            start = source.rfind("\n", 0, m.start()) + 1
+            column, text = m.start() - start, m.group(1).strip()
+            if before == (line - 1, column) and text and not source[start:m.start()].strip():
+                found[-1] = (found[-1][0], found[-1][1] + " " + text)
+            elif text:
+                found.append((line, text))
+            before = (line, column) if text else None
         elif m.group(2):
             found.append((line, "".join(re.findall(r"\"((?:[^\"\\\n]|\\.)*)\"", m.group(2)))))
     return found

@@ -19,10 +19,11 @@ def read(path):
 
 
 def sentences_of(path):
-    """The sentences of a page or of a file's comments that have at least four words, unchanged. Lines of code in literals are not sentences."""
+    """The sentences of a page or of a file's comments that have at least four words, unchanged. Lines of code, and
+    formulas and tables in comments, are not sentences."""
     texts = english.paragraphs(read(path)) if path.endswith(".md") else [text for text in english.c_texts(read(path)) if not re.search(r"%[-.0-9]*[a-z]", text[1])]
     for _, text in texts:
-        if not text.startswith("#"):
+        if not text.startswith(("#", "  ")):
             for sentence in re.split(r"(?<=[.!?])\s+", text):
                 if len(sentence.split()) >= 4 and re.search(r"[a-z]{3}", sentence) and not re.search(r";(?:\s*//|$)|\{\w+\}", sentence):
                     yield path, sentence

@@ -112,18 +112,22 @@ MADE = ("docs/check/contracts.md",)  # from programs of courses, in their own wo
 
 def c_texts(source):
     """(number of the line, text) of each comment and each literal of a C file. Consecutive lines of comments in one column are one text;
-    an empty line of a comment ends it."""
-    found, before = [], None
+    an empty line and an item of a list begin another. Indented lines (formulas, tables) are texts of their own, which begin with two spaces."""
+    found, before, item = [], None, False
     for m in re.finditer(r"//([^\n]*)|'(?:[^'\\\n]|\\.)+'|((?:\"(?:[^\"\\\n]|\\.)*\"\s*)+)", source):
         line = source.count("\n", 0, m.start()) + 1
         if m.group(1) is not None:
             start = source.rfind("\n", 0, m.start()) + 1
             column, text = m.start() - start, m.group(1).strip()
-            if before == (line - 1, column) and text and not source[start:m.start()].strip():
+            follows = before == (line - 1, column) and not source[start:m.start()].strip()
+            verbatim = m.group(1).startswith("  ") and not (item and follows) or text.startswith("clang-format o")
+            begins = bool(re.match(r"(?:\d+\.|[-*]) ", text))
+            if text and follows and not verbatim and not begins:
                 found[-1] = (found[-1][0], found[-1][1] + " " + text)
             elif text:
-                found.append((line, text))
-            before = (line, column) if text else None
+                found.append((line, "  " + text if verbatim else text))
+                item = begins
+            before = (line, column) if text and not verbatim else None
         elif m.group(2):
             found.append((line, "".join(re.findall(r"\"((?:[^\"\\\n]|\\.)*)\"", m.group(2)))))
     return found

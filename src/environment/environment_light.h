@@ -1,12 +1,10 @@
 // environment_light.h: an environment as the light of metallic-roughness materials: the two terms of the split sum
 // (Karis, "Real Shading in Unreal Engine 4", 2013) that depend only on the environment.
 //
-//
 //  prefiltered  the environment reflected by GGX's microfacets around the mirrored direction r, seen along their normal
 //               (n = v = r), for ENVIRONMENT_LEVELS roughnesses:
 //                   P(r) = sum over l of L(l) D(h) max(r.l, 0) / sum of D(h) max(r.l, 0),   h = unit(r + l)
 //  irradiance   the mean of the light from the half space above a surface, weighted by the cosine: irradiance / pi
-//
 //
 // Both are sums over fixed directions in a fixed order, computed with + − × ÷ √ only: the texels are identical on every
 // machine and with any number of threads.

@@ -71,13 +71,11 @@ static lam_camera fit_orthographic(const struct fitting *fitting, const struct v
 
 // Centres the horizontal (vertical) axis for an eye at ez. It finds the k at which the points touch x = ex ± k·(ez − z)
 // on both sides. That k is the root of R(k) + L(k) − 2k·ez, a convex function whose slope is given by the points with
-// the maxima R and L; for vertices it is piecewise linear. A step of Newton's method,
-//
+// the maxima R and L; for vertices it is piecewise linear. This is a step of Newton's method:
 //
 //  k = (x_R − x_L) / (2ez − z_R − z_L)
 //
-//
-// therefore ends at the root or to its left, and further steps only increase k. When k no longer increases, the root is
+// The first step therefore ends at the root or to its left, and further steps only increase k. When k no longer increases, the root is
 // found. The position of the scene does not affect the numbers.
 static void centre_axis(const struct view_points *points, bool horizontal, double ez, struct view_extents *extents)
 {
@@ -96,19 +94,15 @@ static void centre_axis(const struct view_points *points, bool horizontal, doubl
     }
 }
 
-// Fits one axis of the picture in perspective. A point is visible if
-//
+// Fits one axis of the picture in perspective. A point is visible under this condition:
 //
 //  ±(x − ex) ≤ k·(ez − z),   that is   ±x + k·z ≤ ±ex + k·ez
 //
-//
-// With R and L the maxima of x + k·z and −x + k·z, both sides touch the frame at
-//
+// With R and L the maxima of x + k·z and −x + k·z, both sides touch the frame for this eye:
 //
 //  ex = (R − L)/2,   ez = (R + L)/(2k)
 //
-//
-// which is exact and takes one pass over the points. The axis with the larger ez determines the distance. The other
+// The result is exact and takes one pass over the points. The axis with the larger ez determines the distance. The other
 // axis is centred with the smaller k at which it would touch the frame at this ez.
 static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
 {

@@ -6,11 +6,9 @@
 
 // With y up, the front is +Z and the right side is +X. The other axes are:
 //
-//
 //  up      y    −y    z    −z    x    −x
 //  front   +Z   +Z    −Y   −Y    +Z   +Z
 //  right   +X   −X    +X   −X    −Y   +Y
-//
 //
 // A negative axis turns the picture upside down and keeps the front. The axes for z up are the convention of CAD
 // programs. LAM_UP_AUTO means y.

@@ -24,7 +24,7 @@ def sentences_of(path):
     texts = english.paragraphs(read(path)) if path.endswith(".md") else [text for text in english.c_texts(read(path)) if not re.search(r"%[-.0-9]*[a-z]", text[1])]
     for _, text in texts:
         if not text.startswith(("#", "  ")):
-            for sentence in re.split(r"(?<=[.!?])\s+", text):
+            for sentence in re.split(r"(?<=[.!?])(?<! [A-Z]\.)\s+", text):
                 if len(sentence.split()) >= 4 and re.search(r"[a-z]{3}", sentence) and not re.search(r";(?:\s*//|$)|\{\w+\}", sentence):
                     yield path, sentence
 
@@ -34,7 +34,7 @@ def cells(path):
     for line in read(path).split("\n"):
         if line.startswith("| `"):
             text = line.rstrip(" |").rsplit(" | ", 1)[-1]
-            yield from ((path, sentence) for sentence in re.split(r"<br>|(?<=[.!?])\s+", text) if len(sentence.split()) >= 4)
+            yield from ((path, sentence) for sentence in re.split(r"<br>|(?<=[.!?])(?<! [A-Z]\.)\s+", text) if len(sentence.split()) >= 4)
 
 
 def main():

@@ -186,7 +186,7 @@ static int find_open(struct shader_interface *interface, struct open_number open
         open[i].semantic = semantics[i];
         open[i].count = shader_constants_values(interface, semantics[i], open[i].values);
         open[i].own = 0;
-        tries *= open[i].count + 1; // the contract's own value is tried too
+        tries *= open[i].count + 1; // the search also tries the contract's own value
         for (int k = 0; k < open[i].count; k++) {
             shader_constants_set(interface, semantics[i], open[i].values[k]);
             if (shader_constants_hash(interface) == hash)

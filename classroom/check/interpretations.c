@@ -245,7 +245,7 @@ bool interpretations_are_plain(const struct run *r)
             double x = 0;
             snprintf(padded, sizeof padded, " %s ", w->text);
             bool call = strcmp(next, "(") == 0 && (isalpha((unsigned char)w->text[0]) || w->text[0] == '_');
-            bool own = false; // a function of the text: its name follows a type
+            bool own = false; // a function that the text defines, because its name follows a type
             for (int k = 1; call && k < sides[s]->word_count && !own; k++)
                 own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&
                       isalpha((unsigned char)sides[s]->words[k - 1].text[0]);

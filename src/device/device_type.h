@@ -16,7 +16,7 @@ struct device_type {
                  lam_error *error);
     // Returns the bytes kept from frame to frame.
     uint64_t (*memory)(const struct lam_device *device);
-    void (*free)(struct lam_device *device); // frees the device itself too
+    void (*free)(struct lam_device *device); // also frees the device itself
     bool makes_normals;                      // whether it can draw frames whose makes_normals is set
 };
 

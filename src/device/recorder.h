@@ -6,7 +6,7 @@
 
 #include <lambent/explain.h>
 
-enum { RECORDER_POINTS = 3 }; // the most points of one fragment
+enum { RECORDER_POINTS = 3 }; // the maximum number of points of one fragment
 
 struct recorder {
     struct arena arena;   // owns the explanation

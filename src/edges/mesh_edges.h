@@ -16,7 +16,7 @@ enum {
 // An edge from a corner of a triangle to the triangle's next corner, and its corner in another triangle.
 struct mesh_edge {
     uint32_t corner;
-    uint32_t other; // a corner too; for EDGE_OPEN `corner` itself
+    uint32_t other; // another corner with this edge; for EDGE_OPEN, `corner` itself
     uint32_t kind;  // EDGE_… bits
 };
 

@@ -21,7 +21,7 @@ struct lobe_cells {
 struct cube_sums {
     size_t count;
     struct opposite_texels {
-        float direction[3], share;       // unit; the fraction of the sphere that each texel covers
+        float direction[3], share;       // a unit vector, and the fraction of the sphere that each texel covers
         float light[3], light_behind[3]; // light times the share
     } pair[];
 };

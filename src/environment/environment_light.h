@@ -22,7 +22,7 @@ struct environment_light {
     struct lam_environment irradiance;
     float *texels; // all levels but level[0], in rows of ENVIRONMENT_LIGHT_WIDTH texels
     size_t held;   // bytes of their pages
-    unsigned made; // bit i: level i; bit ENVIRONMENT_LEVELS: the irradiance. Accessed atomically
+    unsigned made; // Bit i represents level i, and bit ENVIRONMENT_LEVELS the irradiance. Accessed atomically
     // See environment_lamp.h; NULL before first use. The second one shares the levels of this struct.
     struct environment_lamp *lamp;
     struct environment_light *without_lamp;

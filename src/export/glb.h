@@ -19,7 +19,7 @@ struct glb_mesh {
     int part;     // −1: all parts
     int material; // the object's material; −1 if the parts' materials are used
     bool double_sided;
-    int before; // the previous one that uses the same mesh of the scene, or −1
+    int before; // the previous mesh of the file that uses the same mesh of the scene, or −1
 };
 
 struct glb_image {

@@ -38,7 +38,7 @@ static inline void primitive_note(struct primitive *p, uint32_t number, uint32_t
 struct builder {
     const struct frame *frame;
     struct hierarchy *hierarchy;
-    struct ray_triangle *triangles; // in the order of the leaves
+    struct ray_triangle *triangles; // the triangles in the order of the leaves
     struct ray_node *nodes;
     uint32_t *twins;
     struct primitive *primitives; // the primitives of the ranges that are being divided

@@ -34,7 +34,7 @@ struct hierarchy {
     // From world space: p → (p − centre) scale, so that all corners are within −1…1. The scale is a power of two.
     double centre[3], scale;
     const struct ray_node *nodes;         // the root first
-    const struct ray_triangle *triangles; // in the order of the leaves; one more may follow them
+    const struct ray_triangle *triangles; // the triangles in the order of the leaves; one more may follow them
     uint32_t node_count;                  // entries of `nodes`, some of them unused, or 0
     uint32_t triangle_count;
     const uint32_t *twins; // for each triangle of the frame, see ray_triangle.twin

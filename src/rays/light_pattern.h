@@ -15,7 +15,7 @@ enum { LIGHT_POINTS_MAX = 256, LIGHT_PROBES = 48 };
 
 struct light_points {
     int count;
-    double x[LIGHT_POINTS_MAX], y[LIGHT_POINTS_MAX]; // on the disc of radius 1
+    double x[LIGHT_POINTS_MAX], y[LIGHT_POINTS_MAX]; // positions on the disc of radius 1
 };
 
 struct light_pattern {

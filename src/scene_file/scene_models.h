@@ -7,7 +7,7 @@
 // The model that an object refers to, and its parameters.
 struct model_wanted {
     const struct place *place; // position of the object
-    const char *file, *shape;  // one of the two, or the formula, is given; the file name is as written
+    const char *file, *shape;  // either one of these or the formula is given; the file name is unchanged
     const lam_formula *formula;
     lam_shape_params segments; // the parameters of a shape
     lam_normals normals;

@@ -272,7 +272,7 @@ static void set_colors(struct parser *parser)
         if (!seen(parser, "ambient"))
             set_color(parser, "ambient", true, intensity);
         return;
-    case LAM_LIGHT_HEMISPHERE: // its own colours are multiplied too
+    case LAM_LIGHT_HEMISPHERE: // the light's own colours are also multiplied
         set_color(parser, "sky", true, intensity);
         set_color(parser, "ground", false, intensity);
         return;

@@ -11,7 +11,7 @@ struct contract_name {
     const char *name; // "lights[].lightPosition" for members of a list
     enum uniform_semantic semantic;
     bool attribute;
-    const char *type;    // as the course declares it
+    const char *type;    // the type in the course's declaration
     const char *meaning; // text for documentation and messages
     // Other accepted names, separated by blanks. May be NULL.
     const char *synonyms;
@@ -53,8 +53,8 @@ struct contract_defaults {
     struct default_number ambient_strength, diffuse_strength, specular_strength, shininess, spot_exponent;
     bool has_attenuation, has_direction, has_position;
     float attenuation[3];
-    lam_vec3 direction; // towards the light; with has_position, the light's position
-    int light_space;    // the space of both; by default the contract's space
+    lam_vec3 direction; // the direction towards the light, or its position if has_position is set
+    int light_space;    // the space of these vectors; by default the contract's space
 };
 
 // A variable that a shader sets to a number: `float ambientStrength = 0.1;`. The name "pow" means a number that is the
@@ -97,7 +97,7 @@ struct map_convention {
 // Forms that a contract may require; otherwise their counterparts are accepted (fault.h).
 enum contract_demand {
     DEMAND_GATE = 1,         // no highlight if n.l <= 0
-    DEMAND_UNIT_NORMALS = 2, // normalized in the vertex shader too
+    DEMAND_UNIT_NORMALS = 2, // normals are also normalized in the vertex shader
     DEMAND_BARE_AMBIENT = 4, // the ambient term is not attenuated
 };
 

@@ -29,7 +29,7 @@ enum uniform_semantic {
     SEMANTIC_AMBIENT_PRODUCT,
     SEMANTIC_DIFFUSE_PRODUCT,
     SEMANTIC_SPECULAR_PRODUCT,
-    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // the product of one light, which attenuates it
+    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // the product for one light, which its attenuation reduces
     // The strengths only.
     SEMANTIC_KA,
     SEMANTIC_KD,
@@ -53,12 +53,12 @@ enum uniform_semantic {
     // a row of the matrix from the mesh's texture coordinates to a map's; w is the factor of the texel
     SEMANTIC_MAP_ROW_U,
     SEMANTIC_MAP_ROW_V,      // w is added to the texel
-    SEMANTIC_LIGHT_POSITION, // w 1; for a directional light the direction towards it, w 0
+    SEMANTIC_LIGHT_POSITION, // the position with w = 1, or for a directional light the direction towards it with w = 0
     SEMANTIC_LIGHT_X,
     SEMANTIC_LIGHT_Y,
     SEMANTIC_LIGHT_Z,
     SEMANTIC_LIGHT_DIRECTION, // towards the light
-    SEMANTIC_LIGHT_TRAVEL,    // away from the light; a spot's axis
+    SEMANTIC_LIGHT_TRAVEL,    // the direction away from the light, or a spot's axis
     SEMANTIC_LIGHT_COLOR,
     SEMANTIC_LIGHT_SPECULAR,
     SEMANTIC_LIGHT_AMBIENT,

@@ -293,7 +293,7 @@ static void hint_types(struct diagnostics *diagnostics, const struct declaration
         size_t known = strlen(item->type);
         if (known > 0 && in_list(item->type, (const char *const[]){"in", "out", "uniform"}, 3))
             continue;
-        // vec3v Ns: the space is one letter too late.
+        // In `vec3v Ns`, the space is one letter too late.
         char shorter[32];
         snprintf(shorter, sizeof shorter, "%.*s", (int)known - 1, item->type);
         if (in_list(shorter, types, COUNT(types)))

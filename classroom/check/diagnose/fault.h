@@ -61,7 +61,7 @@ _Static_assert(FAULT_BIT_COUNT <= 64 * FAULT_WORDS, "fault_set has a bit for eac
 
 // A set of switches, and the change of the highlight's exponent.
 typedef struct fault_set {
-    uint64_t words[FAULT_WORDS]; // bit i: switch i
+    uint64_t words[FAULT_WORDS]; // bit i represents switch i
     float factor;                // multiplies the exponent; 0 if not used
     float constant;              // replaces the material's exponent; 0 if not used
 } fault_set;
@@ -81,7 +81,8 @@ enum fault_where {
     WHERE_WORLD = 128,       // lighting in world space
     WHERE_WORLD_LIGHT = 256, // lights in world space, lighting in eye space
     WHERE_STRENGTHS = 1024,  // colours and their strengths are separate
-    WHERE_FOUR = 512,        // lit vectors may have four components: a varying is a vec4, or the vertices are lit
+    WHERE_FOUR = 512,        // vectors of the lighting may have four components, because a varying is a vec4 or the
+                             // vertices are lit
     WHERE_CLASSIC = 2048,    // highlights with an exponent
     WHERE_PHYSICAL = 4096,   // metalness and roughness
     WHERE_SCHLICK = 8192,    // the contract's masking is Schlick's
@@ -91,7 +92,7 @@ enum fault_where {
     WHERE_UNTONED = 131072,  // the contract's shaders have no tone curve
     WHERE_ENCODED = 262144,  // the contract's shaders encode their colours
     WHERE_LINEAR = 524288,   // the contract's shaders do not encode their colours
-    WHERE_OF_MIX = 1048576,  // the contract's F comes from the mixed F0 for the diffuse part too
+    WHERE_OF_MIX = 1048576,  // in the contract, F of the mixed F0 also applies to the diffuse part
     WHERE_NOT_OF_MIX = 2097152,
     WHERE_FLAT = 4194304, // `flat` occurs in the fragment shader
 };
@@ -100,15 +101,15 @@ enum fault_where {
 enum fault_maps {
     MAPS_BASE = 1,                // the shader reads a map of the base colour
     MAPS_METALLIC_ROUGHNESS = 2,  // a map of roughness and metalness
-    MAPS_DATA = 4,                // that map, or a map of metalness or roughness alone
+    MAPS_DATA = 4,                // a map of both, or a map of only metalness or roughness
     MAPS_NORMAL = 8,              // a normal map
     MAPS_OCCLUSION = 16,          // an occlusion map, which multiplies an ambient term
     MAPS_EMISSION = 32,           // an emission map
     MAPS_ENCODED = 64,            // colour maps are encoded
     MAPS_LINEAR = 128,            // colour maps are linear
-    MAPS_BASE_FACTOR = 256,       // the base colour has a factor too
-    MAPS_DATA_FACTOR = 512,       // metalness and roughness have factors too
-    MAPS_EMISSION_FACTOR = 1024,  // the emission has a factor too
+    MAPS_BASE_FACTOR = 256,       // the base colour also has a factor
+    MAPS_DATA_FACTOR = 512,       // metalness and roughness also have factors
+    MAPS_EMISSION_FACTOR = 1024,  // the emission also has a factor
     MAPS_TANGENTS = 2048,         // tangents are an attribute
     MAPS_SIGN = 4096,             // the tangents include the sign of the bitangent
     MAPS_DERIVATIVES = 8192,      // dFdx occurs in the fragment shader
@@ -130,8 +131,8 @@ struct fault {
     const char *id;
     uint8_t bits[MAX_FAULT_BITS]; // values of fault_bit, ends with BIT_NONE
     unsigned where;               // bits of fault_where
-    unsigned needs;               // reference_need: one of the scenes in use must have it
-    const char *explanation;      // needs: reference_need; one of the scenes in use must have it
+    unsigned needs;               // a reference_need that one of the scenes in use must have
+    const char *explanation;      // `needs` is a reference_need that one of the scenes in use must have
     const char *correction;       // one line; {place} is replaced by the shader's own name (fault_text)
     unsigned maps;                // bits of fault_maps
     float factor;                 // the factor of the exponent, or 0

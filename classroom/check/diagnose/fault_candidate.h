@@ -16,7 +16,7 @@ struct candidate {
     int count;
     fault_set set;
     double mean; // over all scenes
-    // the mean remaining share of each scene's difference (1 is all of it), so that small highlights count too
+    // the mean remaining fraction of the scenes' differences (1 means all), so that small highlights also count
     double score;
     bool fits;
     double parts[MAX_SCENES]; // the contribution of each scene to the score

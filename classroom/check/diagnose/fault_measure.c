@@ -182,7 +182,8 @@ static bool find_sensitive(struct fault_measure *t, const fault_set *base, const
     double from, to, most = 1e-4;
     range_of(row, &from, &to);
     *scene = -1;
-    for (int k = 0, tried = 0; k < t->differ_count && tried < 4; k++) { // only the four with the largest differences
+    for (int k = 0, tried = 0; k < t->differ_count && tried < 4; k++) { // only the four scenes with the largest
+                                                                        // differences
         int i = t->order[k];
         double low = 1e9, high = 0;
         if (t->scenes[i].reference_scene.ks <= 0)

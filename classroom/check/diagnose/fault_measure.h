@@ -12,7 +12,7 @@ struct fault_measure {
     float *pixels, *samples, *memory;
     int order[MAX_SCENES]; // the scenes to use: differing ones first, by descending difference
     int scene_count, differ_count;
-    uint64_t pictures; // number measured so far
+    uint64_t pictures; // the number of pictures measured so far
 };
 
 bool fault_measure_open(struct fault_measure *measure, struct fault_search *search, lam_error *error);

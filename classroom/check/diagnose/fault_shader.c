@@ -228,7 +228,7 @@ void fault_shader_close(struct fault_shader *m)
         return;
     lam_error unused;
     if (m->rests)
-        fault_shader_wake(m, &unused); // if the context cannot be woken, it is closed at rest
+        fault_shader_wake(m, &unused); // a context that cannot be woken is closed without waking it
     for (int i = 0; i < m->program_count; i++)
         forget(m, m->programs[i].built);
     place_close(&m->place);

@@ -8,13 +8,14 @@
 // All inputs that determine a picture of the fault shader.
 struct render_key {
     int scene;                            // index in reference_scenes
-    uint64_t contract, declared, numbers; // hashes: of the contract, of shader_interface, and shader_constants_hash
+    uint64_t contract, declared, numbers; // hashes of the contract and of the shader_interface, and
+                                          // shader_constants_hash
     int light_frame, reflection, vertex_lit;
     int size; // width and height in pixels
     int light_capacity;
     unsigned supports;    // the member of shader_interface
     unsigned factors;     // the member of shader_interface
-    int tone;             // lam_tone; the member of shader_interface
+    int tone;             // a lam_tone, as in shader_interface
     unsigned expectation; // the member of fault_search
     fault_set set;
 };

@@ -13,7 +13,7 @@ struct scene_comparison {
     uint32_t *inside;                       // indices of the compared pixels
     size_t inside_count;
     float *samples; // the samples of `theirs` (scene_comparison_sample)
-    bool alpha;     // alpha is compared too
+    bool alpha;     // alpha is also compared
     double mean_difference;
     bool passes;
     bool spoilt; // contains NaN and is useless for a search

@@ -158,7 +158,8 @@ void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_re
             } else if (!attribute)
                 report_type_mismatch(diagnostics, r, d, file);
         }
-    for (int i = 0; i < drawn->unknown_count; i++) { // active, but not in the text: macros generate it
+    for (int i = 0; i < drawn->unknown_count; i++) { // the input is active but not in the text, because macros generate
+                                                     // it
         bool seen = false;
         for (int s = 0; s < 2; s++)
             for (int k = 0; k < sides[s]->count; k++) {

@@ -6,7 +6,7 @@
 
 struct draw_request {
     const char *contract; // text of the file
-    int light_frame;      // lam_light_frame of all lights; WORLD: as in the contract
+    int light_frame;      // the lam_light_frame of all lights; WORLD means the contract's
     int size;
     unsigned scenes; // bit i: reference_scenes[i]
     const char *vertex, *fragment;

@@ -95,7 +95,7 @@ struct reference_scene {
     unsigned maps, factors;
     float occlusion;    // the value of an occlusion map
     bool encoded_maps;  // contract.maps
-    bool tints_ambient; // the base colour map multiplies the ambient colour too
+    bool tints_ambient; // the base colour map also multiplies the ambient colour
     int light_count;
     struct reference_light lights[MAX_SCENE_LIGHTS];
 };

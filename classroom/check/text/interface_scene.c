@@ -252,7 +252,7 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
     s->light_count = kept;
     const int capacity = shader_interface_light_count(r), lit = 3; // the most lights in a scene
     int room = lit;
-    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // only an array may have more
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // only an array may contain more lights
         room = r->groups[g].count == capacity && !r->contract->printed ? MAX_SCENE_LIGHTS : room;
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
         for (; r->groups[g].count > taken[g] && s->light_count < room; taken[g]++) {

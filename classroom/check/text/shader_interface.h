@@ -15,8 +15,8 @@ struct light_group {
 struct shader_interface {
     struct declarations vertex, fragment;
     const struct contract *contract;
-    uint64_t declared, used; // bit i: a shader declares a uniform of semantic i, and reads it
-    uint64_t constants;      // bit i: it has a constant of semantic i
+    uint64_t declared, used; // bit i is set if a shader declares, or reads, a uniform of semantic i
+    uint64_t constants;      // bit i is set if it has a constant of semantic i
     // The maps that they read (map_bit), and the maps whose factor they also declare. A number with a map counts as
     // declared.
     unsigned maps, factors;

@@ -37,8 +37,10 @@ void check_free_submissions(struct check_submission *submissions, int count);
 // Returns the length of a path without its extension: "a/phong" of "a/phong.frag" and "a/phong.frag.glsl".
 size_t check_stem_length(const char *path);
 bool check_same_stem(const char *a, const char *b);
-bool check_is_vertex(const char *path);   // by the extension: .vert, .vs, .vsh or .vertex, also followed by .glsl
-bool check_is_fragment(const char *path); // by the extension: .frag, .fs, .fsh or .fragment, also followed by .glsl
+bool check_is_vertex(const char *path);   // decided by the extension: .vert, .vs, .vsh or .vertex, also followed by
+                                          // .glsl
+bool check_is_fragment(const char *path); // decided by the extension: .frag, .fs, .fsh or .fragment, also followed by
+                                          // .glsl
 
 // Pairs the files of a command line. A vertex shader belongs to the fragment shader with the same folder and name;
 // fragment shaders without one use `vertex`. Returns the number of submissions, or −1 on failure.
@@ -126,7 +128,7 @@ enum { CHECK_TABLES = 4 };
 struct check_page;
 struct check_page *check_page_make(lam_error *error);
 void check_page_add(struct check_page *page, const struct check_result *result);
-char *check_page_path(const char *folder, lam_error *error); // from malloc; NULL on failure
+char *check_page_path(const char *folder, lam_error *error); // allocated with malloc; NULL on failure
 bool check_page_write(struct check_page *page, const char *folder, const char *title, lam_error *error);
 void check_page_free(struct check_page *page); // accepts NULL
 

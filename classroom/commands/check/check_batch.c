@@ -53,7 +53,7 @@ struct work {
     struct check_batch *b;
     pthread_mutex_t lock;
     pthread_cond_t printed_one;
-    struct check_result **results; // for each submission; NULL until it is ready and after it is printed
+    struct check_result **results; // the result of each submission; NULL until it is ready and after it is printed
     int next, printed, passed, code;
     lam_error *first;
 };

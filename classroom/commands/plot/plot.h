@@ -16,7 +16,7 @@ struct curve {
     lam_reflection reflection;
     float shininess;
     double below; // the smallest x where the curve is below 1/255; infinite if it never is
-    bool marked;  // draws a dot there, with its number
+    bool marked;  // whether a dot with its number is drawn there
 };
 
 struct plot {

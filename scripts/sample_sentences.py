@@ -13,9 +13,20 @@ sys.path.insert(0, os.path.join(ROOT, "tests"))
 import english  # noqa: E402
 
 
+# Three words in a row: other texts are code or formulas.
+ENGLISH = re.compile(r"[A-Za-z']{2,}[, ]+[A-Za-z']+[, ]+[A-Za-z']{2,}")
+
+SMALL = set("a and as by for from in is it no not of on or that the to with".split())
+
+
 def read(path):
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         return file.read()
+
+
+def is_list(text):
+    """Whether a text only lists names, such as the other names of an option."""
+    return all(re.fullmatch(r"[a-z-]+", word) and word not in SMALL for word in text.split())
 
 
 def sentences_of(path):
@@ -23,9 +34,9 @@ def sentences_of(path):
     formulas and tables in comments, are not sentences."""
     texts = english.paragraphs(read(path)) if path.endswith(".md") else [text for text in english.c_texts(read(path)) if not re.search(r"%[-.0-9]*[a-z]", text[1])]
     for _, text in texts:
-        if not text.startswith(("#", "  ")):
+        if not text.startswith(("#", "  ", "---")) and not is_list(text):
             for sentence in re.split(r"(?<=[.!?])(?<! [A-Z]\.)\s+", text):
-                if len(sentence.split()) >= 4 and re.search(r"[a-z]{3}", sentence) and not re.search(r";(?:\s*//|$)|\{\w+\}", sentence):
+                if len(sentence.split()) >= 4 and ENGLISH.search(sentence) and not re.search(r";(?:\s*//|$)|\{\w+\}", sentence):
                     yield path, sentence
 
 

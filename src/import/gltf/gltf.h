@@ -50,11 +50,11 @@ struct gltf_accessor {
     size_t sparse_count;
     int sparse_component;
     const uint8_t *sparse_indices, *sparse_values;
-    // Converted on first use; NULL if not yet.
+    // These arrays are converted on first use, and are NULL until then.
     const float *floats[2];  // `width` per element; [0]: kept until the load ends, [1]: kept as long as the scene
     const uint32_t *indices; // one per element
     uint32_t max_index;
-    const void *colors[2]; // in a format of lam_mesh; [1]: with an alpha of 1
+    const void *colors[2]; // the colours in a format of lam_mesh; the second array has an alpha of 1
 };
 
 struct gltf {
@@ -76,7 +76,7 @@ struct gltf {
     int first_material;   // index in the scene of the file's first material
     int default_material; // used by primitives that name none; −1 if not made yet
     int variant;          // the requested variant, or −1
-    size_t cut_factors;   // numbers outside the standard's range (gltf_take_factors); the first of them:
+    size_t cut_factors;   // numbers outside the standard's range (gltf_take_factors), and the first of them
     char cut_factor[160];
     double cut_from, cut_to;
 

@@ -42,7 +42,7 @@ static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char
     return true;
 }
 
-// A node's instances: 3, 4 and 3 numbers each; NULL means the attribute is missing.
+// A node's instances: arrays with 3, 4 and 3 numbers for each. NULL means that the attribute is missing.
 struct instances {
     const float *translation, *rotation, *scale;
     size_t count;

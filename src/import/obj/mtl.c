@@ -313,7 +313,7 @@ static void read_material_field(struct reader *reader, int index, const uint8_t 
     double numbers[4];
     if (lam_field_get(field, m, numbers) == 1) {
         float number, max = field->max < 1e6 ? (float)field->max : 1e6f;
-        if (text_is_word(at, end, "-halo")) // an option of d
+        if (text_is_word(at, end, "-halo")) // an option of the statement d
             at = text_skip_white(text_skip_word(at, end), end);
         if (read_numbers(reader, at, end, &number, 1, 1) != 1)
             return;

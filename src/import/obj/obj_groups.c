@@ -62,7 +62,7 @@ struct state {
     size_t counts[STATEMENTS];        // number of each kind
     const uint8_t *first[STATEMENTS]; // first of each kind
     size_t unknown_materials;
-    const char *unknown_material; // the name of the first one
+    const char *unknown_material; // the name of the first unknown material
     const uint8_t *unknown_material_at;
 };
 

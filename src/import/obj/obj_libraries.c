@@ -1,6 +1,6 @@
-// obj_libraries.c: reads the material files that an OBJ file names. Each file is read once, however often and in
-// whatever form it is named, and at most OBJ_LIBRARIES_MAX names are tried, so that a small file cannot make the
-// program read many large files.
+// obj_libraries.c: reads the material files that an OBJ file names. Each file is read once, even if it is named several
+// times or in different forms. At most OBJ_LIBRARIES_MAX names are tried, so that a small file cannot make the program
+// read many large files.
 #include "obj.h"
 
 #include "fail.h"

@@ -95,7 +95,7 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
     if ((digits | spaces) != inside || !second || without_lowest(second))
         return false;
     uint32_t ends = pack(lowest_bit(spaces), lowest_bit(second), length), begins = (ends << 8) + 0x010100;
-    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf8f8f8) // not 1 to 8 digits each
+    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf8f8f8) // the numbers do not have 1 to 8 digits each
         return false;
     const __m256i lanes = _mm512_castsi512_si256(c->lanes_of_8);
     __m256i from =

@@ -131,7 +131,8 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
         const uint8_t *block = line;
         uint64_t white_before = 1, special_before = 0;
         uint64_t words = 0, words_at_line = 0; // number of words that begin before the block, and before the line
-        bool leave = false;                    // leave the loop over blocks, at a slow line or at the chunk's end
+        bool leave = false;                    // whether to leave the loop over blocks, at a slow line or at the
+                                               // chunk's end
         for (;; block += 64) {
             struct byte_masks masks = byte_masks_of(block);
             uint64_t begins = ~masks.white & (masks.white << 1 | white_before);

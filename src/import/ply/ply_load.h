@@ -57,7 +57,7 @@ static inline int64_t ply_load_integer(const uint8_t *at, enum ply_type type, bo
     }
 }
 
-// Returns a number of any type; exact.
+// Returns a number of any type, without rounding.
 static inline double ply_load_double(const uint8_t *at, enum ply_type type, bool swapped)
 {
     if (type == PLY_F32)

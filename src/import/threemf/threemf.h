@@ -13,7 +13,7 @@
 // A growing array. It is freed with its file.
 struct threemf_rows {
     void *items;
-    size_t count, capacity, bytes; // bytes: charged to the call
+    size_t count, capacity, bytes; // `bytes` are charged to the call
 };
 
 enum resource_kind {
@@ -38,7 +38,7 @@ struct threemf_resource {
     int32_t base;                  // composite materials: index of the resource with the mixed colours
     struct threemf_object *object; // OBJECT
     struct threemf_layers *layers; // MULTI
-    lam_texture_map map;           // TEXTURE: its settings; `texture` NULL: its picture could not be read
+    lam_texture_map map;           // the settings of a texture; `texture` is NULL if its picture could not be read
 };
 
 // The groups of multiproperties; each element has one index for each group.

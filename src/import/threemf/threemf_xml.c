@@ -37,7 +37,7 @@ enum { AT_ROOT = -1, SKIPPED = -2 };
 
 // A namespace prefix, which is valid inside the element that declares it.
 struct declaration {
-    size_t prefix; // where its text begins in xml_parser.prefixes; "" means names without a prefix
+    size_t prefix; // the position of its text in xml_parser.prefixes; "" means names without a prefix
     enum threemf_namespace space;
     int depth;
 };

@@ -9,7 +9,8 @@
 // NULL on error.
 enum {
     GLTF_KEEP = 1,     // the array lives as long as the scene, not only until the load ends
-    GLTF_REQUIRED = 2, // a number that is not finite is an error at `place`; otherwise it becomes 0 with a warning
+    GLTF_REQUIRED = 2, // with this flag, a number that is not finite is an error at `place`; without it, the number
+                       // becomes 0 with a warning
 };
 const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gltf_accessor *accessor, int flags);
 

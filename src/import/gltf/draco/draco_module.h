@@ -19,20 +19,20 @@ enum { DRACO_REASON_SIZE = 160 };
 // of vertices, so the header gives no useful bound.
 struct draco_memory {
     size_t granted; // bytes
-    // Requests more memory and adds it to `granted`. 0 means there is no more, and decoding ends as if memory had run
-    // out.
+    // Requests more memory and adds it to `granted`. Returns 0 if there is no more memory; decoding then ends as if
+    // memory had run out.
     int (*grant)(struct draco_memory *memory, size_t bytes);
     void *user;
 };
 
 struct draco_functions {
     int version;
-    // Decodes a mesh. 1: *mesh and its numbers of vertices and triangles are set. 0 means the bytes are damaged, and
-    // `reason` says why. −1 means memory or the granted memory ran out.
+    // Decodes a mesh. The result is 1 if *mesh and its numbers of vertices and triangles are set. It is 0 if the bytes
+    // are damaged; `reason` then says why. It is −1 if memory or the granted memory ran out.
     int (*decode)(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
                   uint32_t *triangles, char reason[DRACO_REASON_SIZE]);
     // Writes the attribute with this unique id, `width` numbers of a glTF component type for each vertex, contiguously.
-    // Results as above.
+    // The results are the same.
     int (*attribute)(const void *mesh, uint32_t id, int component, int width, void *out,
                      char reason[DRACO_REASON_SIZE]);
     // Writes three vertices for each triangle.

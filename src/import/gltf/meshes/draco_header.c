@@ -9,7 +9,7 @@ enum { TRIANGULAR_MESH = 1, SEQUENTIAL = 0, EDGEBREAKER = 1, HAS_METADATA = 0x80
 
 struct reader {
     const uint8_t *at, *end;
-    bool ok; // false means the bytes ended
+    bool ok; // false if the bytes ended too early
 };
 
 static const uint8_t *skip(struct reader *r, uint64_t bytes)

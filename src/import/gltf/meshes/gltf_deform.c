@@ -157,7 +157,7 @@ static bool fail_joint(const struct skinning *s, int set, size_t vertex, size_t 
 }
 
 // Blends the matrices of the joints by weight. Weights are normalized to a sum of 1; if all are 0, the first joint gets
-// all.
+// the weight 1.
 static bool blend(const struct skinning *s, size_t vertex, lam_mat4 *out, lam_error *error)
 {
     double sum = 0;

@@ -123,7 +123,7 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
         (accessor->component != GLTF_U8 && accessor->component != GLTF_U16 && accessor->component != GLTF_U32))
         return true; // gltf_indices reports it
     if (strip)
-        accessor->count = count; // the count of a strip; the decoded mesh has triangles
+        accessor->count = count; // the file states the count of a strip, but the decoded mesh has triangles
     if (accessor->count != count)
         return json_fail(&gltf->json, here, "the compressed mesh has %zu corners, expected %zu, the accessor's count",
                          count, accessor->count);

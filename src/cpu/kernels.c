@@ -1,6 +1,6 @@
 // kernels.c: all kernels, compiled once for each instruction set with LANES and ISA defined (meson.build); and once
-// with RECORDING, for shading one pixel and recording its values. (The compiler removes the functions that only drawing
-// calls from that version.)
+// with RECORDING, for shading one pixel and recording its values. (That version contains no functions that only drawing
+// calls, because the compiler removes them.)
 #include "kernels.h"
 
 #include "clip.h"

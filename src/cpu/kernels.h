@@ -1,6 +1,6 @@
-// kernels.h: the table of performance-critical functions. One source, compiled once for each instruction set
-// (kernels.c); all versions are bit-identical to `scalar`. A step accesses only its parameters, which are const if it
-// only reads them.
+// kernels.h: the table of performance-critical functions. The source is compiled once for each instruction set
+// (kernels.c), and all versions are bit-identical to `scalar`. A step accesses only its parameters, which are const if
+// it only reads them.
 #ifndef KERNELS_H
 #define KERNELS_H
 
@@ -43,8 +43,8 @@ struct kernels {
     // indexed, all vertices of the draw must have been transformed.
     void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct chunk *chunk);
 
-    // Clears the tile's samples, then draws the opaque triangles of all threads' bins: each sample keeps the nearest
-    // key, of equal keys the lowest triangle number. Counts the translucent triangles.
+    // Clears the tile's samples, then draws the opaque triangles of all threads' bins. Each sample keeps the nearest
+    // key or, if keys are equal, the lowest triangle number. Counts the translucent triangles.
     void (*cover_tile)(const struct raster_frame *raster, struct tile_samples *samples, const struct tile *tile);
 
     // Lists the fragments of translucent triangles within `area` of the tile, except samples behind an opaque triangle:

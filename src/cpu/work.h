@@ -25,7 +25,7 @@ enum {
 struct work {
     struct call_control *call;
     enum failure *failure; // set atomically by any worker
-    uint64_t limit, done;  // units; `done` is accessed atomically
+    uint64_t limit, done;  // in units of work; `done` is accessed atomically
 };
 
 static inline void work_fail(const struct work *work, enum failure failure)

@@ -134,7 +134,7 @@ static void add_layer_field(struct text *text, const struct glsl_facts *f, const
 
 void glsl_add_layers(struct text *text, const struct glsl_facts *f)
 {
-    for (int i = 0; material_field(i); i++) { // in the order of the table of fields
+    for (int i = 0; material_field(i); i++) { // the numbers are in the order of the table of fields
         const struct material_field *row = material_field(i);
         const struct glsl_layer_input *input = glsl_layer_input_of(row);
         if (!input || !(f->layers & row->layer))

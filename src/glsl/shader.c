@@ -1,6 +1,7 @@
 // shader.c: implements lam_shader_make: generates a scene's shaders and the value of every uniform.
 //
-// Longer than 600 lines: one function for each list of a shader's inputs, and one case for each uniform.
+// The file is longer than 600 lines because it contains one function for each list of a shader's inputs, and one case
+// for each uniform.
 #include <lambent/shader.h>
 
 #include "arena.h"
@@ -21,7 +22,7 @@ const char *lam_glsl_name(lam_glsl version)
 
 // The public shader and its memory.
 struct shader {
-    lam_shader result; // the first member: lam_shader_free casts
+    lam_shader result; // the first member, because lam_shader_free casts to the struct
     struct arena arena;
     struct glsl_text text;
     char *application;
@@ -61,7 +62,7 @@ static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
             *alpha = LAM_ALPHA_MASK;
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
             struct glsl_map *a = &all->maps[side][i], b = own->maps[side][i];
-            a->texels = b.texels = (uint8_t)(side * LAM_MAP_COUNT + i); // each has its own sampler
+            a->texels = b.texels = (uint8_t)(side * LAM_MAP_COUNT + i); // each side has its own sampler
             same &= !a->used || !b.used || memcmp(a, &b, sizeof b) == 0;
             if (!a->used)
                 *a = b;
@@ -110,7 +111,7 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, bool har
         if (hardware_filter)
             glsl_use_hardware_filter(&own);
         for (int side = 0; side < 2 && mapped && !range->translucent; side++)
-            if (own.alpha[side] == LAM_ALPHA_BLEND) // as those with maps: their opacity is 1
+            if (own.alpha[side] == LAM_ALPHA_BLEND) // treated like materials with maps, whose opacity is 1
                 own.alpha[side] = LAM_ALPHA_OPAQUE;
         if (first < 0) {
             m->choices = own;

@@ -18,14 +18,14 @@ enum {
 struct light_bounds {
     int count, capacity;      // number of lights, without and with the padding of the last group
     const uint32_t *number;   // index in the frame
-    const float *position[3]; // eye space; of a directional light the direction to it
+    const float *position[3]; // position in eye space, or the direction to a directional light
     const int32_t *far;       // −1 for a directional light, otherwise 0
     const float *axis[3];     // the axis of a spot light; otherwise 0
     const float *min_cosine;  // the cosine at which a spot's light ends; −2 if there is no cone
     const float *attenuation[3];
     const float *inverse_range; // 0 if there is none
-    // `capacity` numbers per material: the maximum channel of kd ⊙ Ld, which vertex colours tint (gl1: plus the maximum
-    // of ka ⊙ La), and of ks ⊙ Ls.
+    // `capacity` numbers per material. For the diffuse term, the largest channel of kd ⊙ Ld, which vertex colours tint
+    // (with gl1, plus the largest channel of ka ⊙ La); for the specular term, the largest channel of ks ⊙ Ls.
     const float *max_diffuse, *max_specular;
     // For each group: the bounding box of its lights and their maximum range; infinite if a light has none.
     int group_count, group_capacity;

@@ -14,7 +14,7 @@ enum {
     BIN_BLOCK_BACK_FACES = 64,
     SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit 32 bits
 };
-#define CLIPPED 0x80000000u // bit of a number in a bin: it is the index of a clipped triangle
+#define CLIPPED 0x80000000u // bit of a number in a bin: a clipped triangle
 
 struct bin_block {
     struct bin_block *next;
@@ -44,7 +44,7 @@ struct thread_bins {
     struct slab_list clipped;
     uint32_t clipped_count;
     uint64_t triangles_binned;
-    uint64_t work; // units that have not yet been added
+    uint64_t work; // units of work that have not been added yet
 };
 
 // Allocate a block for one more bin, or memory for one more clipped triangle. They return NULL if memory runs out; the

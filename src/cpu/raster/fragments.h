@@ -12,7 +12,7 @@ struct fragments {
     uint32_t *id;    // triangle number with BACK_SIDE
     uint16_t *pixel; // y·TILE + x
     uint8_t *weight; // number of samples that show the triangle
-    uint8_t *sample; // the nearest of these to the pixel's centre
+    uint8_t *sample; // the index of the sample that is nearest to the pixel's centre
     uint32_t *group; // surface·2 + back
     uint32_t *order; // fragment indices sorted by group
     float *color[4]; // r, g, b, a; not premultiplied

@@ -13,11 +13,11 @@ struct chunk {
     uint32_t draw, first, count;
 };
 
-// Read-only for the steps, except for the vertices, which vertex_transform fills, and the work.
+// The steps only read it, except for the vertices, which vertex_transform fills, and the work.
 struct raster_frame {
     const struct frame *frame;
     const struct sample_pattern *pattern;
-    struct work *work; // any worker adds to it
+    struct work *work; // every worker adds to it
     int tiles_across, tiles_down;
     bool without_glass; // surfaces that transmit are omitted, to draw the picture behind them
     // The guard band: the largest |x| and |y| of a vertex, from the window's centre and in multiples of w, for which a

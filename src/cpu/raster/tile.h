@@ -14,7 +14,7 @@ enum {
 };
 
 #define NOTHING   0xffffffffu // a sample that no triangle covers
-#define BACK_SIDE 0x80000000u // bit of a triangle number in the visibility buffer: the back of the triangle is visible
+#define BACK_SIDE 0x80000000u // bit of a triangle number: the back is visible
 
 // A tile: its column and row in the grid, and the number of its pixels inside the picture.
 struct tile {

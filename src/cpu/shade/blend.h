@@ -35,8 +35,8 @@ struct tile_part {
     const uint32_t *ids;
 };
 
-// Blends the sorted and shaded fragments of a part of a tile into the sums and `transmittance` of its pixels. Returns how many of the pixels have no opaque fragment. `recorder`: NULL, or gets the numbers of
-// its pixel.
+// Blends the sorted and shaded fragments of a part of a tile into the sums and `transmittance` of its pixels. Returns
+// how many of the pixels have no opaque fragment. `recorder` is NULL, or receives the numbers of its pixel.
 uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragments *fragments,
                       const struct layer_rows *rows, struct blend_scratch *scratch, const struct tile_part *part,
                       struct pixel_sums *sums, struct recorder *recorder);

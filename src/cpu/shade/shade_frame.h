@@ -23,7 +23,7 @@ struct material_products {
     bool converted;                      // a metallic-roughness material with maps that a classic model lights
     float shininess;                     // after match_highlights and gl1
     int layers;                          // LAYER_…; 0 for a plain metallic-roughness surface or a classic material
-    float stretch[2];                    // anisotropy: the direction along tangent and bitangent, unit
+    float stretch[2];                    // the unit direction of the anisotropy along tangent and bitangent
     const struct light_products *lights; // one for each light
     float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere light
 };

@@ -14,7 +14,7 @@
 // Rows are slightly longer than a batch, so that the same entries of several rows are in different sets of the
 // processor's cache.
 enum { BATCH_MAX = 512, BATCH_ROW = BATCH_MAX + 16, LIGHT_BATCH = 256 };
-_Static_assert((int)BATCH_ROW <= (int)TAPS_ROW, "the taps of a batch fit");
+_Static_assert((int)BATCH_ROW <= (int)TAPS_ROW, "texture_taps has space for a batch");
 
 // Consecutive fragments that show the same triangle form a run. The rows contain the triangle's data
 // (triangle_runs.inc).
@@ -60,7 +60,7 @@ struct shading_batch {
     struct texture_taps taps;
     float texel[4][BATCH_ROW], level[BATCH_ROW];                   // the texel of the map that was read last
     float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // factor of ka; `color` is the factor of kd
-    float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // factor of the highlights; and the emission
+    float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // factor of the highlights, and the emission
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
     // The variance of the normals of base and coat within the pixel (lam_specular_aa).
     float variance[BATCH_ROW], coat_variance[BATCH_ROW];
@@ -76,7 +76,7 @@ struct shading_batch {
         float stretch[2][BATCH_ROW], anisotropy[BATCH_ROW]; // along tangent and bitangent
     } layered;
     float through[3][BATCH_ROW]; // transmittance of surfaces
-    float bend[3][BATCH_ROW];    // if the frame refracts: as fragments.bend
+    float bend[3][BATCH_ROW];    // the same as fragments.bend, if the frame refracts
     float sign[BATCH_ROW];       // sign of the bitangent
     float rest[3][BATCH_ROW];    // same as vertex_cache.rest
     struct triangle_runs runs;

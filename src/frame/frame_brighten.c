@@ -17,7 +17,7 @@
 #define MOST   2.5
 #define WHITE  1.0
 
-enum { SAMPLES = 4096, BINS = 256, STEPS = 6 }; // sampled triangles; steps of a stop
+enum { SAMPLES = 4096, BINS = 256, STEPS = 6 }; // the number of sampled triangles, of bins, and of steps per stop
 
 // A histogram of triangle area by the luminance of the base colour: bin b is for sqrt(luminance) = b / BINS.
 struct luminances {

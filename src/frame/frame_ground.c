@@ -51,7 +51,7 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
     ground->kind = LAM_GROUND_NONE;
     lam_vec3 centre;
     double radius;
-    // A catcher is not a surface of the model: of the surface properties, it shows only ambient occlusion.
+    // A catcher is not a surface of the model. The only surface property that it shows is ambient occlusion.
     bool number = !lam_output_is_light(params->output) && params->output != LAM_OUTPUT_CLIPPED &&
                   params->output != LAM_OUTPUT_AMBIENT_OCCLUSION;
     if (!params->ground || (params->ground == LAM_GROUND_SHADOW && number) ||

@@ -8,7 +8,7 @@
 bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view,
                         lam_error *error);
 
-// Returns whether shadows are enabled, explicitly or by a ground. Works before frame_build.
+// Returns whether shadows are enabled, explicitly or by a ground. It can be called before frame_build.
 static inline bool wants_shadows(const lam_draw_params *params) { return params->shadows || params->ground; }
 
 // Makes the environment's brightest lamp a separate light, if the environment lights all lit surfaces and the picture

@@ -2,8 +2,8 @@
 #ifndef ANGLE_SERIES_H
 #define ANGLE_SERIES_H
 
-// atan t for t in 0…1, z = t², within 3e-6 rad, which is enough for a weight. The polynomial interpolates atan at the
-// six Chebyshev nodes of z.
+// Computes atan t for t in 0…1 and z = t², within 3e-6 rad, which is enough for a weight. The polynomial interpolates
+// atan at the six Chebyshev nodes of z.
 #define ANGLE_SERIES(t, z)                                                                                             \
     ((t) * (0.9999948346338877 +                                                                                       \
             (z) * (-0.33295711032247277 +                                                                              \

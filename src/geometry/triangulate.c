@@ -35,7 +35,7 @@ struct corner {
     uint32_t previous, next; // around the remaining polygon
     uint32_t earlier, later; // in the queue of its level
     uint32_t slot;           // in the tree; NONE if not in it
-    uint8_t level;           // LEVELS: in no queue
+    uint8_t level;           // LEVELS if it is in no queue
 };
 
 // A node's box around its points; `count` of them remain.
@@ -211,7 +211,7 @@ static bool sort_points(const struct corner *corners, uint32_t *points, uint32_t
         uint32_t *swap = points;
         points = extra;
         extra = swap;
-    } // eight rounds: the result is back in `points`
+    } // after eight rounds, the result is in `points` again
     return true;
 }
 

@@ -66,7 +66,7 @@ struct formula_graph {
     struct formula_node *nodes; // FORMULA_NODES_MAX
     int *slots;                 // hash table of nodes
     int count;
-    bool full; // too many nodes: results are meaningless
+    bool full; // there are too many nodes, so results are meaningless
 };
 
 bool formula_graph_start(struct formula_graph *graph, struct arena *arena);

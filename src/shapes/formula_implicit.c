@@ -12,7 +12,8 @@ enum {
     CELLS_MAX = 1024,
     SEARCH_CELLS = 64,
     SEARCH_POINTS = SEARCH_CELLS + 1,
-    CHECKED_OPERATIONS = 1 << 20, // between two checks of the call's limits: a few milliseconds
+    CHECKED_OPERATIONS = 1 << 20, // the operations between two checks of the call's limits, which take a few
+                                  // milliseconds
 };
 
 // Half the sides of the cubes that are searched: textbook examples are in the first, and most closed surfaces in the
@@ -23,7 +24,7 @@ struct implicit {
     struct formula formula;
     struct call_control *call;
     int value_cost, gradient_cost; // cost of one evaluation, in operations such as a sum
-    int operations;                // since the last check of the call's limits
+    int operations;                // operations since the last check of the call's limits
     bool ended;                    // the call must end: f is NaN from now on, which means outside
     double from[3], to[3];
     bool given[3]; // whether the range of an axis was given

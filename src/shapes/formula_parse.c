@@ -34,7 +34,7 @@ struct parser {
 
 static const struct function {
     const char *name;
-    enum formula_op op; // NUMBER: composed of other operations
+    enum formula_op op; // NUMBER if it is composed of other operations
     int least, most;    // number of arguments
 } functions[] = {
     {"sin", OP_SIN, 1, 1},   {"cos", OP_COS, 1, 1},     {"tan", OP_TAN, 1, 1},     {"asin", OP_ASIN, 1, 1},
@@ -207,7 +207,7 @@ static int call(struct parser *p, const struct function *function)
     const char *start = p->at - strlen(function->name);
     int result = -1, count = 0;
     char text[80];
-    snprintf(text, sizeof text, "'(' and what %s is of: %s(%c)", function->name, function->name,
+    snprintf(text, sizeof text, "'(' and an argument of %s: %s(%c)", function->name, function->name,
              *parameter_names(p->formula));
     if (!take(p, '('))
         return expected(p, p->at, text);

@@ -10,20 +10,20 @@
 // A quarter around the axis from direction a to direction b has the control points ra, ra + kb, ka + rb, rb. k is 0.56
 // r, close to a circle's 0.5523 r; for the lid's knob, with r = 0.8, Newell chose 0.45.
 const struct teapot_ring teapot_body[4][4] = {
-    // bottom, from its centre
+    // the bottom, starting at its centre
     {{0, 0, 0}, {1.425, 0.798, 0}, {1.5, 0.84, 0.075}, {1.5, 0.84, 0.15}},
     // lower body
     {{1.5, 0.84, 0.15}, {1.5, 0.84, 0.225}, {2, 1.12, 0.45}, {2, 1.12, 0.9}},
     // upper body
     {{2, 1.12, 0.9}, {2, 1.12, 1.35}, {1.75, 0.98, 1.875}, {1.5, 0.84, 2.4}},
-    // rim, to its inside
+    // the rim, up to its inside
     {{1.5, 0.84, 2.4}, {1.4375, 0.805, 2.53125}, {1.3375, 0.749, 2.53125}, {1.4, 0.784, 2.4}},
 };
 
 const struct teapot_ring teapot_lid[2][4] = {
-    // lid, from its edge
+    // the lid, starting at its edge
     {{1.3, 0.728, 2.4}, {1.3, 0.728, 2.55}, {0.4, 0.224, 2.55}, {0.2, 0.112, 2.7}},
-    // knob, to its top
+    // the knob, up to its top
     {{0.2, 0.112, 2.7}, {0, 0, 2.85}, {0.8, 0.45, 3.15}, {0, 0, 3.15}},
 };
 

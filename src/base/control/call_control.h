@@ -5,11 +5,11 @@
 #include <lambent/base.h>
 
 struct call_control {
-    lam_control control; // a copy; all zero: no limits
+    lam_control control; // a copy; if all fields are zero, there are no limits
     uint64_t start_ns;
     uint64_t memory_used; // accessed atomically
-    int over_memory;      // set once the memory budget refused a request
-    int over_expansion;   // set once the budget derived from the file sizes refused a request
+    int over_memory;      // set when the memory budget has refused a request
+    int over_expansion;   // set when the budget derived from the file sizes has refused a request
     // The latest request that a budget refused: the bytes in use, the bytes requested and the limit. Accessed atomically.
     uint64_t refused_used, refused_bytes, refused_limit;
     // The number of bytes in all files read so far, accessed atomically. 0 means that no files were read, and that no
@@ -54,19 +54,19 @@ uint64_t call_file_limit(const struct call_control *call);
 unsigned call_json_depth_limit(const struct call_control *call);
 uint64_t call_layer_limit(const struct call_control *call);
 
-// Returns whether a model or a drawn scene may have this many triangles; false: LAM_LIMIT. `items` names them in the
-// message: "triangles", "lines".
+// Returns whether a model or a drawn scene may have this many triangles. Otherwise fails with LAM_LIMIT. `items` names
+// them in the message: "triangles", "lines".
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);
 
-// Returns whether a model may have this many objects; false: LAM_LIMIT.
+// Returns whether a model may have this many objects. Otherwise fails with LAM_LIMIT.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
 // Returns whether the unpacked data of a compressed file may have this many bytes, which is the memory that reading the
-// file may use; false: LAM_LIMIT.
+// file may use. Otherwise fails with LAM_LIMIT.
 bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
-// Returns whether a file of this size may be read; false: LAM_LIMIT.
+// Returns whether a file of this size may be read. Otherwise fails with LAM_LIMIT.
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
 // Calls the progress callback. It must run in the calling thread only. Reported shares never decrease.

@@ -18,7 +18,7 @@ bool fail(lam_error *error, lam_code code, const char *format, ...)
         error->text[0] = 0;
     if (length >= (int)sizeof error->text) {
         size_t at = sizeof error->text - 4;
-        while (at > 0 && ((unsigned char)error->text[at] & 0xc0) == 0x80) // never cut a UTF-8 character
+        while (at > 0 && ((unsigned char)error->text[at] & 0xc0) == 0x80) // do not cut a UTF-8 character
             at--;
         memcpy(error->text + at, "…", sizeof "…");
     }

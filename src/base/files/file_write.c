@@ -115,8 +115,8 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
 {
     if (!write_all(file, w, before))
         return false;
-    // Keeps the read and write permissions; a file written here is never a program. EPERM: the file system has no
-    // permissions.
+    // Keeps the read and write permissions; a file written here is never a program. EPERM means that the file system
+    // does not support permissions.
     if (w->existing && fchmod(file, w->existing->st_mode & 0666) != 0 && errno != EPERM)
         return false;
     if (w->durable && !sync_file(file))

@@ -19,7 +19,7 @@ typedef int64_t dmask; // 0 or 1
 #else
 #define DLANES (LANES / 2)
 typedef double dnum __attribute__((vector_size(DLANES * 8)));
-typedef int64_t dmask __attribute__((vector_size(DLANES * 8))); // each lane 0 or −1
+typedef int64_t dmask __attribute__((vector_size(DLANES * 8))); // each lane is 0 or −1
 typedef double dnum_memory __attribute__((vector_size(DLANES * 8), aligned(8), may_alias));
 #endif
 #define DPARTS (LANES / DLANES)
@@ -71,7 +71,7 @@ LANE_FN dnum dsquare_root(dnum x)
     return r;
 #endif
 }
-LANE_FN unsigned dmask_bits(dmask m) // bit i: lane i
+LANE_FN unsigned dmask_bits(dmask m) // bit i is lane i
 {
 #if LANES == 16 && defined(__AVX512DQ__)
     return (unsigned)_mm512_movepi64_mask((__m512i)m);

@@ -136,7 +136,8 @@ double math_sinh(double x)
             sum = (sum + 1) * z / (2 * k * (2 * k + 1));
         return x + x * sum;
     }
-    double half = math_exp(x > 0 ? x / 2 : -x / 2), e = half * 0.5 * half; // x/2: e^x overflows before sinh x does
+    double half = math_exp(x > 0 ? x / 2 : -x / 2), e = half * 0.5 * half; // x/2 is used because e^x overflows before
+                                                                           // sinh x does
     e = x > 20 || x < -20 ? e : e - 0.25 / e;
     return x > 0 ? e : -e;
 }

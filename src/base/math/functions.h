@@ -127,7 +127,8 @@ LANE_FN num power(num base, num exponent)
     struct two_parts y = scaled_log2(binary_parts_of(base), min_of(exponent, num_of(1.0e30f)));
     num sum = y.head + y.tail;
     struct whole_power w = whole_power_of(min_of(sum, num_of(127.0f)));
-    num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // a little over ½: sum was rounded
+    num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // it may slightly exceed ½, because the sum was
+                                                                       // rounded
     mask some = both(base >= min_base(exponent), sum >= -126.0f);
     return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }

@@ -8,8 +8,8 @@
 #include <string.h>
 
 enum {
-    BLOCK_FIRST = 16 << 10,  // the first block; each further block is twice as large, up to
-    BLOCK_LARGEST = 2 << 20, // the size of a huge page
+    BLOCK_FIRST = 16 << 10,  // size of the first block; each further block is twice as large
+    BLOCK_LARGEST = 2 << 20, // size of the largest block: a huge page
     OWN_PAGES = 1 << 20,     // larger requests get pages of their own
 };
 
@@ -19,7 +19,7 @@ struct arena_block {
     uint8_t *memory;
     size_t capacity, used;
     bool whole;     // serves one request; nothing else is allocated from it
-    size_t held;    // > 0: bytes of the pages at `memory`, released by pages_free
+    size_t held;    // if above 0, the bytes of the pages at `memory`, which pages_free releases
     size_t charged; // bytes charged to the call
 };
 

@@ -10,7 +10,8 @@
 
 enum {
     THREADS_MAX = 1024,
-    WORKER_STACK = 1 << 20, // bytes; drawing uses less than 128 kB. The system's default would follow `ulimit -s`.
+    WORKER_STACK = 1 << 20, // stack size in bytes; drawing uses less than 128 kB. The system's default would follow
+                            // `ulimit -s`.
 };
 
 struct pool {

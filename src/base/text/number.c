@@ -25,7 +25,7 @@ struct format {
     int min_exponent_field;    // exponent of field 0, minus one: −bias
     int infinite;              // the exponent field of infinity
     int even_first, even_last; // powers of ten for which a product can be a midpoint
-    int min_power, max_power;  // below: 0, above: infinity, for any 19 digits
+    int min_power, max_power;  // for any 19 digits, the result is 0 below and infinity above
 };
 static const struct format format_double = {52, -1023, 0x7ff, -4, 23, -342, 308};
 static const struct format format_float = {23, -127, 0xff, -17, 10, -65, 38};
@@ -319,7 +319,7 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
             big_shift_left(&over, 1); // instead of shifting the divisor down
     }
     bool rest = over.count != 0;
-    if (bits < 0) { // below the last bit: at least half of it?
+    if (bits < 0) { // whether the part below the last bit is at least half of it
         big_shift_left(&over, 1);
         int half = big_compare(&over, &under);
         return half > 0; // exactly half rounds to the even 0

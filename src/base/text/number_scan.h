@@ -62,7 +62,7 @@ static const uint64_t number_integer_powers[20] = {
 };
 
 // Returns whether a double with an error of at most 4 units in its last place rounds to the correct float. It is false
-// near the midpoint of two floats. Only valid for |x| from 2^-126 to 2^127.
+// near the midpoint of two floats. It is only valid for |x| from 2^-126 to 2^127.
 static inline bool number_rounds_surely(double x)
 {
     uint64_t bits;

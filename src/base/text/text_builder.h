@@ -11,8 +11,8 @@ struct text {
     size_t length, capacity;
     bool failed;
     lam_error error;
-    struct call_control *call; // charged for the bytes, and asked now and then whether to continue; NULL: none
-    size_t asked;              // the length at which it was asked last
+    struct call_control *call; // charged for the bytes, and checked now and then for its limits; may be NULL
+    size_t asked;              // the length at the last check
 };
 
 void text_add(struct text *text, const char *more);

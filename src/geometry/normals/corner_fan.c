@@ -102,8 +102,8 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct fan_corner *c)
         b[i] = (double)r[i] - (double)p[i];
     }
     double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-    // Twice the area. Differences of floats are at most 7e38, so the square is below 1e156, and above 1e-180 if it is
-    // not 0.
+    // The length is twice the area. Differences of floats are at most 7e38, so the square is below 1e156, and above
+    // 1e-180 if it is not 0.
     double length = __builtin_sqrt(x * x + y * y + z * z);
     bool spans = length > 0 && length < 1e300; // neither infinite nor NaN
     double scale = spans ? 1 / length : 0;

@@ -20,10 +20,10 @@ struct fan_corner {
 // Scratch memory of one thread, which grows with the largest position.
 struct corner_fan_scratch {
     struct arena arena;
-    uint32_t *numbers; // in: the corners at the position
+    uint32_t *numbers; // input: the corners at the position
     struct fan_corner *corners;
     struct fan_edge *edges;
-    float (*normals)[3]; // out: of the fans
+    float (*normals)[3]; // output: the normals of the fans
     uint32_t capacity;
 };
 void corner_fan_scratch_start(struct corner_fan_scratch *scratch, struct call_control *call);

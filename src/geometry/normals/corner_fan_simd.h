@@ -20,8 +20,8 @@ struct corner_fan_block {
     uint32_t count, positions;        // corners per position; the columns after the last position repeat it
     bool by_vertex;                   // the corners in a column belong to one vertex
     fan_row corners[FAN_CORNERS_MAX]; // ascending at each position after `make`
-    fan_row open;                     // by_vertex; nonzero: the vertex is not closed (normals.h)
-    fan_row flat;                     // nonzero: a degenerate triangle; the other fields are invalid
+    fan_row open;                     // with by_vertex, nonzero if the vertex is not closed (normals.h)
+    fan_row flat;                     // nonzero if a triangle is degenerate; the other fields are then invalid
     // Fans, numbered at each position by their first corners: their corners as bits (0 means the position has fewer
     // fans), and their normals.
     uint32_t fans; // the largest number of fans at a position
@@ -42,9 +42,9 @@ struct corner_fan_simd {
     int lanes; // floats in a register
     // Computes the fans from count, positions and corners.
     void (*make)(struct corner_fan_block *block, const lam_mesh *mesh, double min_cosine);
-    // Then fills `elements`. Only corners of triangles in the set remain members; the mesh's triangle 0 has the number
-    // `first`. Corners of open vertices, and of vertices whose bits are set in `done` (may be NULL), are removed.
-    // Returns the number of fans that have members.
+    // Call it after `make`; it fills `elements`. Only corners of triangles in the set remain members; the mesh's
+    // triangle 0 has the number `first`. Corners of open vertices, and of vertices whose bits are set in `done` (may be
+    // NULL), are removed. Returns the number of fans that have members.
     uint32_t (*locate)(struct corner_fan_block *block, const lam_mesh *mesh, const struct rank_bitset *triangles,
                        uint32_t first, const uint64_t *done);
 };

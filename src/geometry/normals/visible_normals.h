@@ -31,8 +31,8 @@ static inline uint32_t visible_element(const struct visible_normals *visible, si
 
 // The resources of the computation. The result does not depend on them.
 struct normals_work {
-    struct scratch_memory scratch; // saves fresh memory; all zero: there is none
-    int lanes;                     // floats at a time, at most
+    struct scratch_memory scratch; // memory to reuse; all zero if there is none
+    int lanes;                     // the most floats at a time
     struct pool *pool;
     struct call_control *call;
 };

@@ -66,7 +66,7 @@ FILE *windows_fopen(const char *path, const char *mode)
 
 static struct timespec time_of(uint64_t ticks)
 {
-    // Counted in units of 100 ns from 1601; Unix time starts in 1970.
+    // Windows counts time in units of 100 ns from 1601; Unix time starts in 1970.
     const int64_t since_1601 = 11644473600;
     return (struct timespec){(time_t)((int64_t)(ticks / 10000000) - since_1601), (long)(ticks % 10000000 * 100)};
 }
@@ -230,7 +230,8 @@ ssize_t pwrite(int file, const void *data, size_t size, off_t at)
 int flock(int file, int operation)
 {
     (void)operation;
-    OVERLAPPED end = {.Offset = 0, .OffsetHigh = 0x40000000}; // a byte past the end of any file, so that reads work
+    OVERLAPPED end = {.Offset = 0, .OffsetHigh = 0x40000000}; // locks a byte past the end of any file, so that reads
+                                                              // still work
     return LockFileEx((HANDLE)_get_osfhandle(file), LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &end)
                ? 0
                : fail_with_errno();
@@ -241,7 +242,7 @@ int flock(int file, int operation)
 struct windows_folder {
     HANDLE search;
     WIN32_FIND_DATAW found;
-    bool is_read; // `found` has been returned
+    bool is_read; // whether `found` has been returned
     char *path;
     struct dirent entry;
 };

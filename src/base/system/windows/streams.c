@@ -24,7 +24,7 @@ static struct memory_stream {
     FILE *file;
     char **text;
     size_t *size;
-    char *fixed; // fmemopen's memory of `capacity` bytes, in place of a text; else NULL
+    char *fixed; // fmemopen's memory of `capacity` bytes, which replaces the text; otherwise NULL
     size_t capacity;
     struct memory_stream *next;
 } *streams;

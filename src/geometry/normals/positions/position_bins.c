@@ -22,7 +22,7 @@ static inline bool put(const struct position_bins *bins, struct block_lists *lis
 
 // --- meshes without indices
 
-#define PENDING ((uint32_t)1 << 31) // refers to a pending lookup; positions are fewer
+#define PENDING ((uint32_t)1 << 31) // marks a pending lookup; it is larger than any position
 
 // Returns the number of a position from the corner that represents it: its rank among the corners of the set's
 // triangles.
@@ -146,7 +146,7 @@ void position_bin_sort(const struct position_bins *bins, size_t bin, uint32_t *r
                 starts[b->at.position[i]]++;
     for (size_t i = 0; i <= size; i++)
         starts[i] = end += starts[i];
-    // Backwards, and from the newest block to the oldest, so that a thread's corners are in order.
+    // Lists are read backwards, from the newest block to the oldest, so that a thread's corners are in order.
     for (int t = 0; t < pool_threads(s->pool); t++)
         for (const struct list_block *b = s->lists[t].bins[bin]; b; b = b->previous)
             for (uint32_t i = b->count; i-- > 0;)

@@ -34,8 +34,8 @@ struct position_search {
     struct arena arena;
     struct position_hash table;
     struct block_lists *lists; // the lists of each thread
-    int probe_limit_reached;   // set atomically: the file was made so that its positions collide
-    struct rank_bitset done;   // vertices whose normals are already computed; no bits: none
+    int probe_limit_reached;   // set atomically if positions collide more often than in any ordinary file
+    struct rank_bitset done;   // vertices whose normals are already computed; it has no bits if there are none
 
     // Output. A position has the rank of its representative vertex among `wanted`; without indices, the rank of the
     // corner in the set's triangles.
@@ -76,7 +76,7 @@ bool number_wanted(struct position_search *s);
 bool find_positions(struct position_search *s, lam_error *error);
 void position_search_free(struct position_search *s);
 
-// If the probe limit is reached: finds the positions by sorting all vertices, whose time is bounded for every file.
+// Finds the positions by sorting all vertices, if the probe limit is reached. Its time is bounded for every file.
 bool find_positions_by_sorting(struct position_search *s, lam_error *error);
 
 // Returns the number of the mesh's triangles in the set, before one triangle or in total.

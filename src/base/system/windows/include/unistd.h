@@ -15,7 +15,8 @@ int windows_rmdir(const char *path);
 #define rmdir(path)        windows_rmdir(path)
 
 int fsync(int file);
-// Reads or writes at a position, and leaves the file's own position unchanged for later calls of these two. Any thread.
+// Reads or writes at a position, and leaves the file's own position unchanged for later calls of these two. Any thread
+// may call it.
 ssize_t pread(int file, void *data, size_t size, off_t at);
 ssize_t pwrite(int file, const void *data, size_t size, off_t at);
 // Gets the name of this machine.

@@ -17,7 +17,7 @@ struct windows_stat {
     unsigned st_nlink;
     unsigned st_uid, st_gid; // 0
     long long st_size;
-    struct timespec st_mtim, st_ctim; // of the contents; of the file's metadata
+    struct timespec st_mtim, st_ctim; // times of the last change of the contents and of the file's metadata
 };
 #define st_mtime st_mtim.tv_sec
 #define st_ctime st_ctim.tv_sec

@@ -20,8 +20,8 @@ void console_capture(FILE *stream);
 // Prints text. Control characters other than line ends and tabs become "?", because file names may contain them.
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-// Returns the bytes of the character at `text` if a reader does not see it: a control character except line ends and tabs, or one that
-// changes the direction of the text after it. 0: another character.
+// Returns the bytes of the character at `text` if a reader does not see it: a control character except line ends and
+// tabs, or one that changes the direction of the text after it. Returns 0 for any other character.
 size_t text_hidden(const char *text);
 
 // Prints a file's name, in one line: "\\" for a backslash, "\n" for a line end, "\r" for a carriage return, and "?" for a character

@@ -19,7 +19,7 @@ bool batch_page_is_thumbnail(const char *page, const char *path);
 struct batch_page {
     const char *path;
     const struct batch_tally *tally;
-    // returns a picture's journal line or NULL; caller releases it
+    // returns a picture's journal line or NULL; the caller releases it
     json_t *(*record)(void *user, size_t index);
     void *user;
     size_t record_count;

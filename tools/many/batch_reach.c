@@ -176,7 +176,7 @@ bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_er
     }
     if (takes_folder(b))
         add_folder(&paths, batch_plan_folder(b->plan));
-    if (b->options->batch.jobs || page_is_named(b->options->picture.output)) // a job may request one
+    if (b->options->batch.jobs || page_is_named(b->options->picture.output)) // a job may request a page
         add_page(&paths);
     return sandbox_start(b->options, &paths, error);
 }

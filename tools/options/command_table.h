@@ -24,7 +24,8 @@ struct command {
     const char *name;
     const char *operands;               // the operands as the help shows them; NULL if there are none
     const char *summary;                // one sentence
-    uint64_t groups;                    // bit g: accepts the options of group g; TAKES_…: single options
+    uint64_t groups;                    // bit g means that the options of group g are accepted; TAKES_… means single
+                                        // options
     int min_operands, max_operands;     // −1 in max_operands means no limit
     const struct own_default *defaults; // NULL if the command has none
     const char *one_more;               // the correct spelling, for the error about too many operands; may be NULL

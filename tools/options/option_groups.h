@@ -69,7 +69,7 @@ struct view_options {
     double azimuth_deg, elevation_deg; // valid if the next flag is set
     bool has_azimuth, has_elevation;
     double zoom;        // 0 means 1
-    double fov_deg;     // vertical, of the fitted camera; 0 means 30
+    double fov_deg;     // the vertical field of view of the fitted camera; 0 means 30
     int projection;     // 1 means orthographic
     int up;             // lam_up
     const char *camera; // as typed; NULL means a fitted camera

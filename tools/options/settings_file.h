@@ -15,7 +15,7 @@ enum settings_state {
 
 struct settings_source {
     enum settings_state state;
-    char path[4096]; // of --config or of the user's file; "" if there is no configuration folder
+    char path[4096]; // the path of --config or of the user's file; "" if there is no configuration folder
 };
 
 // Applies the settings of the file to all options that neither the command line nor a look sets (options.by_config).

@@ -8,7 +8,7 @@
 
 struct page_file {
     char *path;   // on this machine
-    char *inside; // in the page: "/bunny.obj", "/textures/fur.png"
+    char *inside; // the path in the page, such as "/bunny.obj" or "/textures/fur.png"
 };
 
 struct page_model {

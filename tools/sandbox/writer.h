@@ -26,7 +26,7 @@ enum writer_right {
 // Returns the right to a path. Called in the writer, by one thread at a time.
 typedef enum writer_right writer_rule(void *user, const char *path);
 
-// Starts the writer with `count` connections for as many threads. It writes files of at most `largest` bytes (0:
+// Starts the writer with `count` connections for as many threads. It writes files of at most `largest` bytes (0 means
 // unlimited). Must be called before threads start. Fails with LAM_LIMIT.
 bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, lam_error *error);
 

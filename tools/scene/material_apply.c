@@ -146,7 +146,7 @@ static int set_materials(const struct material_option *option, lam_scene *scene,
     return found;
 }
 
-// The names of a model that a target may have been meant to be.
+// The names in a model that the user may have meant by a target.
 struct target_names {
     struct suggestion nearest;
     char first[200]; // the first few: "'body', 'head'"

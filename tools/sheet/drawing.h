@@ -17,7 +17,7 @@ struct drawing {
     char *title, *description; // for screen readers, in an SVG; may be NULL
     bool words;                // false draws no text
     lam_compress compress;     // for a PNG
-    int quality;               // for a JPEG or WebP; 0 means the format's default
+    int quality;               // the quality of a JPEG or WebP; 0 means the format's default
     bool durable;
 };
 

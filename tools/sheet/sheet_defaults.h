@@ -8,7 +8,7 @@
 // The data that the model's file provides.
 struct sheet_model {
     const char *shape;      // the name of a built-in shape; NULL for a file
-    bool materials, lights; // the model has its own
+    bool materials, lights; // whether the model has its own materials or lights
 };
 
 // Returns true if the model must be read to decide which defaults apply.

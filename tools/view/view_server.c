@@ -115,7 +115,7 @@ static bool enter_sandbox(const struct view *view, lam_error *error)
     if (view->files.folder >= 0)
         sandbox_add(&paths, *view->files.prefix ? view->files.prefix : "/", SANDBOX_READ);
     if (view->files.model_path)
-        sandbox_add(&paths, view->files.model_path, SANDBOX_READ); // it may be a link
+        sandbox_add(&paths, view->files.model_path, SANDBOX_READ); // the model may be a link
     return sandbox_start(&options, &paths, error);
 }
 

@@ -507,7 +507,7 @@ static void print_pixel(const lam_explanation *e)
     }
     if (e->behind.r != 0 || e->behind.g != 0 || e->behind.b != 0)
         row_color(2, "behind glass", e->behind,
-                  "transmittance · what rough or thick glass shows of the picture and the background");
+                  "transmittance · the picture and background that rough or thick glass shows");
     row_label(2, "weighted sum");
     printf("%13.7g %13.7g %13.7g %13.7g   Σ weight · alpha · colour%s\n", (double)e->sum.r, (double)e->sum.g,
            (double)e->sum.b, (double)e->sum.a,

@@ -390,7 +390,7 @@ static int run_with(struct hash_run *run, int operand_count, char **operands)
     drawn.report.verbose = false;
     drawn.picture.output = NULL;
     run->by_file = !operand_count && !run->options->batch.lists.count;
-    drawn.limits.files_inside |= run->by_file; // a file's scenes read no other folders than the file
+    drawn.limits.files_inside |= run->by_file; // scenes in a hash file may read only the folders that the file may read
     struct batch_use use = {draw, reach, right_of, finish, run};
     bool ok = check(operand_count, run->options, &error) && batch_plan_start(&run->plan, &drawn, &error) &&
               prepare(run, operand_count, operands, &error);
@@ -413,7 +413,7 @@ int run_hash(int operand_count, char **operands, const struct options *options)
     for (size_t i = 0; run.names && i < run.plan.count; i++)
         free(run.names[i]);
     free(run.names);
-    free(run.sorted.entries); // whose names they were
+    free(run.sorted.entries); // the names belonged to these entries
     free(run.kept);
     free(run.sheet);
     shared_count_free(run.rows);

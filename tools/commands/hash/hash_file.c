@@ -137,7 +137,7 @@ static bool read_lines(struct hash_file *file, FILE *in, const char *path, lam_e
         else if (length)
             ok = add_line(file, path, number, line, &capacity, error);
     }
-    if (ok && !feof(in)) // getline fails without memory too
+    if (ok && !feof(in)) // getline also fails if memory runs out
         ok = complain(error, errno == ENOMEM ? LAM_LIMIT : LAM_CANNOT_READ, "%.400s: cannot read: %s", path,
                       strerror(errno));
     if (ok && (!file->version || !file->options))
@@ -153,7 +153,7 @@ bool hash_file_read(struct hash_file *file, const char *path, lam_error *error)
 {
     *file = (struct hash_file){0};
     struct stat about;
-    int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); // a pipe is not waited for
+    int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); // do not wait for a pipe
     FILE *in = opened < 0 ? NULL : fdopen(opened, "r");
     if (!in)
         return complain(error, LAM_CANNOT_READ, "%.400s: cannot open: %s", path, strerror(errno));
@@ -168,7 +168,7 @@ bool hash_file_read(struct hash_file *file, const char *path, lam_error *error)
     hash_file_sort(file);
     for (size_t i = 1; ok && i < file->count; i++)
         if (strcmp(file->entries[i].name, file->entries[i - 1].name) == 0)
-            ok = complain(error, LAM_CANNOT_READ, "%.300s: '%.100s' is there twice", path, file->entries[i].name);
+            ok = complain(error, LAM_CANNOT_READ, "%.300s: '%.100s' is listed twice", path, file->entries[i].name);
     return ok;
 }
 
@@ -268,7 +268,7 @@ bool hash_file_may_name(const char *path, const char *file, const struct options
     if (lam_shape_find(file) >= 0)
         return true;
     char *folder = output_folder_of(path), *real = realpath(file, NULL);
-    bool may = folder && (real ? is_below(real, folder) : errno == ENOENT); // one that is missing cannot be read
+    bool may = folder && (real ? is_below(real, folder) : errno == ENOENT); // a missing file cannot be read
     for (int i = 0; real && !may && i < options->limits.allow_paths.count; i++)
         may = is_below(real, options->limits.allow_paths.items[i]);
     free(folder);

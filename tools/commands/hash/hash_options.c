@@ -117,7 +117,7 @@ static bool resolve(char **words, int count, const char *path, char *to, const c
             if (strncmp(words[i], "--", 2) != 0 || strncmp(words[i] + 2, of_files[k], length) != 0)
                 continue;
             const char *rest = words[i] + 2 + length;
-            if (*rest == '=') // is not how hash writes them
+            if (*rest == '=') // `lambent hash` does not write them like this
                 return false;
             if (*rest || i + 1 == count)
                 continue;

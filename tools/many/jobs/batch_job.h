@@ -8,7 +8,7 @@
 #include "job_roots.h"
 
 struct batch_job {
-    struct batch_job *next; // in a list of jobs
+    struct batch_job *next; // the next job in a list
     json_t *id;             // a string or an integer
     struct options options; // the worker's options, followed by the job's
     char **words;           // the options point into them

@@ -5,7 +5,7 @@
 #include "options.h"
 
 struct job_roots {
-    char **paths; // after resolving all links; from malloc
+    char **paths; // the paths after resolving all links, allocated with malloc
     int count;
 };
 

@@ -13,7 +13,7 @@ struct job_stream {
     size_t searched; // this many bytes from `start` on contain no line end
     size_t limit;    // bytes per line
     uint64_t line;   // number of the last line taken, from 1
-    bool skips;      // skipping the rest of a line that is too long
+    bool skips;      // whether it skips the rest of a line that is too long
     bool ended;      // the end was reached
 };
 

@@ -9,7 +9,7 @@
 // The state of one journal after its last run.
 struct journal_part {
     char *path, *build, *options; // from malloc
-    struct batch_shard shard;     // all zero: the batch has no shards
+    struct batch_shard shard;     // all zero if the batch has no shards
     size_t pictures;              // planned for the run
     size_t written, failed;       // number of such lines
     bool ended;                   // whether the run was completed

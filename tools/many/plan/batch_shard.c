@@ -98,7 +98,7 @@ static bool from_environment(struct batch_shard *shard, long count, lam_error *e
                         "option '--shard auto': none of %s, %s and %s is set; name the shard, --shard K/N", task_id,
                         completion, rank);
     long index, ranks;
-    if (found == rank) { // mpirun reports the number: another would skip models
+    if (found == rank) { // mpirun reports the number; another number would skip models
         if (!read_variable(rank, &index, error) || !read_variable("OMPI_COMM_WORLD_SIZE", &ranks, error))
             return false;
         if (ranks < 1 || ranks > SHARDS_MAX || (count && ranks != count))

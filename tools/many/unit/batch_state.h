@@ -70,7 +70,7 @@ static inline struct batch_picture *batch_pictures_of(const struct batch *b, siz
     return b->pictures + model * (size_t)b->plan->view_count;
 }
 
-// Reports an error after which no further model is started. Any thread.
+// Reports an error after which no further model is started. Any thread may call it.
 void batch_stop(struct batch *batch, const lam_error *error);
 
 #endif

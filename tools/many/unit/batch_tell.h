@@ -38,7 +38,7 @@ void batch_say_summary(const struct batch_tally *tally, bool interrupted);
 
 // The messages of one model.
 struct batch_text {
-    char *out, *err; // from malloc; NULL if there are none
+    char *out, *err; // the messages, allocated with malloc; NULL if there are none
     bool ready;
 };
 

@@ -22,7 +22,7 @@
 #include "picture_json.h"
 #include "view_words.h"
 
-static lam_cancel cancel; // cancels the current request; global: a signal handler
+static lam_cancel cancel; // cancels the current request; global, because a signal handler uses it
 
 static void cancel_request(int number)
 {
@@ -53,7 +53,7 @@ static void answer(const struct drawer *d, int status, bool keeps, const char *n
                    size_t bytes)
 {
     struct view_reply reply;
-    memset(&reply, 0, sizeof reply); // including the padding, which is sent too
+    memset(&reply, 0, sizeof reply); // including the padding, which is also sent
     reply.status = status;
     reply.keeps = keeps;
     reply.notes = (uint32_t)size;

@@ -28,7 +28,7 @@ static void close_others(int first, int second)
     for (int file = 3; file < FILES_MAX; file++) {
         struct stat about;
         if (file != first && file != second && fstat(file, &about) == 0 &&
-            !S_ISDIR(about.st_mode)) // keeps the folder of the files
+            !S_ISDIR(about.st_mode)) // the handle of the files' folder stays open
             close(file);
     }
 }

@@ -69,7 +69,7 @@ static bool check(const struct options *given, lam_error *error)
 {
     for (const struct option *o = option_table; o->name; o++)
         if (given->given[o - option_table] && !fits(o, given))
-            return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is not of the picture that a page shows", o->name);
+            return complain(error, LAM_BAD_ARGUMENT, "option '--%s' does not apply to the picture on a page", o->name);
     if (given->picture.show && strcmp(given->picture.show, "all") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--show all' makes several pictures, and a page shows one");
     return job_check_options(given, error);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""decoders.py FOLDER: the decoders of compressed glTF files, compiled for WebAssembly from Debian's source packages of Draco and meshoptimizer with the
-program's own face of Draco (src/import/gltf/draco), in FOLDER/decoders.wasm: a module of its own, which the page fetches when a file needs it. Does
-nothing where it is up to date. C++ exceptions end the module (a trap): the bytes are damaged then."""
+"""decoders.py FOLDER: compiles the decoders of compressed glTF files for WebAssembly, from Debian's source packages of Draco and meshoptimizer with
+the program's own interface to Draco (src/import/gltf/draco), to FOLDER/decoders.wasm: a separate module, which the page downloads when a file needs
+it. It does nothing if the module is up to date. C++ exceptions end the module (a trap); the data is then damaged."""
 import concurrent.futures
 import hashlib
 import os
@@ -14,12 +14,13 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OWN = os.path.join(ROOT, "src", "import", "gltf", "draco", "draco_module.cpp")
 FLAGS = ["--target=wasm32-wasi", "-std=c++17", "-Oz", "-DNDEBUG", "-fignore-exceptions", "-fno-rtti", "-mbulk-memory", "-mnontrapping-fptoint",
          "-ffp-contract=off", "-w"]
-# Draco's configuration: what glTF files are compressed with. (A build of its own writes this header.)
+# Draco's configuration: the features that glTF files use. (Draco's own build generates this
+# header.)
 FEATURES = "".join("#define DRACO_%s_SUPPORTED\n" % name for name in (
     "MESH_COMPRESSION", "NORMAL_ENCODING", "STANDARD_EDGEBREAKER", "PREDICTIVE_EDGEBREAKER", "BACKWARDS_COMPATIBILITY"))
 WITHOUT = ("test", "encod", "expert", "stripifier", "cleanup", "equivalence", "dedup", "mesh_splitter", "features", "mesh_utils", "connected", "builder",
            "triangle_soup", "cycle_timer", "file", "structural_metadata", "property", "compression_options")
-# What C++ code calls to throw.
+# The function that C++ code calls to throw.
 THROW = """#include <cstddef>
 extern "C" void *__cxa_allocate_exception(std::size_t) { __builtin_trap(); }
 extern "C" void __cxa_throw(void *, void *, void (*)(void *)) { __builtin_trap(); }

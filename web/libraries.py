@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""libraries.py FOLDER: the libraries that Lambent reads files with, compiled for WebAssembly from Debian's source packages, in
-FOLDER/root: Jansson (JSON), libspng with zlib (PNG), libjpeg-turbo (JPEG). Does nothing where they are there.
+"""libraries.py FOLDER: compiles the libraries that Lambent uses to read files for WebAssembly, from Debian's source packages, in FOLDER/root: Jansson
+(JSON), libspng with zlib (PNG), libjpeg-turbo (JPEG). It does nothing if they exist.
 
-apt-get finds the sources by an own list of the host's archives, kept in FOLDER: the system's own lists stay as they are.
+apt-get finds the sources with a separate list of the host's archives in FOLDER; the system's own lists do not change.
 """
 import concurrent.futures
 import glob
@@ -22,13 +22,13 @@ FLAGS = ["--target=wasm32-wasi", "-DNDEBUG", "-msimd128", "-mbulk-memory", "-mno
 JPEG = """jaricom jcapimin jcapistd jccoefct jccolor jcdctmgr jchuff jcinit jcmainct jcmarker jcmaster jcomapi jcparam
 jcprepct jcsample jdapimin jdapistd jdarith jdatadst jdatasrc jdcoefct jdcolor jddctmgr jdhuff jdinput
 jdmainct jdmarker jdmaster jdphuff jdpostct jdsample jerror jfdctint jidctint jutils jmemmgr jmemnobs jsimd_none""".split()
-# What no picture of Lambent's is read or written with: a page fetches the module.
+# Parts that no picture of Lambent needs, omitted because a page downloads the module.
 JPEG_WITHOUT = """DCT_IFAST DCT_FLOAT C_MULTISCAN_FILES C_PROGRESSIVE INPUT_SMOOTHING BLOCK_SMOOTHING IDCT_SCALING UPSAMPLE_MERGING
 QUANT_1PASS QUANT_2PASS""".split()
 ZLIB = "adler32 crc32 deflate inffast inflate inftrees trees zutil compress uncompr".split()
 
-# One row for each: Debian's source package, the files, the headers that others include (or the folder of them, `include`), what pkg-config says, and
-# flags: for size where speed does not show.
+# Each row contains Debian's source package, the files, the headers that others include (or their folder, `include`), the data for pkg-config, and
+# flags: optimised for size if the speed does not matter.
 LIBRARIES = [
     {"source": "zlib", "library": "z", "files": [n + ".c" for n in ZLIB], "headers": ["zlib.h", "zconf.h"], "pc": "zlib", "flags": ["-O2"]},
     {"source": "jansson", "library": "jansson", "files": ["src/*.c"], "headers": ["src/jansson.h", "src/jansson_config.h"], "pc": "jansson",
@@ -121,7 +121,7 @@ def build(row, folder):
     run(ARCHIVER, "crs", archive, *made)
     for header in row["headers"]:
         shutil.copy(os.path.join(path, header), os.path.join(root, "include"))
-    # Debian's sources of zlib carry a suffix after the number.
+    # The version of Debian's sources of zlib has a suffix.
     version = re.match(r"[\d.]*\d", os.path.basename(path).rsplit("-", 1)[1])[0]
     with open(os.path.join(root, "lib", "pkgconfig", row["pc"] + ".pc"), "w") as out:
         out.write("Name: %s\nDescription: Debian's %s\nVersion: %s\n%sLibs: %s\nCflags: -I%s\n" % (
@@ -130,7 +130,7 @@ def build(row, folder):
 
 
 def make(folder, rows):
-    """Compiles the libraries of these rows to FOLDER/root, unless they are there."""
+    """Compiles the libraries of these rows to FOLDER/root, unless they exist."""
     done = os.path.join(folder, "root", "complete")
     stamp = open(os.path.abspath(__file__)).read() + repr(rows)
     if os.path.exists(done) and open(done).read() == stamp:

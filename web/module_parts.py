@@ -1,6 +1,7 @@
-"""module_parts.py: the served page's module in parts: what draws the first pictures (lambent.wasm), what most pages need after that (lambent-rest.wasm),
-and what is fetched when it is used (lambent-more.wasm): explanations, formulas, sweeps, arithmetic JPEG, scene files that are written. The module with threads has two parts: the
-first (lambent-threads.wasm) takes the place of both. wasm-split (Binaryen) divides them; what a page never calls is left out."""
+"""module_parts.py: divides the served page's module into parts: functions for the first pictures (lambent.wasm), functions that most pages need after
+that (lambent-rest.wasm), and functions downloaded on first use (lambent-more.wasm): explanations, formulas, sweeps, arithmetic JPEG, writing scene
+files. The module with threads has two parts; the first (lambent-threads.wasm) replaces both. wasm-split (Binaryen) divides them; functions that a
+page never calls are omitted."""
 import os
 import re
 import shutil
@@ -11,11 +12,11 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 PARTS = ("lambent.wasm", "lambent-rest.wasm", "lambent-more.wasm")
 THREADS_PARTS = ("lambent-threads.wasm", "lambent-threads-more.wasm")
-# What the module uses of WebAssembly.
+# The features of WebAssembly that the module uses.
 FEATURES = ["--enable-" + name for name in ("simd", "exception-handling", "bulk-memory", "nontrapping-float-to-int", "sign-ext", "mutable-globals")]
-# Functions by their objects in the linker's map.
-UNUSED = r"libjpeg\.a\((jc(?!omapi)|jfdct)|jpeg_write\.c" # the page saves PNG; reading needs jcomapi too
-# Only the thread that is called runs them: the others have the first part alone.
+# The functions of each object in the linker's map.
+UNUSED = r"libjpeg\.a\((jc(?!omapi)|jfdct)|jpeg_write\.c" # the page saves PNG; reading also needs jcomapi
+# Only the calling thread runs them: the other threads have only the first part.
 MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|sweep_option\.c\.o|show_all\.c\.o|jdarith\.o|formula_\w+\.c\.o|scene_write\.c\.o|:\((web_contents|(web|job)_explain)\)$"
 
 
@@ -27,7 +28,7 @@ def call(*command):
 
 
 def functions(map_path):
-    """The names "archive(object):(symbol)" of the module's functions, in their order."""
+    """The names "archive(object):(symbol)" of the module's functions, in order."""
     names, inside = [], False
     for line in open(map_path):
         found = re.match(r"\s*\S+\s+[0-9a-f]+\s+[0-9a-f]+\s+(.*)", line)
@@ -40,7 +41,7 @@ def functions(map_path):
 
 
 def relax_table(module, work):
-    """The second division makes the table longer, which the first one's part says the exact length of: it takes any that is long enough."""
+    """The second division makes the table longer, but the first one's part states its exact length; therefore it accepts any sufficient length."""
     call("wasm-dis", *FEATURES, module, "-o", work + ".wat")
     text, count = re.subn(r'(\(import "primary" "[^"]*" \(table \S+ \d+) \d+ funcref', r"\1 funcref", open(work + ".wat").read())
     if count != 1:
@@ -55,7 +56,8 @@ def is_new(unsplit, parts):
 
 
 class Division:
-    """The divisions that all modules share, in a folder of files: `first` is a module without what pages never call and without `more`, its second part."""
+    """The divisions that all modules share, in a folder of files: `first` is a module without functions that pages never call and without `more`, its
+    second part."""
 
     def __init__(self, unsplit, work, more, features=()):
         """`more`: the namespace in which the first part calls the second (web/lambent.js)."""
@@ -64,13 +66,13 @@ class Division:
         self._divide(unsplit + ".wasm", names, UNUSED, "unused", ("a.wasm", "unused.wasm"))
         self._divide(self.at("a.wasm"), [name for name in names if not re.search(UNUSED, name)], MORE, more, ("b.wasm", "more.wasm"))
         self.first, self.more = self.at("c.wasm"), self.at("more.wasm")
-        call("wasm-opt", *self.features, "-Oz", self.at("b.wasm"), "-o", self.first) # as fast as by -O2
+        call("wasm-opt", *self.features, "-Oz", self.at("b.wasm"), "-o", self.first) # as fast as with -O2
 
     def at(self, name):
         return os.path.join(self.work, name)
 
     def _divide(self, module, names, pattern, namespace, parts):
-        # Without names wasm-split calls functions by their numbers, and numbers those that stay anew.
+        # Without names, wasm-split calls functions by number, and renumbers the remaining ones.
         with open(self.at(namespace), "w") as out:
             out.write("\n".join(str(i) for i, name in enumerate(names) if re.search(pattern, name)))
         call("wasm-split", *self.features, module, "--split-funcs=@" + self.at(namespace), "--placeholder-namespace=" + namespace, "--export-prefix=%s." % namespace[0],
@@ -91,7 +93,7 @@ def split(unsplit, parts):
 
 
 def split_threads(unsplit, parts):
-    """The same for the two parts of the module with threads."""
+    """Writes the two parts of the module with threads in the same way."""
     if is_new(unsplit, parts):
         return
     with tempfile.TemporaryDirectory() as work:

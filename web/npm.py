@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""npm.py [FOLDER]: the npm package (docs/npm.md) in FOLDER/npm-package, and packed as FOLDER/lambent-VERSION.tgz (make npm). FOLDER (build-web) has what
-`make web` has made. The types of the options come from the program's own table, which the module prints."""
+"""npm.py [FOLDER]: writes the npm package (docs/npm.md) to FOLDER/npm-package, and packs it as FOLDER/lambent-VERSION.tgz (make npm). FOLDER
+(build-web) contains the output of `make web`. The types of the options come from the program's own table, printed by the module."""
 import json
 import os
 import pathlib
@@ -14,9 +14,9 @@ ROOT = HERE.parent
 SIZE_MAX = 700_000  # bytes of the packed file
 
 SCRIPTS = ["npm/index.js", "npm/index.d.ts", "npm/files.js", "npm/words.js", "npm/client.js", "npm/worker.js", "npm/README.md", "lambent.js", "wasi.js"]
-# Options that the package does not have: what they do is done by its own calls, or needs files of the machine.
+# Options that the package does not support: its own calls replace them, or they need files of the machine.
 WITHOUT = ["output", "term", "durable", "save-scene", "stage"]
-# Debian's source packages whose code is in the module, and packages of the tools that bring some.
+# Debian's source packages whose code is in the module, and tool packages that add code.
 SOURCES = ["zlib", "jansson", "libspng", "libjpeg-turbo"]
 TOOLS = ["wasi-libc", "libclang-rt-19-dev-wasm32"]
 
@@ -26,7 +26,7 @@ def key_of(name):
 
 
 def type_of(option):
-    """The type of an option's value. Words that are numbers are numbers too."""
+    """The type of an option's value. Numeric values are accepted as numbers too."""
     if option["value"] is None:
         return "boolean"
     if option.get("words"):
@@ -60,7 +60,7 @@ def package_json(version):
 
 
 def licences(folder):
-    """The notices of what the module contains."""
+    """The licence notices of the module's components."""
     texts = [(ROOT / "LICENSE").read_text(), "The module lambent.wasm contains the following software. What Debian's packages say of each:\n"]
     for name in SOURCES:
         texts.append("==== %s\n\n%s" % (name, next((folder / "source").glob(name + "-[0-9]*/debian/copyright")).read_text()))
@@ -70,7 +70,7 @@ def licences(folder):
 
 
 def described(wasm):
-    """What the module prints of its options."""
+    """The module's list of its options."""
     script = ("import { open } from %s; import { readFileSync } from 'node:fs';"
               "console.log(JSON.stringify((await open(readFileSync(%s))).options()));" % (json.dumps(str(HERE / "lambent.js")), json.dumps(str(wasm))))
     return json.loads(subprocess.run(["node", "--input-type=module", "-e", script], stdout=subprocess.PIPE, check=True).stdout)

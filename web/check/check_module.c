@@ -1,4 +1,4 @@
-// check_module.c: checks of shaders for a page, one after the other, drawn by the page's WebGL 2.
+// check_module.c: checks shaders for a page, one after another, drawn by the page's WebGL 2.
 #include "check_module.h"
 
 #include <stdlib.h>
@@ -17,7 +17,7 @@ static struct {
     uint32_t bytes;
     lam_check_cache *cache; // of the pictures of known mistakes
     lam_check_report report;
-    unsigned char *rgba; // of the picture asked for last
+    unsigned char *rgba; // the pixels of the last requested picture
 } module;
 
 char *web_texts(uint32_t bytes)
@@ -28,7 +28,7 @@ char *web_texts(uint32_t bytes)
     return module.texts;
 }
 
-// Text `index` of the call. "": it has none.
+// Text `index` of the call. "" means none.
 static const char *text_of(int index)
 {
     const char *at = module.texts ? module.texts : "", *end = at + module.bytes;
@@ -56,7 +56,7 @@ static bool check(lam_check_params *params, lam_error *error)
         return true;
     if (!web_painter_was_stopped())
         return false;
-    // The stopped work is lost, and with it the cache.
+    // The stopped work is lost, including the cache.
     lam_check_cache_free(module.cache);
     module.cache = NULL;
     module.report = (lam_check_report){.verdict = LAM_CHECK_ENDLESS};
@@ -65,7 +65,7 @@ static bool check(lam_check_params *params, lam_error *error)
 
 void web_check(int size, double max_pictures)
 {
-    static const double tolerance = 2; // of 255, as the command has it
+    static const double tolerance = 2; // of 255, as in the command
     lam_error error = {0};
     const char *vertex = text_of(1), *contract_name = text_of(2), *highlight = text_of(3);
     lam_check_contract *contract = NULL;

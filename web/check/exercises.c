@@ -1,4 +1,5 @@
-// exercises.c: shaders in the lecture style, each with one of the known mistakes that `lambent shader --mistake` offers, for people who look for it.
+// exercises.c: exercises: shaders in the lecture style, each with one of the known mistakes that `lambent shader
+// --mistake` offers.
 #include <string.h>
 
 #include <lambent/check.h>
@@ -8,7 +9,7 @@
 #include "exercises.h"
 #include "json.h"
 
-// Scenes, of which the first that has what a mistake needs is taken.
+// Scenes, of which the first one that contains the requirements of a mistake is used.
 static const struct setting {
     lam_light_type lights[2];
     int light_count;
@@ -34,7 +35,7 @@ static lam_light light_of(lam_light_type type)
     return light;
 }
 
-// A triangle: what is drawn is no part of a shader's text.
+// A triangle, because the text of a shader does not depend on the shapes.
 static lam_scene *scene_of(const struct setting *setting, lam_error *error)
 {
     static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -91,7 +92,7 @@ static void put_texts(struct json *json, const char *key, const lam_shader *shad
     json_close(json, '}');
 }
 
-// Answers with the texts of one setting. False: it does not have what the mistake needs, or fails.
+// Answers with the texts of one setting. Returns false if it lacks a requirement of the mistake, or fails.
 static bool put_exercise(const struct setting *setting, const char *mistake, lam_error *error)
 {
     lam_scene *scene = scene_of(setting, error);

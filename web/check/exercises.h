@@ -6,10 +6,11 @@
 
 struct json;
 
-// Member "exercises": each mistake's id, what one sees, and what is wrong.
+// Member "exercises": each mistake's id, its visible effect, and its description.
 void exercises_list(struct json *json);
 
-// Prints the texts with a mistake, those without it, and which highlight they have. False: no mistake has this id, or memory.
+// Prints the texts with a mistake, the texts without it, and their highlight. Returns false if no mistake has this id,
+// or if memory is insufficient.
 bool exercise_put(const char *mistake, lam_error *error);
 
 #endif

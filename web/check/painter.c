@@ -1,4 +1,4 @@
-// painter.c: WebGL 2 as the painter of a check. painter.js draws; what it is asked for here is what WebGL can do, with numbers
+// painter.c: WebGL 2 as the painter of a check. painter.js draws; this file requests what WebGL supports, with numbers
 // for places and programs. Texts end with a 0.
 #include "painter.h"
 
@@ -9,14 +9,15 @@
 
 #define IMPORT(name) __attribute__((import_module("painter"), import_name(#name)))
 
-// The number of a place, or 0 and the reason in `renderer`.
+// Returns the number of a place, or 0 and the reason in `renderer`.
 int32_t painter_open(int32_t size, char *renderer, int32_t capacity) IMPORT(open);
 void painter_close(int32_t place) IMPORT(close);
-// The number of a program, or 0; bits of `refused`: 1 the vertex shader, 2 the fragment shader. Logs have `capacity` bytes.
+// Returns the number of a program, or 0; bits of `refused`: 1 the vertex shader, 2 the fragment shader. Logs have room
+// for `capacity` bytes.
 int32_t painter_compile(int32_t place, const char *vertex, const char *fragment, int32_t *refused, char *vertex_log,
                         char *fragment_log, char *link_log, int32_t capacity) IMPORT(compile);
 int32_t painter_input_count(int32_t program) IMPORT(input_count);
-// `numbers`: the type, as lam_check_type has it; elements; 1 for an attribute.
+// `numbers`: the type as a lam_check_type; elements; 1 for an attribute.
 void painter_input(int32_t program, int32_t index, char *name, int32_t capacity, int32_t *numbers) IMPORT(input);
 void painter_forget(int32_t program) IMPORT(forget);
 void painter_mesh(int32_t place, int32_t number, int32_t vertex_count, int32_t index_count, const float *positions,
@@ -24,7 +25,7 @@ void painter_mesh(int32_t place, int32_t number, int32_t vertex_count, int32_t i
 void painter_value(int32_t program, int32_t input, int32_t first, int32_t count, const float *numbers) IMPORT(value);
 void painter_stream(int32_t program, int32_t input, int32_t components, int32_t vertex_count, const float *numbers)
     IMPORT(stream);
-// 0: drawn; -1: the browser has stopped it; else WebGL's error.
+// 0: drawn; -1: the browser has stopped it; otherwise WebGL's error.
 int32_t painter_draw(int32_t place, int32_t program, int32_t mesh, int32_t index_count, int32_t position,
                      int32_t normal, int32_t tangent, int32_t cull, float *pixels) IMPORT(draw);
 
@@ -50,7 +51,7 @@ static void *open(void *user, lam_check_language language, int size, char render
 
 static void close(void *place) { painter_close(number_of(place)); }
 
-// Nothing else uses the page's WebGL.
+// No other code uses the page's WebGL.
 static void rest(void *place) { (void)place; }
 
 static bool wake(void *place, lam_error *error)

@@ -6,7 +6,7 @@
 
 extern const lam_check_painter web_painter;
 
-// Whether the browser has stopped a shader since the last call, which then begins anew: the page's WebGL is gone.
+// Whether the browser has stopped a shader since the last call, and the page's WebGL is lost.
 bool web_painter_was_stopped(void);
 
 #endif

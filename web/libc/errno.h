@@ -1,4 +1,5 @@
-// errno.h: wasi-libc's, whose errno is one number for all threads: it was compiled without any. Those of a pool make no system calls.
+// errno.h: wasi-libc's header, whose errno is one number for all threads, because it was compiled without threads. The
+// threads of a pool make no system calls.
 #ifndef WEB_ERRNO_H
 #define WEB_ERRNO_H
 

@@ -1,5 +1,6 @@
-// pthread.h: what wasi-libc lacks. In a module with shared memory (-matomics, threads.c) locks and conditions wait, and threads are those that
-// JavaScript has started for it (web/threads.js); in any other module there is one thread, which waits for nobody.
+// pthread.h: declarations that wasi-libc lacks. In a module with shared memory (-matomics, threads.c), locks and
+// conditions wait, and JavaScript starts the threads in advance (web/threads.js). In any other module there is one
+// thread, which never waits.
 #ifndef WEB_PTHREAD_H
 #define WEB_PTHREAD_H
 
@@ -38,7 +39,7 @@ int pthread_mutex_unlock(pthread_mutex_t *mutex);
 int pthread_cond_wait(pthread_cond_t *changed, pthread_mutex_t *mutex);
 int pthread_cond_signal(pthread_cond_t *changed);
 int pthread_cond_broadcast(pthread_cond_t *changed);
-// EAGAIN where no thread is free. No attributes.
+// Returns EAGAIN if no thread is free. There are no attributes.
 int pthread_create(pthread_t *thread, const void *attributes, void *task(void *), void *argument);
 int pthread_join(pthread_t thread, void **result); // the result is always NULL
 
@@ -46,7 +47,7 @@ int pthread_join(pthread_t thread, void **result); // the result is always NULL
 
 static inline int pthread_mutex_lock(pthread_mutex_t *mutex) { return (void)mutex, 0; }
 static inline int pthread_mutex_unlock(pthread_mutex_t *mutex) { return (void)mutex, 0; }
-// With one thread there is nobody to wait for.
+// With one thread there is nothing to wait for.
 static inline int pthread_cond_wait(pthread_cond_t *changed, pthread_mutex_t *mutex)
 {
     return (void)changed, (void)mutex, 0;

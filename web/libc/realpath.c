@@ -1,5 +1,5 @@
-// realpath.c: the absolute path of a file. What a module sees as its files is a tree without links (web/wasi.js), whose
-// current folder is the root.
+// realpath.c: the absolute path of a file. The files of a module are a tree without links (web/wasi.js), whose current
+// folder is the root.
 #include <errno.h>
 #include <limits.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-// sched.h: wasi-libc's, and how many threads can run at the same time, as Linux says it.
+// sched.h: wasi-libc's header, and the number of threads that can run at the same time, as on Linux.
 #ifndef WEB_SCHED_H
 #define WEB_SCHED_H
 

@@ -1,8 +1,9 @@
 // setjmp.c: the functions that clang calls for setjmp and longjmp on WebAssembly (LLVM, WebAssemblyLowerEmscriptenEHSjLj.cpp:
 // "Wasm setjmp / longjmp handling").
 //
-// A function that calls setjmp marks the buffer with its own frame and the number of the call. longjmp throws the buffer
-// as an exception; the function catches it, asks whether the buffer bears its mark, and goes on behind that call.
+// A function that calls setjmp marks the buffer with its own frame and the number of the call. longjmp throws the
+// buffer as an exception; the function catches it, checks whether the buffer has its mark, and continues after that
+// call.
 #include <setjmp.h>
 #include <stdint.h>
 
@@ -26,7 +27,7 @@ void __wasm_setjmp(void *buffer, uint32_t label, void *frame)
     mark->label = label;
 }
 
-// The number of the call of setjmp in this frame that made the buffer; 0: none did.
+// The number of the setjmp call in this frame that made the buffer; 0 if none did.
 uint32_t __wasm_setjmp_test(void *buffer, void *frame)
 {
     struct mark *mark = buffer;
@@ -35,7 +36,7 @@ uint32_t __wasm_setjmp_test(void *buffer, void *frame)
 
 void __wasm_longjmp(void *buffer, int value)
 {
-    enum { LONGJMP_TAG = 1 }; // of LLVM's tags of exceptions; 0 is C++'s
+    enum { LONGJMP_TAG = 1 }; // one of LLVM's exception tags; 0 is C++'s
     struct mark *mark = buffer;
     mark->sent.buffer = buffer;
     mark->sent.value = value ? value : 1; // C11 7.13.2.1

@@ -1,5 +1,5 @@
-// setjmp.h: what wasi-libc lacks. Clang lowers calls of setjmp and longjmp to WebAssembly's exceptions (-wasm-enable-sjlj),
-// with the help of setjmp.c.
+// setjmp.h: declarations that wasi-libc lacks. Clang lowers calls of setjmp and longjmp to WebAssembly's exceptions
+// (-wasm-enable-sjlj), with the help of setjmp.c.
 #ifndef WEB_SETJMP_H
 #define WEB_SETJMP_H
 

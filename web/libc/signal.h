@@ -1,4 +1,4 @@
-// signal.h: wasi-libc's emulation, and masks of signals, which hold nothing back: a module gets no signals.
+// signal.h: wasi-libc's emulation, and signal masks without effect, because a module gets no signals.
 #ifndef WEB_SIGNAL_H
 #define WEB_SIGNAL_H
 

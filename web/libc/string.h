@@ -1,4 +1,4 @@
-// string.h: wasi-libc's, with GNU's strerror_r, which returns the text.
+// string.h: wasi-libc's header, with GNU's strerror_r, which returns the text.
 #ifndef WEB_STRING_H
 #define WEB_STRING_H
 

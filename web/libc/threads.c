@@ -1,8 +1,10 @@
-// threads.c: threads of a module with shared memory. Each is a worker of JavaScript's (web/threads.js) with an instance of the module, and its own
-// stack and thread-local variables in the memory of all. It waits here for what pthread_create gives it.
+// threads.c: threads of a module with shared memory. Each is a JavaScript worker (web/threads.js) with an instance of
+// the module, and with its own stack and thread-local variables in the shared memory. It waits here for tasks of
+// pthread_create.
 //
-// wasi-libc is made for one thread. Of what the pool's threads call, malloc and its kin alone keep something: they run one at a time (the linker's
-// --wrap, web/meson.build). Threads have no files: what reads them runs on the thread that has them.
+// wasi-libc supports only one thread. Of the functions that the pool's threads call, only malloc and related functions
+// have state; they run one at a time (the linker's --wrap, web/meson.build). Threads have no files, so code that reads
+// files runs on the thread that has them.
 #include <errno.h>
 #include <pthread.h>
 #include <sched.h>
@@ -18,7 +20,7 @@ enum { THREADS_MAX = 64, STACK = 4 << 20 /* as the linker gives the first thread
 
 enum state { STARTING, FREE, TAKEN, GIVEN, DONE };
 
-// Lies at the end of the thread's stack, which grows downwards, and before its thread-local variables.
+// It is at the end of the thread's stack, which grows downwards, and before its thread-local variables.
 struct thread {
     int state; // an enum state, accessed atomically
     void *(*task)(void *);
@@ -29,7 +31,7 @@ struct thread {
 static struct thread *threads[THREADS_MAX]; // filled before any of them runs
 static int thread_count;
 static int failed;                    // accessed atomically: a thread has trapped, and will not finish
-static _Thread_local bool is_started; // by web_thread_run: not the first thread
+static _Thread_local bool is_started; // set by web_thread_run: not the first thread
 
 void __wasm_init_tls(void *locals);
 
@@ -40,7 +42,8 @@ void web_thread_failed(void) WEB_EXPORT(web_thread_failed);
 
 // ---- waiting
 
-// Until *at is no longer `value`, or for no reason. The first thread looks once a second whether another one has failed, and fails too.
+// Waits until *at is no longer `value`, or may return early. The first thread checks once a second whether another one
+// has failed, and then fails too.
 static void wait_while(int *at, int value)
 {
     const int64_t ns = is_started ? -1 : 1000000000;
@@ -69,7 +72,7 @@ int pthread_mutex_unlock(pthread_mutex_t *mutex)
     return 0;
 }
 
-// A condition counts its signals: one that comes before the wait begins has changed the number.
+// A condition counts its signals: a signal before the wait begins has changed the number.
 int pthread_cond_wait(pthread_cond_t *changed, pthread_mutex_t *mutex)
 {
     int signals = __atomic_load_n(changed, __ATOMIC_RELAXED);
@@ -90,7 +93,8 @@ int pthread_cond_broadcast(pthread_cond_t *changed) { return signal_to(changed, 
 
 // ---- threads
 
-// Memory for one more thread; the address is also where its stack begins. NULL: there is none, or there are enough.
+// Memory for one more thread; the address is also the start of its stack. NULL if memory is insufficient, or if there
+// are enough threads.
 struct thread *web_thread_add(void)
 {
     size_t size = sizeof(struct thread) + __builtin_wasm_tls_size();
@@ -105,7 +109,7 @@ struct thread *web_thread_add(void)
 // Its worker has an instance, and calls web_thread_run next.
 void web_thread_ready(struct thread *thread) { __atomic_store_n(&thread->state, FREE, __ATOMIC_RELEASE); }
 
-// Not inlined where the thread-local variables are not there yet.
+// Not inlined, because the thread-local variables do not exist yet in the caller.
 __attribute__((noinline)) static void run_tasks(struct thread *thread)
 {
     is_started = true;
@@ -118,7 +122,7 @@ __attribute__((noinline)) static void run_tasks(struct thread *thread)
     }
 }
 
-// Called by the thread's own instance, whose stack pointer is set. Does not return.
+// Called by the thread's own instance, whose stack pointer is set. It does not return.
 void web_thread_run(struct thread *thread)
 {
     __wasm_init_tls(thread->locals);

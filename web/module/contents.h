@@ -1,4 +1,4 @@
-// contents.h: what a model contains, for the page's list of objects and materials.
+// contents.h: the contents of a model, for the page's list of objects and materials.
 #ifndef WEB_CONTENTS_H
 #define WEB_CONTENTS_H
 

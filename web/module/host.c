@@ -1,5 +1,5 @@
-// host.c: what the program's parts ask their system for, if they run within a page: the page interrupts them by a flag, and the browser is the
-// sandbox.
+// host.c: implements the program's system interface within a page: the page interrupts by a flag, and the browser is
+// the sandbox.
 #include "host.h"
 
 #include "interrupt.h"

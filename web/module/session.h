@@ -1,5 +1,5 @@
-// session.h: the functions that the module offers to the page (web/lambent.js). Words form a command line, each with a 0 at its
-// end, in the memory of web_words. Answers are JSON on standard output, an error's sentence among them.
+// session.h: the functions that the module offers to the page (web/lambent.js). Words form a command line, each with a
+// 0 at its end, in the memory of web_words. Answers, including error messages, are JSON on standard output.
 #ifndef SESSION_H
 #define SESSION_H
 
@@ -7,40 +7,41 @@
 
 #include "host.h"
 
-// Memory for the words of the next call. NULL: there is none.
+// Memory for the words of the next call. NULL if memory is insufficient.
 char *web_words(uint32_t bytes) WEB_EXPORT(web_words);
 
 // Limits the memory of reading a model and of drawing it, in bytes each, if the words have no --memory-limit. 0, the default, means no limit.
 void web_limit_memory(double bytes) WEB_EXPORT(web_limit_memory);
 
-// Draws the picture of a command line, MODEL [OPTION...]. The model stays loaded until another one is named, or an option
-// changes how it is read. 0, or the program's exit code. web_pixels: RGBA, four bytes for each pixel, rows from the top,
-// valid until the next call.
+// Draws the picture of a command line, MODEL [OPTION...]. The model stays loaded until another one is named, or an
+// option changes how it is read. Returns 0, or the program's exit code. web_pixels: RGBA, four bytes for each pixel,
+// rows from the top, valid until the next call.
 int web_draw(int count) WEB_EXPORT(web_draw);
 const void *web_pixels(void) WEB_EXPORT(web_pixels);
 
-// The same, and writes the file that -o names.
+// Does the same, and writes the file that -o names.
 int web_save(int count) WEB_EXPORT(web_save);
 
 // Explains a pixel of that picture, as `lambent explain --json` does.
 int web_explain(int count, int x, int y) WEB_EXPORT(web_explain);
 
-// The curves of one of that picture's lights: `light` counts its point, spot and directional ones, as an explanation lists them. Attenuation
-// from distance 0 to `farthest`, the cone from 0 to 90 degrees, and the highlight of a reflection model, whose word follows the command line's as
-// another one, from 0 to 90 degrees, in the steps of `lambent plot`.
+// The curves of one of that picture's lights: `light` counts its point, spot and directional lights, as listed in an
+// explanation. Attenuation from distance 0 to `farthest`, the cone from 0 to 90 degrees, and the highlight of a
+// reflection model, whose word follows the command line's as another one, from 0 to 90 degrees, in the steps of
+// `lambent plot`.
 int web_curves(int count, int light, double farthest, double shininess) WEB_EXPORT(web_curves);
 
 // Prints that picture's lights, as `lambent lights` does.
 int web_lights(int count) WEB_EXPORT(web_lights);
 
-// Lists what the model of the words contains (contents.h), without drawing it.
+// Lists the contents of the words' model (contents.h), without drawing it.
 int web_contents(int count) WEB_EXPORT(web_contents);
 
-// Lists the options of a picture with all that the help says of them, in its groups, the names of shapes, materials and environments, and
-// the endings of models that it reads.
+// Lists the options of a picture with the complete help, in its groups, the names of shapes, materials and
+// environments, and the extensions of readable models.
 void web_options(void) WEB_EXPORT(web_options);
 
-// Forgets the model: its files may be others now.
+// Forgets the model, because its files may have changed.
 void web_forget(void) WEB_EXPORT(web_forget);
 
 #endif

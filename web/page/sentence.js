@@ -1,4 +1,4 @@
-// sentence.js: an explanation as sentences that read well aloud.
+// sentence.js: converts an explanation to sentences for reading aloud.
 import { text } from './strings.js';
 
 const TERMS = [['ambient', 'termAmbient'], ['diffuse', 'termDiffuse'], ['specular', 'termSpecular'], ['reflection', 'termReflection'], ['emission', 'termEmission']];

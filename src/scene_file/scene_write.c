@@ -1,7 +1,8 @@
 // scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. Every number is written
 // so that it reads back as the same bits.
 //
-// The file is longer than 600 lines because it contains one function for each section of a file, in the order of the file.
+// The file is longer than 600 lines because it contains one function for each section of a file, in the order of the
+// file.
 #include "scene_write.h"
 
 #include "fail.h"

@@ -106,7 +106,7 @@ static bool add_materials(struct exporting *e, struct text *text, const lam_mesh
         for (int k = 0; k < LAM_MAP_COUNT; k++)
             if (material->maps[k])
                 export_lose(e, "textures become their mean colour: lambent writes only colours to 3MF");
-        export_lose(e, "of materials the diffuse colour is kept: base materials of 3MF have no more");
+        export_lose(e, "only the diffuse colour of materials is kept: base materials of 3MF support nothing else");
     }
     text_add(text, "</basematerials>\n");
     return true;

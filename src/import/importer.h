@@ -26,7 +26,7 @@ struct import_source {
     // (file_move_to_arena). NULL if the file is read in parts.
     struct file_bytes *file;
     const lam_load_params *params;
-    struct pool *pool;         // may be NULL: no threads
+    struct pool *pool;         // NULL if there are no threads
     struct call_control *call; // never NULL; every long loop checks it
     // Open a file that the model or a scene file names (companion.h).
     open_companion *open, *open_of_scene;

@@ -141,7 +141,7 @@ static bool load_in_parts(struct import_source *source, const struct importer **
             lam_scene_free(*scene);
             *scene = NULL;
         }
-        if (!in_parts && !done) // the file is read as a whole, and counted, later
+        if (!in_parts && !done) // the file is read as a whole later, and counted then
             call_add_input(source->call, 0 - file.size);
         file_close_parts(&file);
         source->bytes = NULL;

@@ -31,7 +31,7 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error);
 
-// Returns whether a path that another library opens leads to a regular file; false: LAM_CANNOT_READ.
+// Returns whether a path that another library opens leads to a regular file. Otherwise fails with LAM_CANNOT_READ.
 bool file_check_regular(const char *path, lam_error *error);
 
 // Resolves every link and ".." of a path. If the result is the folder or inside it, returns it, allocated with malloc.

@@ -23,7 +23,7 @@
 enum {
     OBJ_CHUNK = 256 << 10,    // bytes: about a hundred microseconds of work
     OBJ_MISSING = UINT32_MAX, // a corner without this attribute
-    OBJ_LIBRARIES_MAX = 256,  // most names of material files that are tried
+    OBJ_LIBRARIES_MAX = 256,  // the most names of material files that are tried
 };
 
 // Kinds of statements.
@@ -51,11 +51,11 @@ struct obj_chunk {
     bool colors, slashes;
     // Pass two. Bounding box of the positions; low > high if there are none.
     float low[3], high[3];
-    double low_exact[3], high_exact[3]; // in double, if an origin is needed
+    double low_exact[3], high_exact[3]; // the same bounds in double, if an origin is needed
     float brightest;                    // the largest colour channel
     // Whether some corners have, or lack, a texture coordinate or a normal.
     bool texcoord_used, texcoord_missing, normal_used, normal_missing;
-    // Whether a corner refers to one although the file contains none.
+    // Whether a corner refers to a texture coordinate or a normal although the file contains none.
     bool texcoord_unknown, normal_unknown;
     uint64_t short_faces;                              // the number of faces with one or two corners
     uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
@@ -71,7 +71,7 @@ struct obj_statement {
 
 // Lines or points: two corners for each line, one for each point.
 struct obj_strokes {
-    uint32_t *positions, *texcoords; // per corner; OBJ_MISSING: none
+    uint32_t *positions, *texcoords; // one per corner, or OBJ_MISSING
     size_t corners;
     bool textured; // a corner has a texture coordinate
     size_t empty;  // number of statements without corners
@@ -82,7 +82,7 @@ struct obj_strokes {
 // The material files named so far.
 struct obj_libraries {
     struct name_table tried; // keys: confined names; values: 1 read, 0 missing
-    bool named, missing;     // whether any was named; whether some could not be opened or were skipped
+    bool named, missing;     // whether any library was named, and whether some could not be opened or were skipped
     bool left_out;           // there are more than OBJ_LIBRARIES_MAX
 };
 
@@ -161,7 +161,7 @@ bool obj_read_statements(struct obj *obj, lam_error *error);
 
 // obj_strokes.c. The first function returns the number of corners for a statement l (lines) or p, which is then
 // reserved along with the parts. Each statement is then read in turn, and finally both meshes are added to the scene.
-// `texcoords` are the file's.
+// `texcoords` are the texture coordinates of the file.
 size_t obj_strokes_corners(const struct obj *obj, const uint8_t *at, bool lines);
 bool obj_strokes_reserve(struct obj *obj, bool lines, size_t corners, size_t parts, lam_error *error);
 bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bool lines, lam_error *error);
@@ -177,7 +177,7 @@ bool obj_load_stream(const struct import_source *source, struct lam_scene *scene
 // obj_mesh.c: builds the mesh after positions and faces are read.
 bool obj_complete(struct obj *obj, lam_error *error);
 
-// For tests: loads with chunks of `chunk_bytes`.
+// Loads with chunks of `chunk_bytes`, for tests.
 bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
                       lam_error *error);
 

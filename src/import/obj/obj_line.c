@@ -33,8 +33,8 @@ static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at
     return NULL;
 }
 
-// Reads `count` numbers; those after the first `min` are optional and 0 by default. Returns the next word, or NULL on
-// error. `expected` describes a number in the message.
+// Reads `count` numbers. The numbers after the first `min` are optional, with a default of 0. Returns the next word, or
+// NULL on error. `expected` describes a number in the message.
 static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8_t *at, float *to, int min, int count,
                                           const char *expected)
 {
@@ -55,7 +55,7 @@ static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8
 
 static float non_negative(float x) { return x > 0 ? x : 0; } // NaN becomes 0
 
-// Reads the numbers after x y z: none; w, which only rational curves use; or r g b and possibly more.
+// Reads the numbers after x y z, if there are any: w, which only rational curves use; or r g b and possibly more.
 static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, float *color)
 {
     const uint8_t *end = reader->end;

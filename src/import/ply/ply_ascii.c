@@ -1,7 +1,7 @@
 // ply_ascii.c: converts the rows of one element of an ASCII PLY to a table of binary rows.
 //
-// Numbers are separated by white space, and a row may continue on the next line; but it ends at the end of its last
-// line: further numbers there are ignored. A first, serial pass finds the start of each chunk of rows and the lengths
+// Numbers are separated by white space, and a row may continue on the next line. It ends at the end of its last line;
+// further numbers on that line are ignored. A first, serial pass finds the start of each chunk of rows and the lengths
 // of its lists; then the chunks are read in parallel.
 #include "fail.h"
 #include "number.h"

@@ -187,7 +187,7 @@ static struct lines start(const struct import_source *source, struct arena *aren
 bool ply_read_header(const struct import_source *source, struct arena *arena, struct ply_header *header,
                      lam_error *error)
 {
-    // Two passes: count elements and properties, then read them.
+    // The first pass counts elements and properties, and the second reads them.
     size_t element_capacity = 0, property_capacity = 0;
     enum keyword keyword = BLANK;
     const uint8_t *word;

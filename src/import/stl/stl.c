@@ -16,7 +16,8 @@ static uint32_t declared_facets(const uint8_t *bytes)
 
 enum { SAMPLE = 1024 }; // bytes that are inspected
 
-// Text contains no zero byte. A binary STL does: the number of facets has one up to 16 million facets.
+// Text contains no zero byte. A binary STL does, because the number of facets contains a zero byte up to 16 million
+// facets.
 static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
 // ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the start. "solid" alone is

@@ -21,7 +21,7 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
 
 enum { STL_FACETS_MAX = 1431655765 }; // (2³² − 1) ÷ 3: corners have 32-bit indices
 
-// Returns whether a file may have this many facets; false: LAM_LIMIT.
+// Returns whether a file may have this many facets. Otherwise fails with LAM_LIMIT.
 static inline bool stl_check_count(const struct import_source *source, uint64_t facets, lam_error *error)
 {
     if (facets > STL_FACETS_MAX)

@@ -31,7 +31,7 @@ struct reader {
     struct row_bytes facets;
     float *positions;
     struct words *words; // one per chunk
-    // For the pass that reads colours.
+    // Members for the pass that reads colours.
     uint8_t *colors;
     uint8_t fallback[4]; // the colour of facets without a colour of their own
     bool magics;

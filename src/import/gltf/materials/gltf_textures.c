@@ -78,7 +78,7 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
     static const int minify[] = {
         NEAREST, LINEAR, NEAREST_MIPMAP_NEAREST, LINEAR_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR, LINEAR_MIPMAP_LINEAR, 0};
     if (index < 0)
-        return true; // the default: repeated, trilinear
+        return true; // without a sampler, the default applies: repeated and trilinear
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "samplers"), (size_t)index);
     const json_t *object = gltf_list_item(gltf, "samplers", index);
     int large = LINEAR, small = LINEAR_MIPMAP_LINEAR, s = REPEAT, t = REPEAT;

@@ -35,7 +35,7 @@ typedef struct lam_check_name {
     const char *name; // "lights[].lightPosition" for members of a list
     const char *type; // "vec4"
     const char *role; // "light_position": the name of a lam_check_role
-    // The space of a position or direction: "eye", "world" or "object"; NULL: none.
+    // The space of a position or direction: "eye", "world" or "object"; NULL if there is none.
     const char *space;
     const char *meaning; // one line
     // Other accepted names, separated by blanks. NULL: none.
@@ -260,7 +260,7 @@ typedef struct lam_check_params {
     const char *const *scenes;
     int scene_count;        // of `scenes`
     const char *gl_device;  // as lam_gl_params.device; NULL: the first usable one
-    lam_check_cache *cache; // NULL: none
+    lam_check_cache *cache; // NULL if there is none
     // Runs lam_check_draw in another process. NULL: in this process, for trusted shaders.
     lam_check_draw_fn *draw;
     void *user; // passed to `draw`

@@ -27,9 +27,9 @@ typedef enum lam_field_type {
 typedef struct lam_field {
     const char *name;    // name of the struct's member: "cutoff_rad"
     const char *key;     // in scene files and options: "cutoff"
-    const char *symbol;  // in formulas: "kr"; NULL: none
-    const char *source;  // the MTL statement that sets it: "Ks"; NULL: none
-    const char *unit;    // NULL: none
+    const char *symbol;  // in formulas: "kr"; NULL if there is none
+    const char *source;  // the MTL statement that sets it: "Ks"; NULL if there is none
+    const char *unit;    // NULL if there is none
     const char *summary; // one line
     lam_field_type type; // determines the number of components
     // The range of each number, INFINITY if unbounded, and the default. Angles are in degrees.

@@ -125,8 +125,8 @@ typedef struct lam_material {
 
     const char *name;                       // UTF-8; NULL: unnamed
     int illum;                              // MTL's illumination model as written; −1: none
-    const char *map_names[LAM_MAP_COUNT];   // file names as written; NULL: none
-    const char *map_options[LAM_MAP_COUNT]; // their MTL options, "-s 1 1 1"; NULL: none
+    const char *map_names[LAM_MAP_COUNT];   // file names as written; NULL if there is none
+    const char *map_options[LAM_MAP_COUNT]; // their MTL options, "-s 1 1 1"; NULL if there is none
     // σ of Oren–Nayar: the standard deviation of the slope angle of the surface's facets, radians, 0..π/2. 0: a
     // Lambertian surface.
     float roughness_angle_rad;

@@ -61,12 +61,12 @@ typedef struct lam_mesh {
     uint32_t normal_count;          // elements of `normals`
     const uint32_t *normal_indices; // 3 per triangle; NULL: `indices`
 
-    const float *texcoords;           // 2 per element: s, t; NULL: none
+    const float *texcoords;           // 2 per element: s, t; NULL if there is none
     uint32_t texcoord_count;          // elements of `texcoords`
     const uint32_t *texcoord_indices; // 3 per triangle; NULL: `indices`
 
     // A second set of texture coordinates, for maps whose lam_texture_map.texcoords is 1.
-    const float *second_texcoords;           // 2 per element; NULL: none
+    const float *second_texcoords;           // 2 per element; NULL if there is none
     uint32_t second_texcoord_count;          // elements of `second_texcoords`
     const uint32_t *second_texcoord_indices; // 3 per triangle; NULL: `indices`
 
@@ -109,7 +109,7 @@ typedef struct lam_shape_params {
     // Segments along, 1..16384; 0: the shape's default. sphere needs at least 2, torus and torus-knot 3; teapot allows
     // at most 4096 for each patch; gyroid and metaballs ignore it.
     int stacks;
-    const lam_control *control; // control of the construction; NULL: none
+    const lam_control *control; // control of the construction; NULL if there is none
     LAM_RESERVED(8);
 } lam_shape_params;
 

@@ -46,7 +46,7 @@ typedef enum lam_shader_style {
 typedef struct lam_shader_mistake {
     const char *id;    // the id of lam_check_mistake: "no-gate"
     const char *looks; // one sentence: the visible effect in the picture
-    const char *needs; // the requirement: "a light with attenuation"; NULL: none
+    const char *needs; // the requirement: "a light with attenuation"; NULL if there is none
     LAM_RESERVED(4);
 } lam_shader_mistake;
 
@@ -61,7 +61,7 @@ typedef struct lam_shader_params {
     // materials and lights.
     bool products;
     lam_shader_style style; // the style of the source
-    const char *mistake;    // id of a lecture-style mistake; NULL: none
+    const char *mistake;    // id of a lecture-style mistake; NULL if there is none
     // The graphics card filters textures: the program that uses the shaders sets the filters and the wrapping of each
     // texture. By default the shader filters them. In GLSL 120 the graphics card always does.
     bool hardware_filter;
@@ -82,7 +82,7 @@ typedef struct lam_shader_attribute {
 typedef struct lam_shader_uniform {
     const char *name;    // name for glGetUniformLocation: "lights[0].position"
     const char *type;    // "vec4", "mat4", "float", "int", "sampler2D"
-    const char *block;   // the std140 block that contains it; NULL: none
+    const char *block;   // the std140 block that contains it; NULL if there is none
     int offset;          // in the block, bytes; 0 without a block
     const char *meaning; // one line
     int count;           // numbers in `value`; 0: a sampler

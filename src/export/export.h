@@ -37,7 +37,7 @@ struct exporting {
     // if there is nothing of that kind.
     lam_mesh flat[EXPORT_KINDS];
     struct text text;          // the model's file
-    struct call_control *call; // NULL: none
+    struct call_control *call; // NULL if there is none
     bool stopped;              // the call must end, and the result is incomplete
     lam_error *error;
 };

@@ -6,7 +6,7 @@
 
 // The axes of the view as world directions: to the right and to the top of the picture, and from the model to the eye.
 // x, y and z of a vertex are measured along them from `centre`, a point near the scene, so that the numbers keep their
-// precision wherever the scene is.
+// precision for any position of the scene.
 struct view_axes {
     lam_vec3 right, above, back;
     lam_vec3 centre;

@@ -1,7 +1,7 @@
 // scene_models.c: loads the models of a scene file's objects: built-in shapes, formulas, and files that other importers
 // read.
 //
-// A model is read once for each kind of normals, however many objects use it and however they write its name. Objects
+// A model is read once for each kind of normals, for any number of objects and however they write its name. Objects
 // that do not change the model share its meshes and materials, and so do objects that make the same changes. An object
 // with changes of its own gets its own list of parts and materials, and shares the arrays of vertices.
 #include "scene_models.h"

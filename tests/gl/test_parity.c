@@ -362,8 +362,8 @@ static double own_change(const struct reference *r, uint64_t pixel)
     return max;
 }
 
-// Whether all channels of `value` are between those of the CPU device's 3×3 neighbourhood of a pixel: the two devices then differ in
-// the exact position of an edge inside the picture, for example of a lamp in a mirror.
+// Whether all channels of `value` are between the values of the CPU device's 3×3 neighbourhood of a pixel: the two
+// devices then differ in the exact position of an edge inside the picture, for example of a lamp in a mirror.
 static bool is_between(const struct demo *demo, const struct reference *r, uint64_t pixel, const float *value)
 {
     int x = (int)(pixel % (uint64_t)demo->width), y = (int)(pixel / (uint64_t)demo->width);

@@ -91,7 +91,7 @@ static void scenes_are_near(void **state)
                 fail_msg("%s: mean %g, worst %g, expected at most %g, %g", textured[i].name, d.mean, d.worst, mean,
                          worst);
             if (images[1].pixels && difference_of(&images[1], &images[k]).worst == 0)
-                fail_msg("%s: the picture is that of the shader's filters", textured[i].name);
+                fail_msg("%s: the picture equals the picture of the shader's filters", textured[i].name);
         }
         for (int k = 0; k < 4; k++)
             lam_image_free(&images[k]);

@@ -1,7 +1,7 @@
 // option_table.c: the table of all options. The help, the man page, the completions and docs/command-line.md are
 // generated from it (tools/help).
 //
-// Longer than 600 lines: one row for each option, in the order of the help.
+// The file is longer than 600 lines because it contains one row for each option, in the order of the help.
 #include "options.h"
 
 #include <lambent/check.h>

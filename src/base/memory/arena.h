@@ -2,7 +2,7 @@
 //
 // Small requests are suballocated from blocks that grow up to a huge page; requests of 1 MiB and more get pages of
 // their own, advised to be huge pages, which makes the first touch three times as fast. Memory is not zeroed unless the
-// function says so. Only one thread at a time may use an arena.
+// function's comment states it. Only one thread at a time may use an arena.
 #ifndef ARENA_H
 #define ARENA_H
 

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-// Whether the system commits memory on first touch, so that reserving much more than is used costs nothing.
+// Whether the system commits memory on first touch, so that reserving much more than is used uses no memory.
 #if defined(__wasm__)
 enum { PAGES_WHEN_TOUCHED = 0 };
 #else

@@ -26,7 +26,7 @@ window.load = async (task) => {
   renderer.setPixelRatio(1);
   renderer.setSize(width, height);
   renderer.setClearColor(0, 0);
-  renderer.toneMapping = THREE.NeutralToneMapping; // the same as lambent's
+  renderer.toneMapping = THREE.NeutralToneMapping; // the same the same as lambent's
   document.body.append(renderer.domElement);
   scene = new THREE.Scene();
   const { eye, up, fovy_deg, near, far } = task.camera;

@@ -79,7 +79,7 @@ def layout_program(text):
 
 
 def parse_layout(text):
-    """Returns name → (size, {field: (offset, size)}), and constant → number."""
+    """Returns Returns name → (size, {field: (offset, size)}), and constant → number."""
     sizes, numbers = {}, {}
     for words in (line.split() for line in text.splitlines() if not line.startswith("#")):
         if words[0] == "struct":

@@ -1,4 +1,4 @@
-# test_hash.py: the command `hash`: files of hashes, what they say about models that change, their sheets; hostile files and names.
+# test_hash.py: the command `hash`: files of hashes, reports about changed models, their sheets; hostile files and names.
 import json
 import os
 import resource
@@ -32,7 +32,7 @@ class Hash(Case):
         return done.stdout.decode().splitlines()
 
     def grow(self):
-        """Another model in place of a.stl."""
+        """Writes another model as a.stl."""
         self.good("shape", "torus", "-o", "m/a.stl", "-q")
 
     def test_file(self):
@@ -41,7 +41,7 @@ class Hash(Case):
         head, rows = self.lines()[:3], dict(reversed(line.split("  ")) for line in self.lines()[3:])
         self.assertEqual(head, ["lambent hashes 1", f"version {version}", "options --size 64"])
         self.assertEqual(list(rows), ["m/a.stl", "m/sub/cube.obj", "teapot"])
-        for name, hashed in rows.items():  # the pixels of the picture that the program writes
+        for name, hashed in rows.items():  # the pixels of the program's picture
             self.assertEqual(hashed, xxh64(self.png(name, "-s", 64)[2]).replace("xxh64:", "pixels:"))
 
     def test_equal(self):
@@ -56,7 +56,7 @@ class Hash(Case):
         self.assertEqual(self.check("--check", "deep/er/q.hash", "-s", 64, "--allow-path", "m", code=0), ["2 equal"])
 
     def test_files_of_options(self):
-        """An environment and a look are named relative to the file of hashes, from whichever folder it is checked."""
+        """An environment and a look are named relative to the file of hashes, from whichever folder the check runs."""
         (self.folder / "sky").mkdir()
         self.good("teapot", "-s", "64x32", "-b", "#336699", "-o", "sky/a b.png", "-q")
         (self.folder / "sky" / "own.look").write_text("--ground shadow\n")
@@ -88,11 +88,11 @@ class Hash(Case):
         self.assertEqual([found[key] for key in ("equal", "changed", "missing", "new", "failed", "written")],
                          [["teapot"], ["m/a.stl"], ["m/sub/cube.obj"], ["m/n.ply"], [], False])
         self.assertEqual(self.lines(), before)  # it only reads
-        # A model of the file that is no longer there fails if nothing else says which models there are.
+        # If no models are given, a model in the file that no longer exists is a failure.
         self.check("-s", 64, "--check", "p.hash", code=7)
 
     def test_says_first(self):
-        """Another version or other options are named before the pictures are drawn."""
+        """Another version or other options are reported before the pictures are drawn."""
         self.write()
         text = (self.folder / "p.hash").read_text()
         (self.folder / "p.hash").write_text(text.replace("version ", "version 0.0.7-"))
@@ -104,7 +104,7 @@ class Hash(Case):
         self.assertIn(b"'--size 64', and these are '--size 64 --background white'", done.stderr)
 
     def test_options_of_the_file(self):
-        """Without options of the picture --check uses the file's options, and none that do anything else."""
+        """Without picture options, --check uses only the file's picture options."""
         self.good("hash", "m", "teapot", "-o", "p.hash", "-s", 64, "-b", "#fff", "--light", "point:position=1/2/3", "-q")
         self.given.add("p.hash")
         text = (self.folder / "p.hash").read_text()
@@ -117,7 +117,7 @@ class Hash(Case):
             self.bad(2, "hash", "--check", "p.hash", says=says)
 
     def test_update_of_some(self):
-        """--update of one model keeps the hashes of others that exist, and drops the hashes of files that are gone."""
+        """--update of one model keeps the hashes of other existing models, and drops the hashes of deleted files."""
         self.write()
         before = self.lines()
         os.remove(self.folder / "m/sub/cube.obj")
@@ -137,14 +137,14 @@ class Hash(Case):
         self.assertNotEqual(column(0), column(1))
         self.assertEqual(self.check("--check", "p.hash", "-s", 64, code=0), ["3 equal"])
         self.assertEqual(xxh64(read_png((self.folder / "kept/m/a.stl.png").read_bytes())[2]).replace("xxh64", "pixels"), self.lines()[3].split()[0])
-        # A picture that is not the one of the hash is not taken for the old one.
+        # A picture that does not match the hash is not used as the old one.
         shutil.copy(self.folder / "kept" / "teapot.png", self.folder / "kept" / "m" / "a.stl.png")
         shutil.copy(self.folder / "cube.stl", self.folder / "m" / "a.stl")
         self.check("-s", 64, "--check", "p.hash", "--update", "--pictures", "kept", code=0)
         width, _, pixels = read_png((self.folder / "p-changes.png").read_bytes())
         self.assertEqual(width, 16 + 336)  # only new pictures: there is no old picture to compare with
         self.assertGreater(len(set(column(0))), 9)
-        # Nothing changes: no sheet.
+        # Without changes, there is no sheet.
         os.remove(self.folder / "p-changes.png")
         self.check("-s", 64, "--check", "p.hash", "--update", code=0)
         self.assertFalse((self.folder / "p-changes.png").exists())
@@ -157,7 +157,7 @@ class Hash(Case):
         self.assertNotIn("bad", "".join(self.lines()))
         self.check("m", "teapot", "-s", 64, "--check", "p.hash", "--failures-ok", code=0)
         self.assertEqual(self.check("m", "teapot", "-s", 64, "--check", "p.hash", code=7)[0], "failed   m/bad.obj")
-        (self.folder / "m" / "a.stl").write_text("nonsense")  # a model of the file is not excused
+        (self.folder / "m" / "a.stl").write_text("nonsense")  # a failed model of the file is not ignored
         self.check("m", "teapot", "-s", 64, "--check", "p.hash", "--failures-ok", code=6)
 
     def test_names(self):
@@ -172,7 +172,7 @@ class Hash(Case):
         self.assertTrue((self.folder / "x/kept/m/a.stl.png").exists())
 
     def test_folder_of_pictures(self):
-        """A folder that cannot be made is said once, before anything is drawn."""
+        """If a folder cannot be created, one error message appears before anything is drawn."""
         (self.folder / "file").write_text("")
         self.given.add("file")
         for folder, says in (("file", "found the file 'file', expected a folder"), ("file/x", "cannot make the folder 'file/x': Not a directory")):
@@ -188,7 +188,7 @@ class Hash(Case):
         self.check("--check", "p.hash", "--pictures", "file", code=0)  # which writes no pictures
 
     def test_report_beside_the_file(self):
-        """The file on standard output, the report alone on standard error."""
+        """The file is written to standard output, and only the report to standard error."""
         done = self.good("hash", "m", "-s", 8, "-o", "-", "--json")
         self.assertTrue(done.stdout.startswith(b"lambent hashes 1\n"))
         self.assertEqual(len(json.loads(done.stderr)["new"]), 2)
@@ -206,7 +206,8 @@ class Hash(Case):
         self.bad(2, "hash", "m", "--check", "missing.hash", says="missing.hash")
 
     def test_names_of_a_stranger(self):
-        """A file names models, looks and environments below its folder or in --allow-path, wherever links lead; the words of others are not shown."""
+        """A file may name models, looks and environments below its folder or in --allow-path, after resolving links; the contents of other files are
+        not shown."""
         os.mkdir(self.folder / "repository")
         os.mkdir(self.folder / "elsewhere")
         (self.folder / "elsewhere" / "secret.look").write_text("token-1234 x\n")
@@ -233,13 +234,13 @@ class Hash(Case):
             file("", name)
             self.bad(2, "hash", "--check", "repository/p.hash", says=outside)
             self.check("--check", "repository/p.hash", "--allow-path", "elsewhere", code=6)
-        file("", "scene.json")  # which a file of hashes does not allow to read anywhere
+        file("", "scene.json")  # a file of hashes does not allow reading it anywhere
         done = self.run_program("hash", "--check", "repository/p.hash", "--sandbox", "off")
         self.assertEqual(done.returncode, 7, done.stderr)
         self.check("--check", "repository/p.hash", "--allow-path", "elsewhere", code=6)
 
     def test_files_that_are_none(self):
-        """A pipe, a device and a huge file are refused at once; a list that memory does not suffice for is an error."""
+        """A pipe, a device and a huge file are refused immediately; a list that exceeds the memory limit is an error."""
         os.mkfifo(self.folder / "pipe")
         os.symlink("/dev/zero", self.folder / "zero")
         with open(self.folder / "huge", "wb") as huge:
@@ -252,7 +253,7 @@ class Hash(Case):
         self.assertEqual((done.returncode, done.stdout), (4, b""), done.stderr)
 
     def test_links(self):
-        """No link below the folder of --pictures is followed, and none with the name of the sheet."""
+        """Links below the folder of --pictures, and links with the name of the sheet, are not followed."""
         os.makedirs(self.folder / "pics")
         os.mkdir(self.folder / "elsewhere")
         os.symlink("../elsewhere", self.folder / "pics" / "m")
@@ -270,7 +271,7 @@ class Hash(Case):
             self.assertEqual((self.folder / "theirs.png").read_bytes(), before)
 
     def test_printed_names(self):
-        """A name is printed in one line, without characters that control a terminal or turn the text round."""
+        """A name is printed on one line, without characters that control a terminal or change the text direction."""
         self.write("-q")
         for name in ("a\n::error::x\t.stl", "b\x1b[2J\u009b\u202ey\\.stl"):
             shutil.copy(self.folder / "cube.stl", self.folder / "m" / name)

@@ -10,7 +10,7 @@ enum { EXIT_DIFFERS = 6, EXIT_SOME_FAILED = 7, EXIT_CRASHED = 8 };
 struct exit_code {
     int code;
     int of;              // the corresponding lam_code, or −1
-    const char *name;    // in reports, or NULL
+    const char *name;    // the name in reports, or NULL
     const char *meaning; // NULL at the end of the table
 };
 extern const struct exit_code exit_codes[];

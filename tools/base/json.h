@@ -21,7 +21,7 @@ void json_open(struct json *json, const char *key, char bracket); // '{' or '['
 void json_close(struct json *json, char bracket);                 // '}' or ']'
 void json_text(struct json *json, const char *key,
                const char *text); // writes null for NULL, U+FFFD for invalid UTF-8
-// Writes a sentence of the library, with fields replaced by options (option_names.h); NULL: null.
+// Writes a sentence of the library, with fields replaced by options (option_names.h). NULL becomes null.
 void json_message(struct json *json, const char *key, const char *text);
 void json_number(struct json *json, const char *key, double value); // writes null if it is not finite
 void json_count(struct json *json, const char *key, uint64_t value);

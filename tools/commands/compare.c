@@ -184,7 +184,7 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     if (!cell_options(c, cell, NULL, NULL, &options, error))
         return false;
     options.shader.style = LAM_SHADER_STYLE_LECTURE;
-    options.shader.products = true; // as for drawing with OpenGL
+    options.shader.products = true; // the same as for drawing with OpenGL
     options.picture.width = CELL_WIDTH;
     options.picture.height = CELL_HEIGHT;
     struct job job = {.options = &options, .model = c->model};

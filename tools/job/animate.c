@@ -160,7 +160,7 @@ static bool add_turns(struct animation *a, struct options *o, lam_error *error)
         return complain(error, LAM_LIMIT, "out of memory");
     if (about_up || any)
         items[o->shading.sheet_rotations.count++] = all[up_letter(a->up) - 'x'];
-    if (any) // two axes: any rotation
+    if (any) // with two axes, any rotation is possible
         items[o->shading.sheet_rotations.count++] = all[(up_letter(a->up) - 'x' + 1) % 3];
     return true;
 }

@@ -12,7 +12,7 @@ struct job_times {
     double frame_start;
     double read, prepare, camera, encode, total; // milliseconds
     lam_frame_report frame;                      // the report of the median frame
-    double frame_min, frame_max;                 // over the --repeat frames
+    double frame_min, frame_max;                 // the minimum and maximum over the --repeat frames
     int frames;
 };
 
@@ -71,7 +71,7 @@ struct job {
     lam_rig rig;          // the rig that drawing adds to the scene's own lights
     bool file_lights;     // whether lights of a glTF file, in candela and lux, light it
     bool exposure_fitted; // whether draw.exposure was computed for this picture
-    // from malloc: the scene's lights before lam_studio_fill scaled them; NULL if not scaled
+    // the scene's lights before lam_studio_fill scaled them, allocated with malloc; NULL if not scaled
     lam_light *unfilled;
     double fill_scale;          // the factor of that scaling; 0 if not scaled
     bool studio;                // whether the built-in environment "studio" lights it if no other is set
@@ -84,8 +84,8 @@ struct job {
     const struct job_shared *shared;        // shared with another job; NULL if not shared
     const struct job_view *views;           // the pictures to draw; NULL means one picture from the options
     int view_count;
-    lam_camera *cameras; // one per view; from malloc, by job_arrange
-    // the lights before the options' lights were added, which may depend on the camera; from malloc
+    lam_camera *cameras; // one camera per view, allocated by job_arrange with malloc
+    // the lights before the options' lights were added, which may depend on the camera; allocated with malloc
     lam_light *lights;
     int light_count;
     uint64_t bytes; // size of the written file
@@ -95,7 +95,7 @@ struct job {
     lam_picture_settings settings; // the scene file's settings; empty if the model is not a scene file
     lam_draw_params draw;          // parameters of the drawn picture
     struct job_times times;
-    lam_error error; // code LAM_OK: none
+    lam_error error; // the error; its code is LAM_OK if there is none
 };
 
 // Loads the model, draws it and writes the picture. The caller fills in options, model, output, device and times.start;

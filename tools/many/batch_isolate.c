@@ -57,7 +57,7 @@ static bool enter(const struct batch *b, const struct batch_task *task, lam_erro
 {
     if (!task->job)
         return batch_reach_enter(b, task->model, 1, error);
-    int none = open("/dev/null", O_RDWR | O_CLOEXEC); // it must not access the jobs and answers of others
+    int none = open("/dev/null", O_RDWR | O_CLOEXEC); // the process must not access the jobs and answers of others
     bool ok = none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(none, STDOUT_FILENO) >= 0;
     return ok ? batch_reach_enter_job(task->job, error)
               : complain(error, LAM_CANNOT_READ, "/dev/null: cannot open: %s", strerror(errno));

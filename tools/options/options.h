@@ -40,8 +40,8 @@ struct options {
     bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
     bool by_key[OPTIONS_MAX];        // a key in the value of another option sets it (option.key)
     bool by_look[OPTIONS_MAX];       // whether the option comes from --look
-    int by_config[OPTIONS_MAX];      // the line in the settings file; 0: not from the file
-    const char *values[OPTIONS_MAX]; // the value in the settings file; NULL: no value
+    int by_config[OPTIONS_MAX];      // the line in the settings file, or 0 if it is not from the file
+    const char *values[OPTIONS_MAX]; // the value in the settings file, or NULL
 };
 
 // Bits above the group bits: options that a command accepts without the rest of their group.

@@ -26,8 +26,8 @@ bool output_name_is_pattern(const char *name);
 // Returns true if the pattern contains the placeholder, which is given without braces.
 bool output_name_has(const char *pattern, const char *placeholder);
 
-// Checks that a pattern contains only known words in braces and no unmatched brace. `known` has NAME_… bits. Fails with
-// LAM_BAD_ARGUMENT.
+// Checks that a pattern contains only known words in braces and no unmatched brace. `known` is a set of NAME_… bits.
+// Fails with LAM_BAD_ARGUMENT.
 bool output_name_check(const char *pattern, unsigned known, lam_error *error);
 
 // Expands a checked pattern and returns the name, allocated with malloc. {dir} never contains ".", ".." or a leading

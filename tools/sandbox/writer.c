@@ -70,7 +70,7 @@ struct own_file {
 static struct {
     writer_rule *rule;
     void *user;
-    uint64_t largest;             // the size of contents; 0: unlimited
+    uint64_t largest;             // the largest size of the contents; 0 means unlimited
     pthread_mutex_t lock;         // protects the rule and the list
     struct own_file own[OWN_MAX]; // the most recent files; older ones count as foreign
     size_t own_count;
@@ -259,7 +259,7 @@ static _Noreturn void run(int *connections, int count)
     serve(connections, own);
     for (int i = own; i < count; i++)
         pthread_join(threads[i], NULL);
-    writer_files_drop(); // of a process that ended before it had all of them
+    writer_files_drop(); // drops the files of a process that ended before it had all of them
     _exit(0);
 }
 
@@ -414,7 +414,7 @@ bool writer_save_all(const struct writer_file *files, int count, lam_error *erro
     sigset_t all, before;
     bool ok = true;
     sigfillset(&all);
-    pthread_sigmask(SIG_BLOCK, &all, &before); // for the hidden files, if there is no writer
+    pthread_sigmask(SIG_BLOCK, &all, &before); // protects the hidden files if there is no writer
     for (int i = 0; ok && i < count; i++)
         if (!(files[i].right & WRITER_IMPLIED) && stat(files[i].path, &there) == 0 && !S_ISREG(there.st_mode))
             ok = writer_files_save(files[i].path, &files[i].bytes, false, error);

@@ -132,7 +132,7 @@ bool writer_files_stage(const char *path, const lam_bytes *bytes, lam_error *err
     return ok;
 }
 
-// Ends the set; `renames`: the files get their names.
+// Ends the set. With `renames`, the files get their names.
 static bool finish(bool renames, lam_error *error)
 {
     lock_set();

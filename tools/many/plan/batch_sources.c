@@ -156,7 +156,7 @@ bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error)
     if (ok && past) // the next shard's first model, read only to check the order
         batch_plan_drop_last(plan);
     plan->listed += plan->count - first;
-    if (ok && !past && !feof(file)) // getline fails without memory too
+    if (ok && !past && !feof(file)) // getline also fails if memory runs out
         ok = complain(error, errno == ENOMEM ? LAM_LIMIT : LAM_CANNOT_READ, "%s: cannot read the list: %s", path,
                       strerror(errno));
     free(line);

@@ -35,7 +35,7 @@ def sentences_of(path):
     texts = english.paragraphs(read(path)) if path.endswith(".md") else [text for text in english.c_texts(read(path)) if not re.search(r"%[-.0-9]*[a-z]", text[1])]
     for _, text in texts:
         if not text.startswith(("#", "  ", "---")) and not is_list(text):
-            for sentence in re.split(r"(?<=[.!?])(?<! [A-Z]\.)\s+", text):
+            for sentence in re.split(r"\\n|(?<=[.!?])(?<! [A-Z]\.)\s+", text):
                 if len(sentence.split()) >= 4 and ENGLISH.search(sentence) and not re.search(r";(?:\s*//|$)|\{\w+\}", sentence):
                     yield path, sentence
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""build.py [FOLDER]: the modules for the web in FOLDER (build-web): the libraries (libraries.py), then WebAssembly by Meson and
-clang 19. What is up to date is left alone. `make web` calls it; packages: group `web` of packages.txt."""
+"""build.py [FOLDER]: builds the modules for the web in FOLDER (build-web): first the libraries (libraries.py), then WebAssembly with Meson and clang
+19. Files that are up to date are not rebuilt. `make web` calls it; packages: group `web` of packages.txt."""
 import base64
 import fcntl
 import gzip
@@ -103,7 +103,7 @@ def make_offline(served, bundles):
 
 
 OFFLINE, DECODERS = "offline_worker.js", "lambent-decoders.wasm"
-ALONE = "alone.html" # lambent.html beside the served page, which a page with a model is made of
+ALONE = "alone.html" # lambent.html next to the served page, from which pages with a model are made
 PACKED = (".js", ".css", ".html", ".wasm")
 PACKER = """
 const { readFileSync, statSync, utimesSync, writeFileSync, existsSync } = require('fs'), { brotliCompressSync, gzipSync, constants } = require('zlib');
@@ -186,7 +186,7 @@ def make_modules(folder, name, args):
     text = ("[constants]\nweb_folder = '%s'\nweb_root = '%s'\nthread_args = %s\nweb_threads = %s\n"
             % (HERE, os.path.join(folder, "root"), args, str(bool(args)).lower()))
     bundle.write(places, text)
-    known = os.path.join(place, "meson-private", "cmd_line.txt") # of an older folder, with other files
+    known = os.path.join(place, "meson-private", "cmd_line.txt") # from an older build, with other files
     if not os.path.exists(known) or places not in open(known).read():
         shutil.rmtree(place, ignore_errors=True)
         call("meson", "setup", place, ROOT, "--cross-file", places, "--cross-file", os.path.join(HERE, "wasm32.ini"),
@@ -201,7 +201,7 @@ def main():
     if missing():
         sys.exit("web: not installed: " + " ".join(missing()))
     os.makedirs(folder, exist_ok=True)
-    alone = open(os.path.join(folder, "lock"), "w") # two tests build the same folder
+    alone = open(os.path.join(folder, "lock"), "w") # two tests may build the same folder
     fcntl.flock(alone, fcntl.LOCK_EX)
     for script in ("libraries.py", "decoders.py"):
         if subprocess.run([sys.executable, os.path.join(HERE, script), folder]).returncode:

@@ -1,4 +1,4 @@
-"""bundle.py: the page's scripts as bundles, made by esbuild (Debian's package). The served page has a script for its start, and
+"""bundle.py: bundles the page's scripts with esbuild (Debian's package). The served page has a script for its start, and
 others that it fetches on first use. The page in one file contains all of them."""
 import json
 import os
@@ -12,7 +12,7 @@ ROOT = os.path.dirname(HERE)
 
 PAGE = "page.js"
 WORKER, THREAD, CHECK_WORKER = "worker.js", "thread.js", "check_worker.js" # each runs in a thread of its own
-CODEMIRROR = "codemirror.js" # made from npm's
+CODEMIRROR = "codemirror.js" # made from npm packages
 COMMON = ["--bundle", "--minify", "--charset=utf8", "--legal-comments=none", "--target=es2022", "--log-level=warning", "--external:node:worker_threads"]
 
 
@@ -83,7 +83,7 @@ def gather(folder):
 
 class Bundles:
     """`first`: the files that the start of the served page loads; `later`: the files that it fetches on first use; `shaders`: the files among `later` for
-    the tab of shaders. `inside`: the scripts of the page in one file, by name."""
+    the tab of shaders. `inside`: the scripts of the single-file page, by name."""
 
     def __init__(self, folder):
         folder = os.path.abspath(folder)

@@ -33,7 +33,7 @@ export class Decoders {
     }
   }
 
-  // The functions that the other module imports; `own(at, size)`: bytes of its memory.
+  // The functions that the other module imports; `own(at, size)` returns bytes of its memory.
   imports(own) {
     const [decode, attribute, triangles, free] = this.#draco, put = (to, from, size) => own(to, size).set(this.#bytes(from, size));
     return {

@@ -37,14 +37,14 @@ const placeholder = (part) => new Proxy({}, {
 const DECODING = ['web_draco_decode', 'web_draco_attribute', 'web_draco_triangles', 'web_draco_free', 'web_meshopt_decode', 'web_meshopt_filter'];
 
 export class Lambent {
-  instance; // the module's instance
+  instance; // the instance of the module
   decoders = null; // decoders of Draco and meshoptimizer (decoders.js); null: not loaded
   wantsDecoders = false; // a file needed them
   #printed = '';
   #decoding = null;
 
-  // `parts`: the loaded parts of a divided module. Calls that need another part throw PartMissing until complete() adds it. `memory`: of a module with threads
-  // (threads.js). `progress`: called repeatedly while drawing, with the fraction that is done, 0 to 1.
+  // `parts`: the loaded parts of a divided module. Calls that need another part throw PartMissing until complete() adds it. `memory`: the memory of a
+  // module with threads (threads.js). `progress`: called repeatedly while drawing, with the fraction that is done, 0 to 1.
   constructor(module, files = new Files(), { parts = [], memory = null, progress = null } = {}) {
     this.files = files;
     const host = system(files, [], (stream, text) => (this.#printed += text));
@@ -63,7 +63,8 @@ export class Lambent {
     new WebAssembly.Instance(part, { primary: this.instance.exports });
   }
 
-  // Limits the memory of reading a model and of drawing it, in bytes each, if the words have no --memory-limit. 0 means no limit.
+  // Limits the memory for reading a model and for drawing it, in bytes each, if the words contain no --memory-limit. 0 means no
+  // limit.
   limitMemory(bytes) {
     this.instance.exports.web_limit_memory(bytes);
   }
@@ -84,7 +85,7 @@ export class Lambent {
     return answer;
   }
 
-  // The picture: width, height, `pixels` (RGBA), the camera in use, times, warnings.
+  // Returns the picture: width, height, `pixels` (RGBA), the camera, times, warnings.
   draw(words) {
     const picture = this.#call('web_draw', this.#words(words));
     const { memory, web_pixels } = this.instance.exports;
@@ -103,19 +104,19 @@ export class Lambent {
     }
   }
 
-  // The bytes of the picture's file, in the format of an ending: png, jpg, ppm, pfm.
+  // Returns the bytes of the picture's file, in the format of an extension: png, jpg, ppm, pfm.
   save(words, ending) {
     const path = `/picture-to-save.${ending}`;
     return this.#written(path, () => this.#call('web_save', this.#words([...words, '-o', path])));
   }
 
-  // The scene file that --save-scene writes, as bytes.
+  // Returns the scene file that --save-scene writes, as bytes.
   scene(words) {
     const path = '/scene-to-save.json';
     return this.#written(path, () => this.save([...words, '--save-scene', path], 'png'));
   }
 
-  // One pixel, as `lambent explain --json` prints it.
+  // Explains one pixel, as `lambent explain --json` prints it.
   explain(words, x, y) {
     return this.#call('web_explain', this.#words(words), x, y);
   }
@@ -136,12 +137,13 @@ export class Lambent {
     return this.#call('web_contents', this.#words(words));
   }
 
-  // The options of a picture, in the groups of the help; the names of shapes; the version.
+  // Returns the options of a picture, in the groups of the help, the names of shapes, and the
+  // version.
   options() {
     return this.#call('web_options');
   }
 
-  // The files have changed: the model is read anew.
+  // The files have changed, so the model is read again.
   forget() {
     this.instance.exports.web_forget();
   }

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""sizes.py [FOLDER]: the sizes of the files that a page loads, part by part, as in docs/web.md (tests/web.py compares). FOLDER: build-web, after make web.
+"""sizes.py [FOLDER]: the sizes of the files that a page loads, part by part, as in docs/web.md (tests/web.py compares). FOLDER is build-web, after
+make web.
 
-The linker's map says which object each byte of the module comes from. Files that a server sends packed have the sizes of that too."""
+The linker's map contains the object of each byte of the module. For files that a server sends compressed, it also prints the compressed sizes."""
 import json
 import os
 import re
@@ -10,7 +11,8 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import module_parts  # noqa: E402
 
-# Parts of the module: title, and what the object of a symbol is called in the map. The first that fits.
+# Parts of the module: title, and a pattern for a symbol's object in the map. The first match
+# counts.
 PARTS = [
     ("drawing: the kernels with SIMD", r"cpu-wasm\.a\.p"),
     ("explaining: the shading that keeps its numbers", r"cpu-recording\.a\.p"),
@@ -28,7 +30,7 @@ THREADS = "the module with threads, fetched in place of the second part where th
 
 
 def parts_of(map_path):
-    """Bytes by part. A line of the map has address, offset, size, and for a section of an object its file and symbol."""
+    """Bytes by part. A line of the map contains address, offset, size, and for a section of an object its file and symbol."""
     sizes = dict.fromkeys((title for title, _ in PARTS), 0)
     inside = False
     for line in open(map_path):
@@ -44,7 +46,7 @@ def parts_of(map_path):
 
 
 def packed(paths):
-    """Bytes as they are, after gzip, and after brotli (web/build.py puts those files beside them)."""
+    """Bytes without compression, after gzip, and after brotli (web/build.py writes these files)."""
     return [sum(os.path.getsize(path + ending) for path in paths) for ending in ("", ".gz", ".br")]
 
 

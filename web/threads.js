@@ -29,7 +29,7 @@ export async function addThreads(instance, module, memory, count, startWorker) {
       const thread = web_thread_add();
       if (!thread) return resolve(null);
       const worker = startWorker();
-      const listen = (name, listener) => (worker.on ?? worker.addEventListener).call(worker, name, listener); // node's workers; a browser's
+      const listen = (name, listener) => (worker.on ?? worker.addEventListener).call(worker, name, listener); // node's workers, or a browser's
       listen('message', () => {
         web_thread_ready(thread);
         resolve(worker);

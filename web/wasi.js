@@ -19,7 +19,7 @@ export class Files {
     this.files = new Map();
     this.folders = new Set(['']);
     this.absent = new Set(); // paths that were opened or looked up, but do not exist
-    this.used = new Set(); // paths of files that were opened
+    this.used = new Set(); // paths of opened files
   }
 
   static clean(path) {

@@ -1,4 +1,4 @@
-// check.js: `lambent check` as a module: verdicts of shaders, drawn by a painter (painter.js).
+// check.js: `lambent check` as a module: verdicts about shaders, drawn by a painter (painter.js).
 import { Files, system } from './wasi.js';
 
 // Thrown if shaders cannot be checked, with the program's message.
@@ -39,14 +39,14 @@ export class Check {
     return this.#call('web_check', size, pictures);
   }
 
-  // RGBA of a scene of the last report: 'theirs', 'reference' or 'difference'.
+  // The RGBA pixels of a scene of the last report: 'theirs', 'reference' or 'difference'.
   picture(scene, which, size = 128) {
     const { memory, web_check_picture } = this.#instance.exports;
     const at = web_check_picture(scene, ['theirs', 'reference', 'difference'].indexOf(which));
     return at ? new Uint8ClampedArray(memory.buffer, at, 4 * size * size).slice() : null;
   }
 
-  // Contracts with their names, scenes, known mistakes, exercises {mistake, looks, wrong}.
+  // The contracts with their names, scenes, known mistakes and exercises {mistake, looks, wrong}.
   lists() {
     return this.#call('web_check_lists');
   }

@@ -281,7 +281,7 @@ export class Painter {
     for (const buffer of lent) gl.deleteBuffer(buffer);
     const wrong = gl.getError();
     if (gl.isContextLost()) return -1;
-    const out = this.#floatsAt(pixels, 4 * size * size), row = 4 * size; // WebGL's first row is the bottom one
+    const out = this.#floatsAt(pixels, 4 * size * size), row = 4 * size; // WebGL's first row is the bottom row
     for (let y = 0; y < size; y++) {
       const from = rows.subarray((size - 1 - y) * row, (size - y) * row);
       if (this.#floats) out.set(from, y * row);

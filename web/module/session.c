@@ -1,4 +1,4 @@
-// session.c: draws pictures of command lines, one after the other, for a page that changes them. A model is loaded once.
+// session.c: draws pictures of command lines, one after another, for a page that changes them. A model is loaded once.
 #include "session.h"
 
 #include <stdio.h>
@@ -26,7 +26,7 @@ static struct {
     uint32_t bytes;
     lam_device *device;
     int isa, threads;                       // of the device
-    struct environment_cache *environments; // of the files as they are
+    struct environment_cache *environments; // for the current files
     lam_image image;                        // of the last picture
     uint64_t memory_limit_bytes;            // 0: none
     struct progress progress;
@@ -49,7 +49,7 @@ void web_forget(void)
     session.environments = NULL;
 }
 
-// Parses the words. `options` and `job` are complete then; the caller frees the options in any case.
+// Parses the words. `options` and `job` are then complete; the caller frees the options in any case.
 static bool start(int count, struct options *options, struct job *job, lam_error *error)
 {
     static bool filled;
@@ -89,7 +89,8 @@ static bool start(int count, struct options *options, struct job *job, lam_error
         session.device = device_option_make(options, error);
     session.isa = options->work.isa;
     session.threads = options->work.threads;
-    options->work.threads = 1; // the device has the others; files are read here, since no other thread has them
+    options->work.threads = 1; // the device has the other threads; files are read here, because no other thread has
+                               // them
     if (!session.environments)
         session.environments = environment_cache_make();
     *job = (struct job){.options = options,
@@ -202,7 +203,7 @@ static double attenuation_value(const lam_light *light, double x)
 }
 static double spot_value(const lam_light *light, double x) { return (double)lam_spot_at(light, radians(x)); }
 
-// Of the picture's lights that an explanation lists, the one with this number; none: a type that it does not list.
+// The light with this number among the picture's lights listed by an explanation; other types are not listed.
 static lam_light light_of(const struct job *job, int number)
 {
     int count = lam_draw_lights(job->scene, job->rig, NULL, 0);

@@ -15,7 +15,7 @@ export class Files extends Plain {
   // Called with each change, for a worker; null: not used.
   onChange = null;
 
-  // The bytes are not copied. A text is stored as UTF-8.
+  // Bytes are not copied. A string is stored as UTF-8.
   set(path, content) {
     checkPath('files.set', path);
     const bytes = typeof content === 'string' ? new TextEncoder().encode(content)

@@ -38,7 +38,7 @@ export function call(name, message) {
 }
 
 export const view = {
-  picture: null, // of the last drawing, without its pixels
+  picture: null, // the last drawing, without its pixels
   size: null, // width and height of the command line's picture; quick pictures are smaller
   explained: null, // the program's explanation of a pixel
   camera: null, // the current camera, newer than the picture during a gesture

@@ -4,8 +4,9 @@ import { text } from './strings.js';
 // Thrown if a call was ended because its answer is no longer needed.
 export class Ended extends Error {}
 
-// `open`: starts the worker. `wasm`: its module. `ways`: for each part of the module, by name, a list of functions that fetch it: the part's bytes, or the
-// module with threads. The first that succeeds is used. Empty if the module is whole. `helps`: this worker does not draw the main picture.
+// `open` starts the worker. `wasm` is its module. `ways`: for each part of the module, by name, a list of functions that fetch it: the part's bytes,
+// or the module with threads. The first that succeeds is used. It is empty if the module is undivided. `helps`: this worker does not draw the main
+// picture.
 export function caller(open, wasm, ways = {}) {
   const waiting = new Map(), fetched = new Map(), parted = Boolean(ways.more);
   let next = 0, worker = null, setup = [], ready = Promise.resolve(), cancel = null, onprogress = () => {};
@@ -101,8 +102,8 @@ export function caller(open, wasm, ways = {}) {
     },
     // Fetches the second part of the module before it is needed.
     fetchRest: () => (ways.rest?.length ? fetchPart('rest') : Promise.resolve()),
-    // Asks the running call to end, if the worker shares its memory; false: only restart() ends it. A call that is `endable` is then rejected (Ended).
-    // Any other call is sent again.
+    // Asks the running call to end, if the worker shares its memory; returns false if only restart() can end it. A call that is `endable` is then
+    // rejected (Ended). Any other call is sent again.
     cancel() {
       if (cancel) Atomics.store(cancel, 0, 1);
       return Boolean(cancel);

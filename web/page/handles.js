@@ -8,7 +8,7 @@ import { text } from './strings.js';
 
 const canvas = $('canvas'), overlay = $('overlay'), lines = $('overlay-lines');
 const PARTS = { position: 'handlePosition', aim: 'handleAim', cone: 'handleCone' };
-const handles = new Map(); // "NUMBER PART" to its button
+const handles = new Map(); // maps "NUMBER PART" to its button
 let texts = [];
 
 function rewrite(i, light) {

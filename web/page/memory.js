@@ -4,8 +4,8 @@ const device = 2 ** 30 * (globalThis.navigator?.deviceMemory ?? 8);
 
 const between = (least, bytes, most) => Math.min(Math.max(bytes, least), most);
 
-// The memory for reading a model and for drawing it, if the command line has no --memory-limit: a quarter, as in the program. The module's addresses end
-// at 4 GiB.
+// The memory for reading a model and for drawing it, if the command line contains no --memory-limit: a quarter, as in the program. The module's
+// addresses end at 4 GiB.
 export const MODULE_BYTES = between(256e6, device / 4, 2e9);
 
 // The size limit of a model's files, which are in memory three times during reading.

@@ -1,5 +1,5 @@
-// opened.js: the opened files. Each opening is a set of its own, so that a model keeps its companions if other files with the same names are opened. The
-// worker has the files of one set at a time.
+// opened.js: the opened files. Each opening is a set of its own, so that a model keeps its companions if other files with the same names are opened.
+// The worker has the files of one set at a time.
 import { FILES_BYTES } from './memory.js';
 
 const sets = []; // { files: Map of bytes by path }, the newest last

@@ -4,7 +4,7 @@ import { element, ours } from './dom.js';
 import { thumbnail } from './thumbnails.js';
 
 // `choices`: { value, name, words (of the picture), label (a text of the page; default: the program's name), color (instead of a picture) }.
-// `chosen`: returns the value of the state; `take`: sets it. `named`: show the names below the pictures.
+// `chosen` returns the value of the state; `take` sets it. `named`: show the names below the pictures.
 export function swatches({ title, choices, chosen, take, named = false }) {
   const current = ours('span', '', { className: 'chosen' });
   const buttons = choices.map((choice) => {

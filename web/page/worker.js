@@ -1,6 +1,6 @@
-// worker.js: draws in a thread of its own. Messages: {id, call, ...}. Answers: {id, result}, {id, error, cancelled}, {progress}: the fraction of the running
-// call that is done, or {id, missing}: the call needs that part of the module, which the page fetches before it asks again. The page sends only the newest of the
-// waiting drawings.
+// worker.js: draws in a separate thread. Messages: {id, call, ...}. Answers: {id, result}, {id, error, cancelled}, {progress}: the fraction of the
+// running call that is done, or {id, missing}: the call needs that part of the module, which the page fetches before it asks again. The page sends
+// only the newest of the waiting drawings.
 import { Decoders } from './decoders.js';
 import { Lambent, LambentError, PartMissing } from './lambent.js';
 
@@ -27,7 +27,8 @@ async function useThreads() {
 // Informs the page about the threads; `flag` is the address of the cancel flag in their memory.
 const aboutThreads = () => ({ threads: lambent.threads, shared: lambent.instance.exports.memory.buffer, flag: lambent.instance.exports.web_cancel_flag() });
 
-// The part of a divided module that each of these calls needs. It is fetched first, since a call that stops for it loses the model.
+// The part of a divided module that each of these calls needs. It is downloaded first, because a call that stops for it loses the
+// model.
 const NEEDS = { explain: 'more', lights: 'more', scene: 'more', contents: 'more' };
 const neededPart = ({ call, parted }) => parted && NEEDS[call] && (threaded ? 'threads-' : '') + NEEDS[call];
 

@@ -9,7 +9,7 @@
 #define FACING   0.6
 #define EVEN     0.999 // stacked cards have no slopes
 
-// With fewer triangles it may be an upright sheet.
+// A model with fewer triangles may be an upright sheet.
 enum { TRIANGLES_MIN = 1000 };
 
 bool is_terrain_on_z(const struct lam_scene *scene)

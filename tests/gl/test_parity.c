@@ -1,17 +1,17 @@
-// test_parity.c: the OpenGL device against the CPU device, over all demonstration scenes at one sample, in OpenGL 3.3 and
-// OpenGL ES 3.0.
+// test_parity.c: compares the OpenGL device with the CPU device over all demonstration scenes at one sample, in OpenGL
+// 3.3 and OpenGL ES 3.0.
 //
-// In 8 bits at least 99.9 % of the pixels differ by at most 1/255, and no pixel outside the mask by more than 2/255. In
-// floats, pixels outside the mask differ by at most 5e-4·max(1, value). The mask consists of the pixels whose 3×3
-// neighbourhood contains, in the CPU device's own values, more than one object, more than one facing, a step in depth, a
-// change in the number of translucent layers, or the edge of a spot's cone or of a hard shadow, and of the pixels with
-// translucent layers or a checker that change when the eye moves by the step that corners are snapped to: there two
-// rasterizers may legitimately differ. In soft shadows, and where rays
+// In 8 bits, at least 99.9 % of the pixels differ by at most 1/255, and no pixel outside the mask differs by more than
+// 2/255. In floats, pixels outside the mask differ by at most 5e-4·max(1, value). The mask consists of the pixels whose
+// 3×3 neighbourhood contains, in the CPU device's own values, more than one object, more than one facing, a step in
+// depth, a change in the number of translucent layers, or the edge of a spot's cone or of a hard shadow, and of the
+// pixels with translucent layers or a checker that change when the eye moves by the step that corners are snapped to:
+// there two rasterizers may legitimately differ. In soft shadows, and where rays
 // graze edges of translucent surfaces, 0.02 % of the pixels may count one point of one light more or less.
 // The mask covers at most 5 % of the covered pixels of all scenes; the test reports its size. A failure writes NAME.gl.png
 // (or NAME.gles.png) and NAME.cpu.png to the working directory.
 //
-// `make test` draws the scenes in OpenGL 3.3 and OpenGL ES 3.0 by turns; the test long-gl-parity draws each in both.
+// `make test` draws the scenes in OpenGL 3.3 and OpenGL ES 3.0 alternately; the test long-gl-parity draws each in both.
 #include "card.h"
 #include "context.h"
 #include "linear.h"
@@ -29,7 +29,8 @@
 
 #include <cmocka.h>
 
-// Larger pictures, so that edges are a smaller fraction of their pixels; less so where a software driver takes seconds for each.
+// Larger pictures, in which edges are a smaller fraction of the pixels; smaller if a software driver takes seconds for
+// each.
 enum { SCALE = 4, SLOW_SCALE = 2 };
 static const char *const slow[] = {"shadows-soft", "ground-shadow", "shadows-leaves"};
 
@@ -47,29 +48,31 @@ static const struct {
     double floats;
     // Surfaces are closer to each other than the precision of depth values: only the bound for 99.9 % of the pixels applies.
     bool ambiguous;
-    // A triangle seen almost from its edge: its corners snapped to 1/256 pixel are another triangle, over which OpenGL
-    // interpolates; the CPU device interpolates over the one that is not snapped. A pixel may differ by as much as the CPU
-    // device's own value changes when the eye moves by such a step.
+    // A triangle seen almost from its edge. Its corners snapped to 1/256 pixel form another triangle, over which OpenGL
+    // interpolates; the CPU device interpolates over the triangle that is not snapped. A pixel may differ by the change
+    // of the CPU device's own value when the eye moves by such a step.
     bool snapped;
-    // Lights with a size: in their penumbra every pixel lies at the edge of the shadow from some point of the light. A few may
-    // count one point of one light more or less.
+    // Lights with a size: in their penumbra, every pixel is at the edge of the shadow from some point of the light. A
+    // few pixels may count one point of one light more or less.
     bool soft;
-    // Rays that graze the edge of a hole, or of a triangle that lets light through: in a float one may pass on its other side.
-    // It counts as such a point does.
+    // Rays that graze the edge of a hole, or of a triangle that transmits light; in floats, a ray may pass on the other
+    // side. It counts like such a point.
     bool grazing;
 } loose[] = {
     // A square of 40 000 units: floats have a precision of 0.002 there, and the light is at a distance of 4. A ball
-    // touches it, where depth values have a step of 0.0004 with a near plane of 0.01.
+    // touches it at a place where depth values have a step of 0.0004 with a near plane of 0.01.
     {"ground", .floats = 2e-3, .ambiguous = true},
-    // Panels 100 times as bright as their neighbourhood, with edges of one texel, amplify rounding errors of directions.
+    // Panels 100 times as bright as their neighbourhood, with edges of one texel, amplify rounding errors of
+    // directions.
     {"mirror-studio", .floats = 2e-3},
-    // Ambient occlusion is found from differences of distances, and multiplies their rounding: a sample at an edge falls on one surface or the other.
+    // Ambient occlusion is computed from differences of distances, and amplifies their rounding errors: a sample at an
+    // edge is on one surface or the other.
     {"planes", .floats = 2e-3},
     {"translucent", .floats = 8e-3},
     {"lines", .floats = 2e-2},
     {"teapot", .floats = 1e-3},
     {"metaballs", .floats = 1e-3},
-    // The cavity has a radius of few pixels, and multiplies it more.
+    // The cavity has a radius of few pixels, and amplifies these errors more.
     {"gyroid", .floats = 2e-3},
     {"ground-checker", .floats = 5e-3},
     {"samples-1", .floats = 2e-3},
@@ -180,7 +183,7 @@ static bool differ_dark(const float *a, const float *b, double limit)
     return a[3] > 0 && b[3] > 0 && lit_a != lit_b;
 }
 
-// The edge of a shadow that some light passes through.
+// The edge of a shadow that transmits light.
 static bool differ_step(const float *a, const float *b, double limit)
 {
     double sum = 0;
@@ -265,8 +268,8 @@ static struct demo moved_eye(const struct demo *demo, double pixel, int way)
     return moved;
 }
 
-// Masks the pixels that change when the eye moves so. Where two surfaces intersect behind a translucent one, snapping
-// decides which of them is nearer.
+// Masks the pixels that change after such a movement of the eye. If two surfaces intersect behind a translucent one,
+// snapping determines which is nearer.
 static void mask_unstable(struct mask *mask, const struct demo *demo, double pixel)
 {
     lam_image still, image;
@@ -306,14 +309,14 @@ static struct mask mask_of(const struct demo *demo, bool soft)
         mask_where(&mask, &image, differ_first, 0);
         mask_unstable(&mask, demo, size);
     }
-    if (demo->params.ground == LAM_GROUND_CHECKER) // edges of squares, which are no edges of objects
+    if (demo->params.ground == LAM_GROUND_CHECKER) // edges of squares, which are not edges of objects
         mask_unstable(&mask, demo, size);
     static lam_light lights[4096];
     int count = lam_draw_lights(demo->scene, demo->params.rig, lights, 4096);
     for (int i = 0; i < count && count <= 16 && demo->params.reflection != LAM_REFLECTION_NONE; i++) {
         bool casts =
             demo->params.shadows && lights[i].type != LAM_LIGHT_AMBIENT && lights[i].type != LAM_LIGHT_HEMISPHERE;
-        if (lights[i].type != LAM_LIGHT_SPOT && (!casts || soft)) // a soft shadow's edges are counted instead
+        if (lights[i].type != LAM_LIGHT_SPOT && (!casts || soft)) // the edges of soft shadows are counted instead
             continue;
         image = draw_output(demo, LAM_OUTPUT_LIGHT, i);
         mask_where(&mask, &image, casts && translucent ? differ_step : differ_dark, 0.1);
@@ -346,10 +349,10 @@ static double float_difference(const float *a, const float *b)
 struct reference {
     struct mask mask;
     lam_image bytes, floats, ids;
-    lam_image moved[4]; // by a step of the eye; empty where none is allowed for
+    lam_image moved[4]; // moved by a step of the eye; empty if the scene does not allow this
 };
 
-// How much the CPU device's own value of a pixel changes by a step of the eye.
+// The change of the CPU device's own value of a pixel by a step of the eye.
 static double own_change(const struct reference *r, uint64_t pixel)
 {
     double max = 0;
@@ -382,7 +385,7 @@ static bool is_between(const struct demo *demo, const struct reference *r, uint6
     return true;
 }
 
-// Pixels that the snapping of corners explains: a few at most.
+// Pixels whose difference results from the snapping of corners; a few at most.
 static const uint64_t max_snapped = 4;
 
 // On a graphics card up to 0.3 % of the pixels may lie between their neighbours, floats may differ by five times as much, and twice as
@@ -462,10 +465,10 @@ static struct outcome compare(lam_device *device, const struct demo *demo, const
     return o;
 }
 
-// What the CPU device alone draws is refused by one sentence, and the device still draws.
+// Features of only the CPU device are refused with an error message, and the device still draws.
 static void check_refused(const struct demo *demo, const char *reason)
 {
-    bool scene = strstr(reason, "glass"); // the scene's, not the settings'
+    bool scene = strstr(reason, "glass"); // a property of the scene, not of the settings
 
     for (int i = 0; i < 2; i++) {
         lam_error error = {0};
@@ -557,7 +560,7 @@ static void check_mask(void **state)
     assert_true(share <= 0.05);
 }
 
-// Arguments: the scenes to compare, in place of all.
+// Arguments: the scenes to compare, instead of all.
 int main(int argc, char **argv)
 {
     lam_error error = {0};
@@ -576,7 +579,7 @@ int main(int argc, char **argv)
         if (wanted)
             tests[count++] = (struct CMUnitTest){demos[i].name, check_scene, NULL, NULL, (void *)(uintptr_t)&demos[i]};
     }
-    if (count == (size_t)demo_count) // its share is that of the whole table
+    if (count == (size_t)demo_count) // its fraction applies to the whole table
         tests[count++] = (struct CMUnitTest){"the mask is small", check_mask, NULL, NULL, NULL};
     int failed = _cmocka_run_group_tests("gl-parity", tests, count, NULL, NULL);
     free(tests);

@@ -24,15 +24,22 @@ static void *suballocate(struct suballocator *from, size_t count, size_t size)
 
 #define ARRAY(pointer, count) ((pointer) = suballocate(from, count, sizeof *(pointer)))
 
-static void lay_out_shading(struct suballocator *from, struct shading *shading, const struct frame *frame)
+// Rows for the most vertices of a tile, three for each fragment.
+static void lay_out_vertices(struct suballocator *from, struct vertex_cache *cache, int samples)
 {
-    size_t vertices = 3 * ((size_t)tile_samples_count(frame->settings.samples) + LANES_MAX), slots = 64;
+    size_t vertices = 3 * ((size_t)tile_samples_count(samples) + LANES_MAX), slots = 64;
     while (slots < 2 * vertices)
         slots *= 2;
-    ARRAY(shading->vertices.table, slots);
-    ARRAY(shading->vertices.color, vertices);
-    ARRAY(shading->vertices.key, vertices);
-    ARRAY(shading->vertices.rest, vertices);
+    ARRAY(cache->table, slots);
+    ARRAY(cache->color, vertices);
+    ARRAY(cache->key, vertices);
+    ARRAY(cache->rest, vertices);
+}
+
+static void lay_out_shading(struct suballocator *from, struct shading *shading, const struct frame *frame)
+{
+    if (frame->settings.shading != LAM_SHADING_PHONG)
+        lay_out_vertices(from, &shading->vertices, frame->settings.samples);
     ARRAY(shading->batch, 1);
     shading->shadows = NULL;
     if (frame_has_rays(frame))

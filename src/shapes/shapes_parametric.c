@@ -487,16 +487,18 @@ static bool tessellate(const lam_parametric *surfaces, int count, const struct s
     arena_start(&scratch, request->call);
     t.points = arena_array(&scratch, t.widest * (size_t)pool_threads(pool), sizeof *t.points);
     t.rows = arena_array(&scratch, (size_t)longest + 1, sizeof *t.rows);
-    t.positions = arena_array(arena, attributes, 3 * sizeof(float));
-    t.normals = arena_array(arena, attributes, 3 * sizeof(float));
-    t.tangents = arena_array(arena, attributes, 4 * sizeof(float));
-    t.texcoords = arena_array(arena, attributes, 2 * sizeof(float));
-    t.indices = arena_array(arena, 3 * triangles, sizeof(uint32_t));
-    t.attributes = arena_array(arena, 3 * triangles, sizeof(uint32_t));
+    float *block = arena_array(arena, 12 * attributes + 6 * triangles, sizeof(float));
+    if (block) {
+        t.positions = block;
+        t.normals = t.positions + 3 * attributes;
+        t.tangents = t.normals + 3 * attributes;
+        t.texcoords = t.tangents + 4 * attributes;
+        t.indices = (uint32_t *)(t.texcoords + 2 * attributes);
+        t.attributes = t.indices + 3 * triangles;
+    }
     if (border)
         t.border = *border = arena_alloc_zeroed(border_arena, attributes);
-    bool ok = (!border || t.border) && t.points && t.rows && t.positions && t.normals && t.tangents && t.texcoords &&
-              t.indices && t.attributes;
+    bool ok = (!border || t.border) && t.points && t.rows && block;
     if (!ok)
         call_memory_error(request->call, attributes * 48 + triangles * 24, request->error);
     for (int k = 0; ok && k < count; k++) {

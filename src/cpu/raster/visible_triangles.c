@@ -36,8 +36,8 @@ struct tile_search {
     struct arena *arenas;
 };
 
-// Number of tiles: about half a million fragments, some megabytes, if all are covered.
-enum { LARGE_PICTURE = 128 };
+// Number of tiles for each thread: about a quarter of a million fragments, more than a megabyte, if all are covered.
+enum { LARGE_PICTURE = 64 };
 
 // Finds the lowest and the highest triangle of the fragments.
 static void range_of_triangles(const struct fragments *fragments, uint32_t *lowest, uint32_t *highest)
@@ -106,7 +106,7 @@ static bool search_tiles(struct cpu_frame *cpu, struct visible_buffers *buffers,
     memset(cpu->fragment_stores, 0, tiles * sizeof(struct fragment_store));
     buffers->arenas = (struct arena *)(cpu->fragment_stores + tiles);
     for (size_t i = 0; i < threads; i++)
-        (tiles > LARGE_PICTURE ? arena_start_large : arena_start)(&buffers->arenas[i], cpu->call);
+        (tiles > LARGE_PICTURE * threads ? arena_start_large : arena_start)(&buffers->arenas[i], cpu->call);
     uint64_t start = now_ns();
     pool_run(cpu->pool, tiles, search_tile, &(struct tile_search){cpu, buffers->arenas});
     buffers->search_ms = (double)(now_ns() - start) * 1e-6;

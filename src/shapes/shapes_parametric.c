@@ -294,30 +294,37 @@ static void add_triangle(const struct tessellation *t, size_t *corner, struct ce
     }
 }
 
-// Returns the corner (i, j) of cell (cell_i, cell_j). At a pole, each cell has its own attributes, at the index of the
-// cell.
-static struct cell_corner corner_of(const struct tessellation *t, int i, int j, int cell_i, int cell_j)
-{
-    bool column_pole = (i == 0 && t->first_column_pole) || (i == t->surface->u_segments && t->last_column_pole);
-    return (struct cell_corner){vertex_at(t, i, j),
-                                (uint32_t)attribute_at(t, t->rows[j].pole ? cell_i : i, column_pole ? cell_j : j)};
-}
-
+// Writes the cells between row j − 1 and row j. At a pole, each cell has its own attributes, at the index of the cell.
 static void set_cells(const struct tessellation *t, int j)
 {
-    size_t corner = t->rows[j].corner;
-    for (int i = 0; i < t->surface->u_segments; i++) {
-        struct cell_corner a = corner_of(t, i, j - 1, i, j - 1), b = corner_of(t, i + 1, j - 1, i, j - 1);
-        struct cell_corner c = corner_of(t, i + 1, j, i, j - 1), d = corner_of(t, i, j, i, j - 1);
+    const struct row *below = &t->rows[j - 1], *above = &t->rows[j];
+    int count = t->surface->u_segments;
+    uint32_t low = (uint32_t)attribute_at(t, 0, j - 1), high = (uint32_t)attribute_at(t, 0, j);
+    uint32_t left[2] = {vertex_at(t, 0, j - 1), vertex_at(t, 0, j)};
+    size_t corner = above->corner;
+    for (int i = 0; i < count; i++) {
+        uint32_t right[2] = {vertex_at(t, i + 1, j - 1), vertex_at(t, i + 1, j)}, at = (uint32_t)i;
+        bool left_pole = i == 0 && t->first_column_pole, right_pole = i + 1 == count && t->last_column_pole;
+        struct cell_corner a = {left[0], low + at}, b = {right[0], low + at + !below->pole};
+        struct cell_corner c = {right[1], (right_pole ? low : high) + at + !above->pole};
+        struct cell_corner d = {left[1], (left_pole ? low : high) + at};
         add_triangle(t, &corner, a, b, c);
         add_triangle(t, &corner, a, c, d);
+        left[0] = right[0];
+        left[1] = right[1];
     }
 }
 
+// Counts the corners of the cells between row j − 1 and row j. Without poles, all cells have two triangles, except in
+// surfaces with one segment, whose ends may be joined.
 static size_t count_corners(const struct tessellation *t, int j)
 {
+    const lam_parametric *s = t->surface;
     size_t triangles = 0;
-    for (int i = 0; i < t->surface->u_segments; i++) {
+    if (!t->rows[j - 1].single && !t->rows[j].single && !t->first_column_pole && !t->last_column_pole &&
+        s->u_segments > 1 && s->v_segments > 1)
+        return 6 * (size_t)s->u_segments;
+    for (int i = 0; i < s->u_segments; i++) {
         uint32_t a = vertex_at(t, i, j - 1), b = vertex_at(t, i + 1, j - 1), c = vertex_at(t, i + 1, j),
                  d = vertex_at(t, i, j);
         triangles += (size_t)is_triangle(a, b, c) + (size_t)is_triangle(a, c, d);

@@ -337,7 +337,7 @@ static void number_rows(struct tessellation *t)
 {
     const lam_parametric *s = t->surface;
     for (int j = 0; j <= s->v_segments && should_continue(&t->loop); j++) {
-        struct row *row = &t->rows[j], *before = row - 1;
+        struct row *row = &t->rows[j], *before = j > 0 ? row - 1 : row;
         bool pole = row_is_pole(t, parameter(s->v_min, s->v_max, j, s->v_segments)), joined = pole || s->u_closed;
         if (closes(s, j)) {
             *row = t->rows[0];

@@ -73,7 +73,7 @@ def beside(row):
     """Milliseconds of both, and what is reported beside the target."""
     if "not_measured" in row:
         return ""
-    if "file_bytes" in row:
+    if "bytes" in row and "file_bytes" in row:
         return "%d MB of a file of %d MB, with 1 sample" % (row["bytes"][next(iter(row["bytes"]))] // 10**6, row["file_bytes"] // 10**6)
     if "bytes" in row:
         return ", ".join("%s %d MB" % (name, peaks[next(iter(peaks))] // 10**6) for name, peaks in row["bytes"].items()) + " with 2 threads"

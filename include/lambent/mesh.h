@@ -110,7 +110,7 @@ typedef struct lam_shape_params {
     // at most 4096 for each patch; gyroid and metaballs ignore it.
     int stacks;
     const lam_control *control; // control of the construction; NULL: none
-    int threads;                // number of threads that compute the shape, 1..1024; 0: one for each processor
+    int threads;                // number that compute the shape, 1..1024; 0: auto
     LAM_RESERVED(7);
 } lam_shape_params;
 

@@ -112,8 +112,8 @@ struct search {
     struct edge_memory *memory;
     struct edge_view view;
     edge_rays *rays_of;
-    size_t *first_tasks;  // the first task of each draw, plus one at the end
-    bool measures;        // whether the tasks measure instead of drawing
+    size_t *first_tasks; // the first task of each draw, plus one at the end
+    enum { WEIGH, MEASURE, DRAW } step;
     uint64_t drawn, rays; // atomic
 };
 
@@ -135,15 +135,17 @@ static void run_task(void *user, size_t index, int thread)
     uint32_t first = (uint32_t)(index - search->first_tasks[low]) * EDGES_PER_TASK, left = source->count - first;
     struct edge_measure *measures =
         frame->settings.hidden_lines == LAM_HIDDEN_LINES_DASH ? search->memory->measures.data : NULL;
+    uint16_t *weights = frame->settings.edges ? search->memory->weights.data : NULL;
     struct edge_task task = {.view = &search->view,
                              .draw = &frame->draws[low],
                              .edges = (const struct mesh_edge *)search->memory->edges.data + source->first + first,
                              .count = left < EDGES_PER_TASK ? left : EDGES_PER_TASK,
+                             .weights = weights ? weights + source->first + first : NULL,
                              .measures = measures ? measures + source->first + first : NULL,
                              .rays_of = search->rays_of,
                              .strokes = &search->memory->strokes[thread]};
-    if (search->measures) {
-        edge_task_measure(&task);
+    if (search->step == WEIGH || search->step == MEASURE) {
+        (search->step == WEIGH ? edge_task_weigh : edge_task_measure)(&task);
         return;
     }
     if (!edge_task_draw(&task, (char *)search->memory->scratch.data + (size_t)thread * edge_scratch_bytes()) &&
@@ -166,6 +168,42 @@ static bool reserve_threads(struct edge_memory *memory, int threads, struct call
     return buffer_reserve(&memory->scratch, (size_t)threads * edge_scratch_bytes(), call, error);
 }
 
+static size_t edge_count(const struct edge_memory *memory, const struct frame *frame)
+{
+    size_t count = 0;
+    for (int i = 0; i < frame->draw_count; i++)
+        count += ((const struct source *)memory->sources.data)[i].count;
+    return count;
+}
+
+// Weighs all feature edges, and drops specks.
+static bool drop_specks(struct search *search, size_t task_count, struct pool *pool, struct call_control *call,
+                        lam_error *error)
+{
+    const struct frame *frame = search->view.frame;
+    struct edge_memory *memory = search->memory;
+    const struct source *sources = memory->sources.data;
+    size_t count = edge_count(memory, frame);
+    if (!buffer_reserve(&memory->weights, (count + 1) * sizeof(uint16_t), call, error))
+        return false;
+    struct edge_task *draws = calloc((size_t)frame->draw_count + 1, sizeof *draws);
+    if (!draws)
+        return fail_memory(error, ((size_t)frame->draw_count + 1) * sizeof *draws);
+    search->step = WEIGH;
+    pool_run(pool, task_count, run_task, search);
+    for (int i = 0; i < frame->draw_count; i++)
+        draws[i] = (struct edge_task){.view = &search->view,
+                                      .draw = &frame->draws[i],
+                                      .edges = (const struct mesh_edge *)memory->edges.data + sources[i].first,
+                                      .count = sources[i].count,
+                                      .weights = (uint16_t *)memory->weights.data + sources[i].first};
+    bool ok = should_continue(search->view.loop) && edge_specks_drop(draws, frame->draw_count, search->view.loop);
+    free(draws);
+    if (!ok && should_continue(search->view.loop))
+        no_memory(search->view.loop);
+    return ok || loop_error(search->view.loop, 128 * count, error);
+}
+
 // Measures all edges, and links them to chains for dashes.
 static bool find_chains(struct search *search, size_t task_count, struct pool *pool, struct call_control *call,
                         lam_error *error)
@@ -173,14 +211,11 @@ static bool find_chains(struct search *search, size_t task_count, struct pool *p
     const struct frame *frame = search->view.frame;
     struct edge_memory *memory = search->memory;
     const struct source *sources = memory->sources.data;
-    size_t count = 0;
-    for (int i = 0; i < frame->draw_count; i++)
-        count += sources[i].count;
+    size_t count = edge_count(memory, frame);
     if (!buffer_reserve(&memory->measures, (count + 1) * sizeof(struct edge_measure), call, error))
         return false;
-    search->measures = true;
+    search->step = MEASURE;
     pool_run(pool, task_count, run_task, search);
-    search->measures = false;
     bool ok = should_continue(search->view.loop);
     for (int i = 0; i < frame->draw_count && ok; i++)
         ok = edge_chains_link(&frame->draws[i], (const struct mesh_edge *)memory->edges.data + sources[i].first,
@@ -210,12 +245,14 @@ bool edges_find(struct edge_memory *memory, const struct frame *frame, const str
         search.first_tasks[i] = task_count;
         task_count += ((size_t)sources[i].count + EDGES_PER_TASK - 1) / EDGES_PER_TASK;
     }
-    bool chained =
-        frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || find_chains(&search, task_count, pool, call, error);
-    if (chained)
+    bool ready = !frame->settings.edges || drop_specks(&search, task_count, pool, call, error);
+    if (frame->settings.hidden_lines == LAM_HIDDEN_LINES_DASH)
+        ready = ready && find_chains(&search, task_count, pool, call, error);
+    search.step = DRAW;
+    if (ready)
         pool_run(pool, task_count, run_task, &search);
     free(search.first_tasks);
-    if (!chained)
+    if (!ready)
         return false;
     *counts = (struct edge_counts){search.drawn, search.rays};
     if (!should_continue(&loop))
@@ -230,6 +267,7 @@ void edges_free(struct edge_memory *memory)
     buffer_free(&memory->sources);
     buffer_free(&memory->scratch);
     buffer_free(&memory->measures);
+    buffer_free(&memory->weights);
     buffer_free(&memory->bands);
     for (int i = 0; i < EDGE_STYLES; i++)
         buffer_free(&memory->coverage[i]);
@@ -241,7 +279,7 @@ void edges_free(struct edge_memory *memory)
 uint64_t edges_bytes(const struct edge_memory *memory)
 {
     uint64_t bytes = memory->edges.capacity + memory->sources.capacity + memory->scratch.capacity +
-                     memory->measures.capacity + memory->bands.capacity;
+                     memory->measures.capacity + memory->weights.capacity + memory->bands.capacity;
     for (int i = 0; i < EDGE_STYLES; i++)
         bytes += memory->coverage[i].capacity;
     for (int i = 0; i < memory->thread_count; i++)

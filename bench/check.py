@@ -64,6 +64,7 @@ def jobs():
     # The extra features of the default look have a job of their own.
     found = {name: words if words == ["--version"] else ["--ao", "off", *words] for name, words in found.items()}
     found["ambient occlusion"] = found["draw phong"][2:]
+    found["default picture"] = ["teapot"]
     found["ambient occlusion, cells"] = ["-s", "600", "--samples", "1", "teapot"]
     found["ambient occlusion, rays"] = ["-s", "64", "--samples", "1", "--ao", "rays", "--ao-samples", "16", "teapot"]
     return found

@@ -73,8 +73,10 @@ def beside(row):
     """The milliseconds of both programs, and further results."""
     if "not_measured" in row:
         return ""
-    if "bytes" in row:
+    if "bytes" in row and "file_bytes" in row:
         return "%d MB of a file of %d MB, with 1 sample" % (row["bytes"][next(iter(row["bytes"]))] // 10**6, row["file_bytes"] // 10**6)
+    if "bytes" in row:
+        return ", ".join("%s %d MB" % (name, peaks[next(iter(peaks))] // 10**6) for name, peaks in row["bytes"].items()) + " with 2 threads"
     if "encoders" in row:
         other = row["encoders"]
         return "one thread %s ms; libpng 6 %s ms, %d kB; libdeflate 1 %s ms, %d kB" % (

@@ -108,6 +108,12 @@ def row_list(isas, gl_device, display, full):
         return result
     yield "memory 10M ply", "≤ 1.6 ×", judge_memory
 
+    def judge_thread_memory():
+        result = steps.memory_of_threads()
+        result["reached"] = all(share["median"] <= 1.5 for share in result["ratio"].values())
+        return result
+    yield "memory 16 threads", "≤ 1.5 ×", judge_thread_memory
+
     def judge_start():
         result = steps.start_up()
         result["reached"] = result["over_ms"]["median"] <= 2 and not result["opengl_or_gui_libraries"]

@@ -90,6 +90,15 @@ def memory_of_10m(isas):
     return {"bytes": peaks, "file_bytes": size, "ratio": {key: measure.spread([p / size]) for key, p in peaks.items()}, "peer": "the file"}
 
 
+def memory_of_threads():
+    """The peak with 16 threads beside 2, at default settings. Every thread has its own scratch memory."""
+    picture = os.path.join(paths.PICTURES, "memory.png")
+    models = {"teapot": "teapot", "1M ply": scenes.model(1000000), "1M stl": scenes.model(1000000, "stl")}
+    peaks = {name: {threads: measure.peak_bytes([paths.LAMBENT, "-q", model, "-j", threads, "-s", 1024, "-o", picture]) for threads in (2, 16)}
+             for name, model in models.items()}
+    return {"bytes": peaks, "ratio": {name: measure.spread([peak[16] / peak[2]]) for name, peak in peaks.items()}, "peer": "2 threads"}
+
+
 def start_up():
     """`lambent --version` (reads every option table and writes one line), compared with a program that does nothing."""
     taken = measure.in_turn({"lambent": lambda: measure.process([paths.LAMBENT, "--version"]).wall_ms,

@@ -110,7 +110,8 @@ typedef struct lam_shape_params {
     // at most 4096 for each patch; gyroid and metaballs ignore it.
     int stacks;
     const lam_control *control; // control of the construction; NULL if there is none
-    LAM_RESERVED(8);
+    int threads;                // number of threads that compute the shape, 1..1024; 0: auto
+    LAM_RESERVED(7);
 } lam_shape_params;
 
 // Returns the number of built-in shapes: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot, gyroid,

@@ -24,15 +24,22 @@ static void *suballocate(struct suballocator *from, size_t count, size_t size)
 
 #define ARRAY(pointer, count) ((pointer) = suballocate(from, count, sizeof *(pointer)))
 
-static void lay_out_shading(struct suballocator *from, struct shading *shading, const struct frame *frame)
+// Rows for the most vertices of a tile, three for each fragment.
+static void lay_out_vertices(struct suballocator *from, struct vertex_cache *cache, int samples)
 {
-    size_t vertices = 3 * ((size_t)tile_samples_count(frame->settings.samples) + LANES_MAX), slots = 64;
+    size_t vertices = 3 * ((size_t)tile_samples_count(samples) + LANES_MAX), slots = 64;
     while (slots < 2 * vertices)
         slots *= 2;
-    ARRAY(shading->vertices.table, slots);
-    ARRAY(shading->vertices.color, vertices);
-    ARRAY(shading->vertices.key, vertices);
-    ARRAY(shading->vertices.rest, vertices);
+    ARRAY(cache->table, slots);
+    ARRAY(cache->color, vertices);
+    ARRAY(cache->key, vertices);
+    ARRAY(cache->rest, vertices);
+}
+
+static void lay_out_shading(struct suballocator *from, struct shading *shading, const struct frame *frame)
+{
+    if (frame->settings.shading != LAM_SHADING_PHONG)
+        lay_out_vertices(from, &shading->vertices, frame->settings.samples);
     ARRAY(shading->batch, 1);
     shading->shadows = NULL;
     if (frame_has_rays(frame))
@@ -212,26 +219,43 @@ static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, l
     return light_bounds_make(&memory->light_bounds, &memory->lights, frame, cpu->shade.materials, cpu->call, error);
 }
 
-bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
+// Lists memory that nothing uses while occlusion is computed: the transformed vertices, if fragments are stored, and the
+// picture, which is not drawn yet.
+static int lend_memory(const struct cpu_frame *cpu, const struct frame_memory *memory, struct scratch_memory lent[2])
+{
+    const lam_image *image = cpu->target.image;
+    ptrdiff_t row = image->width * (ptrdiff_t)working_bytes(image);
+    int count = 0;
+    if (keeps_fragments(cpu) && !cpu->raster.frame->makes_normals)
+        lent[count++] = (struct scratch_memory){.memory = memory->vertices.data, .capacity = memory->vertices.capacity};
+    if (!cpu->target.converted && image_stride(image) == row && (uintptr_t)image->pixels % 64 == 0)
+        lent[count++] =
+            (struct scratch_memory){.memory = image->pixels, .capacity = (size_t)row * (size_t)image->height};
+    return count;
+}
+
+static bool set_up_occlusion(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->raster.frame;
-    if (!list_chunks(cpu, memory, error))
-        return false;
+    struct scratch_memory lent[2];
     if (frame->settings.occlusion == LAM_OCCLUSION_RAYS) {
         if (!buffer_reserve(&memory->occlusion, sizeof(struct occlusion_pattern), cpu->call, error))
             return false;
         occlusion_pattern_fill(memory->occlusion.data, frame->settings.occlusion_samples);
         cpu->shade.occlusion_pattern = memory->occlusion.data;
     } else if (frame->settings.occlusion == LAM_OCCLUSION_SCREEN) {
-        // If fragments are stored, the transformed vertices are no longer needed.
-        struct scratch_memory lent = {0};
-        if (keeps_fragments(cpu) && !frame->makes_normals)
-            lent = (struct scratch_memory){.memory = memory->vertices.data, .capacity = memory->vertices.capacity};
-        if (!screen_occlusion_start(&cpu->occlusion, frame, lent, &memory->occlusion, cpu->pool, cpu->call, error))
+        if (!screen_occlusion_start(&cpu->occlusion, frame, lent, lend_memory(cpu, memory, lent), &memory->occlusion,
+                                    cpu->pool, cpu->call, error))
             return false;
         cpu->shade.occlusion = &cpu->occlusion;
     }
-    return set_up_shading(cpu, memory, error) && set_up_threads(cpu, &memory->bins, error);
+    return true;
+}
+
+bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
+{
+    return list_chunks(cpu, memory, error) && set_up_occlusion(cpu, memory, error) &&
+           set_up_shading(cpu, memory, error) && set_up_threads(cpu, &memory->bins, error);
 }
 
 uint64_t frame_memory_bytes(const struct frame_memory *memory)

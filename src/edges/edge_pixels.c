@@ -15,12 +15,15 @@
 
 #include <string.h>
 
-enum { BAND = 32 }; // rows per task
+enum { BAND = 32, BANDS_MAX = 65536 / BAND }; // rows per task; tasks of the highest picture
 
 struct cover_job {
     struct edge_memory *memory;
     const struct frame *frame;
     struct loop_status loop;
+    // The strokes that may touch each band of rows. Band b begins at ends[b − 1], or 0 for the first, and ends at ends[b].
+    const struct edge_stroke **strokes;
+    size_t ends[BANDS_MAX];
 };
 
 static double absolute_of(double x) { return x < 0 ? -x : x; }
@@ -107,15 +110,52 @@ static void band_task(void *user, size_t index, int thread)
         if (memory->styles[style])
             memset((float *)memory->coverage[style].data + (size_t)top * width, 0,
                    (size_t)(bottom - top) * width * sizeof(float));
+    for (size_t i = index ? job->ends[index - 1] : 0; i < job->ends[index]; i++)
+        draw_stroke(job, job->strokes[i], top, bottom);
+}
+
+static void bands_of(const struct edge_stroke *s, int bands, int *first, int *last)
+{
+    double reach = s->half + 2, low = s->y[0] < s->y[1] ? s->y[0] : s->y[1],
+           high = s->y[0] < s->y[1] ? s->y[1] : s->y[0];
+    *first = clamped((low - reach) / BAND, bands - 1);
+    *last = clamped((high + reach) / BAND, bands - 1);
+}
+
+// Lists the strokes of each band by counting. The order of a band's strokes does not matter.
+static bool list_strokes(struct cover_job *job, int bands, struct call_control *call, lam_error *error)
+{
+    struct edge_memory *memory = job->memory;
+    size_t sum = 0;
+    int first, last;
+    memset(job->ends, 0, sizeof job->ends);
     for (int t = 0; t < memory->thread_count; t++)
-        for (size_t i = 0; i < memory->strokes[t].count; i++)
-            draw_stroke(job, &memory->strokes[t].list[i], top, bottom);
+        for (size_t i = 0; i < memory->strokes[t].count; i++) {
+            bands_of(&memory->strokes[t].list[i], bands, &first, &last);
+            for (int b = first; b <= last; b++)
+                job->ends[b]++;
+        }
+    for (int b = 0; b < bands; b++) { // the start of each band; the next loop makes it the end
+        size_t count = job->ends[b];
+        job->ends[b] = sum;
+        sum += count;
+    }
+    if (!buffer_reserve(&memory->bands, sum * sizeof *job->strokes, call, error))
+        return false;
+    job->strokes = memory->bands.data;
+    for (int t = 0; t < memory->thread_count; t++)
+        for (size_t i = 0; i < memory->strokes[t].count; i++) {
+            bands_of(&memory->strokes[t].list[i], bands, &first, &last);
+            for (int b = first; b <= last; b++)
+                job->strokes[job->ends[b]++] = &memory->strokes[t].list[i];
+        }
+    return true;
 }
 
 bool edges_cover(struct edge_memory *memory, const struct frame *frame, struct pool *pool, struct call_control *call,
                  lam_error *error)
 {
-    struct cover_job job = {memory, frame, {.call = call}};
+    struct cover_job job = {.memory = memory, .frame = frame, .loop = {.call = call}};
     size_t bytes = (size_t)frame->width * (size_t)frame->height * sizeof(float);
     memset(memory->styles, 0, sizeof memory->styles);
     for (int t = 0; t < memory->thread_count; t++)
@@ -124,7 +164,10 @@ bool edges_cover(struct edge_memory *memory, const struct frame *frame, struct p
     for (int style = 0; style < EDGE_STYLES; style++)
         if (memory->styles[style] && !buffer_reserve(&memory->coverage[style], bytes, call, error))
             return false;
-    pool_run(pool, (size_t)((frame->height + BAND - 1) / BAND), band_task, &job);
+    int bands = (frame->height + BAND - 1) / BAND;
+    if (!list_strokes(&job, bands, call, error))
+        return false;
+    pool_run(pool, (size_t)bands, band_task, &job);
     return should_continue(&job.loop) || loop_error(&job.loop, 0, error);
 }
 

@@ -268,6 +268,7 @@ void edges_free(struct edge_memory *memory)
     buffer_free(&memory->scratch);
     buffer_free(&memory->measures);
     buffer_free(&memory->weights);
+    buffer_free(&memory->bands);
     for (int i = 0; i < EDGE_STYLES; i++)
         buffer_free(&memory->coverage[i]);
     for (int i = 0; i < memory->thread_count; i++)
@@ -278,7 +279,7 @@ void edges_free(struct edge_memory *memory)
 uint64_t edges_bytes(const struct edge_memory *memory)
 {
     uint64_t bytes = memory->edges.capacity + memory->sources.capacity + memory->scratch.capacity +
-                     memory->measures.capacity + memory->weights.capacity;
+                     memory->measures.capacity + memory->weights.capacity + memory->bands.capacity;
     for (int i = 0; i < EDGE_STYLES; i++)
         bytes += memory->coverage[i].capacity;
     for (int i = 0; i < memory->thread_count; i++)

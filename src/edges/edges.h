@@ -27,6 +27,7 @@ struct edge_memory {
     struct buffer measures; // measures of the edges, if hidden lines are dashed
     struct buffer weights;  // weights of the edges, if there are feature edges
     int thread_count;
+    struct buffer bands;                 // the strokes of each band of rows
     struct buffer coverage[EDGE_STYLES]; // one float per pixel
     bool styles[EDGE_STYLES];            // the styles in the last frame
 };

@@ -14,8 +14,7 @@
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
                     lam_error *error)
 {
-    if (!screen_occlusion_start(occlusion, f->frame, (struct scratch_memory){0}, &f->device->occlusion, NULL, f->call,
-                                error))
+    if (!screen_occlusion_start(occlusion, f->frame, NULL, 0, &f->device->occlusion, NULL, f->call, error))
         return false;
     for (int y = 0; y < occlusion->height; y++) {
         const float *row = (const float *)((const char *)distances->pixels + (size_t)y * distances->stride);

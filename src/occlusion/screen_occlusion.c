@@ -27,24 +27,41 @@ static void empty_chunk(void *user, size_t index, int thread)
         emptying->at[i] = SCREEN_EMPTY;
 }
 
-bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory lent,
-                            struct buffer *storage, struct pool *pool, struct call_control *call, lam_error *error)
+// Finds memory for the planes of cells in the lent blocks. Returns how many planes did not fit; their pointers are NULL.
+static int place_planes(float *planes[CELL_PLANES], int count, size_t bytes, struct scratch_memory *lent,
+                        int lent_count)
+{
+    int missing = CELL_PLANES;
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < lent_count && !planes[k]; i++)
+            missing -= (planes[k] = scratch_borrow(&lent[i], bytes)) != NULL;
+    return missing;
+}
+
+bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory *lent,
+                            int lent_count, struct buffer *storage, struct pool *pool, struct call_control *call,
+                            lam_error *error)
 {
     int step = (int64_t)frame->width * frame->height > SCREEN_FINE ? 2 : 1;
     int across = (frame->width + step - 1) / step, down = (frame->height + step - 1) / step;
     int stride = (across + LANES_MAX - 1) / LANES_MAX * LANES_MAX + 2 * LANES_MAX;
-    size_t plane = (size_t)stride * (size_t)down, pixels = (size_t)(step * step) * plane, cells = CELL_PLANES * plane;
-    bool fits = lent.memory && cells * sizeof(float) <= lent.capacity;
-    if (!buffer_reserve(storage, (pixels + (fits ? 0 : cells)) * sizeof(float), call, error))
+    size_t plane = (size_t)stride * (size_t)down, pixels = (size_t)(step * step) * plane;
+    float *planes[CELL_PLANES] = {0};
+    // With step 1, the last plane stores the result, which is read until the picture is complete.
+    int own = place_planes(planes, step > 1 ? CELL_PLANES : CELL_PLANES - 1, plane * sizeof(float), lent, lent_count);
+    if (!buffer_reserve(storage, (pixels + (size_t)own * plane) * sizeof(float), call, error))
         return false;
-    float *depth = storage->data, *at = fits ? lent.memory : depth + pixels;
+    float *depth = storage->data, *at = depth + pixels;
     struct emptying emptying = {depth, pixels, call};
     pool_run(pool, (pixels + CHUNK - 1) / CHUNK, empty_chunk, &emptying);
     if (!call_should_continue(call))
         return call_error(call, error);
-    at += LANES_MAX;
+    for (int k = 0; k < CELL_PLANES; k++) {
+        float *begin = planes[k] ? planes[k] : at;
+        at += planes[k] ? 0 : plane;
+        planes[k] = begin + LANES_MAX;
+    }
     depth += LANES_MAX;
-    float *fifth = at + 4 * plane;
     *occlusion = (struct screen_occlusion){.width = frame->width,
                                            .height = frame->height,
                                            .step = step,
@@ -57,13 +74,13 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                                            .radius = frame->occlusion_radius,
                                            .cavity_radius = frame->cavity_radius,
                                            .ridges = frame->ridges,
-                                           .slope_x = at,
-                                           .slope_y = at + plane,
-                                           .noisy = at + 2 * plane,
-                                           .smoothed = at + 3 * plane,
-                                           .cell_depth = step > 1 ? fifth : depth,
+                                           .slope_x = planes[0],
+                                           .slope_y = planes[1],
+                                           .noisy = planes[2],
+                                           .smoothed = planes[3],
+                                           .cell_depth = step > 1 ? planes[4] : depth,
                                            .depth = depth,
-                                           .unoccluded = step > 1 ? depth : fifth};
+                                           .unoccluded = step > 1 ? depth : planes[4]};
     return true;
 }
 

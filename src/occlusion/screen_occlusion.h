@@ -79,11 +79,11 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
     return seen && (dx * dx + dy * dy) + dz * dz < end * end ? depth : SCREEN_EMPTY;
 }
 
-// Initialises a picture's rows in `storage` without any surface, using the threads of `pool` (may be NULL). `lent` is
-// optional memory that nothing else uses from screen_occlusion_find until the result has been read; if it is large
-// enough, it stores the cells.
-bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory lent,
-                            struct buffer *storage, struct pool *pool, struct call_control *call, lam_error *error);
+// Initialises a picture's rows in `storage` without any surface, using the threads of `pool` (may be NULL). `lent` lists
+// blocks of memory that nothing else uses during screen_occlusion_find; they store the rows of cells that fit.
+bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory *lent,
+                            int lent_count, struct buffer *storage, struct pool *pool, struct call_control *call,
+                            lam_error *error);
 
 // The steps (screen_occlusion.inc, compiled for each instruction set), for rows of cells from `first` to before `end`:
 // the depth of each cell (with step 2), its occlusion, the two passes of its filter, and its pixels. Each step

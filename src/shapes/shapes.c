@@ -262,7 +262,7 @@ static bool build_round(const struct shape_request *request, lam_surface_fn *sur
     struct segments n = {slices, stacks};
     lam_parametric one = round_surface(surface, &n, stacks);
     one.v_closed = v_closed;
-    return tessellate_parametric(&one, 1, request->arena, request->call, mesh, request->error);
+    return tessellate_parametric(&one, 1, request, mesh);
 }
 
 // With 192 segments, the outline at 1024 pixels deviates from the circle by less than a sixteenth of a pixel.
@@ -298,7 +298,7 @@ static bool plane_build(const struct shape_request *request, lam_mesh *mesh)
     struct square ground = {v3(0, 0, 0), v3(1, 0, 0), v3(0, 0, -1)};
     int slices = request->slices ? request->slices : 1, stacks = request->stacks ? request->stacks : 1;
     lam_parametric one = square_surface(&ground, slices, stacks);
-    return tessellate_parametric(&one, 1, request->arena, request->call, mesh, request->error);
+    return tessellate_parametric(&one, 1, request, mesh);
 }
 
 // Builds six faces with upright textures. Edges along X and Z have `slices` segments, edges along Y `stacks`.
@@ -313,7 +313,7 @@ static bool cube_build(const struct shape_request *request, lam_mesh *mesh)
     lam_parametric surfaces[6];
     for (int i = 0; i < 6; i++)
         surfaces[i] = square_surface(&faces[i], slices, i < 4 ? stacks : slices);
-    return tessellate_parametric(surfaces, 6, request->arena, request->call, mesh, request->error);
+    return tessellate_parametric(surfaces, 6, request, mesh);
 }
 
 static bool build_revolved(const struct shape_request *request, lam_surface_fn *side, bool has_top, lam_mesh *mesh)
@@ -322,7 +322,7 @@ static bool build_revolved(const struct shape_request *request, lam_surface_fn *
     struct segments n = {slices, stacks};
     lam_parametric surfaces[3] = {round_surface(side, &n, stacks), round_surface(bottom_disc, &n, 1),
                                   round_surface(top_disc, &n, 1)};
-    return tessellate_parametric(surfaces, has_top ? 3 : 2, request->arena, request->call, mesh, request->error);
+    return tessellate_parametric(surfaces, has_top ? 3 : 2, request, mesh);
 }
 
 static bool cylinder_build(const struct shape_request *request, lam_mesh *mesh)
@@ -440,6 +440,9 @@ static bool check_params(const char *name, const lam_shape_params *params, lam_e
     if (!(params->radius >= 0) || params->radius > 1e30)
         return fail(error, LAM_BAD_ARGUMENT, "shape '%s': radius is %g, expected more than 0 and at most 1e30 (0: 1)",
                     name, params->radius);
+    if (params->threads < 0 || params->threads > 1024)
+        return fail(error, LAM_BAD_ARGUMENT, "shape '%s': threads is %d, expected 1 to 1024 (0: one each processor)",
+                    name, params->threads);
     if (params->slices != 0 && (params->slices < 3 || params->slices > 16384))
         return fail(error, LAM_BAD_ARGUMENT, "shape '%s': slices is %d, expected 3 to 16384 (0: its own)", name,
                     params->slices);
@@ -471,7 +474,7 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
     }
     if (!check_params(shape, params, error))
         return -1;
-    struct shape_request request = {params->slices, params->stacks, &scene->arena, call, error};
+    struct shape_request request = {params->slices, params->stacks, &scene->arena, call, error, params->threads};
     lam_mesh mesh = {0};
     bool made = shapes[row].build(&request, &mesh);
     if (made && params->radius > 0)
@@ -513,7 +516,8 @@ int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, co
     struct call_control call;
     uint64_t state = begin(scene, &call, control);
     lam_mesh mesh = {0};
-    bool made = tessellate_parametric(surface, 1, &scene->arena, &call, &mesh, error);
+    const struct shape_request request = {.arena = &scene->arena, .call = &call, .error = error, .threads = 1};
+    bool made = tessellate_parametric(surface, 1, &request, &mesh);
     return end(scene, state, add_mesh(scene, made, &mesh, error));
 }
 

@@ -10,12 +10,22 @@
 // The most vertices of a tessellated mesh; more fail with LAM_LIMIT.
 enum { SHAPE_VERTICES_MAX = 1 << 28 };
 
-// Tessellates parametric surfaces into one mesh: positions, welded within each surface, and normals, tangents and
-// texture coordinates (0…1 over each domain) with their own indices. shapes_parametric.c explains seams and poles.
-bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
-                           lam_mesh *mesh, lam_error *error);
+// Arguments of the function that builds a shape as a mesh of radius 1. Segments of 0: the shape's default.
+struct shape_request {
+    int slices, stacks;
+    struct arena *arena;
+    struct call_control *call;
+    lam_error *error;
+    int threads; // that compute the surface; 0: one for each processor
+};
 
-// Does the same, and writes a byte for each vertex to `scratch`: 1 at a border of its surface.
+// Tessellates parametric surfaces into one mesh: positions, welded within each surface, and normals, tangents and
+// texture coordinates (0…1 over each domain) with their own indices. shapes_parametric.c explains seams and poles. With
+// several threads, functions of surfaces are called by all of them.
+bool tessellate_parametric(const lam_parametric *surfaces, int count, const struct shape_request *request,
+                           lam_mesh *mesh);
+
+// Does the same with one thread, and writes a byte for each vertex to `scratch`: 1 at a border of its surface.
 bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                          lam_mesh *mesh, struct arena *scratch, uint8_t **border, lam_error *error);
 
@@ -30,13 +40,6 @@ struct circle_point {
 };
 struct circle_point circle(double steps, double around);
 
-// Arguments of the function that builds a shape as a mesh of radius 1. Segments of 0: the shape's default.
-struct shape_request {
-    int slices, stacks;
-    struct arena *arena;
-    struct call_control *call;
-    lam_error *error;
-};
 bool teapot_build(const struct shape_request *request, lam_mesh *mesh);
 
 #endif

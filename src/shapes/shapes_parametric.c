@@ -17,7 +17,9 @@
 
 #include "fail.h"
 #include "linear.h"
+#include "loop_status.h"
 #include "origin.h"
+#include "pool.h"
 
 #include <string.h>
 
@@ -30,9 +32,22 @@
 // A pole is smooth if the cosines of its normals with their mean are above this (0.08°).
 #define SMOOTH_POLE (1 - 1e-6)
 
+enum {
+    ROWS = 4,            // of a parallel task
+    OF_THREAD = 1 << 12, // the fewest vertices for which a thread is started
+};
+
+// A row of vertices, numbered from left to right. A vertex belongs to the first row and column that contain it.
+struct row {
+    uint32_t first, middle, last; // the vertices of column 0, 1 and u_segments
+    bool single;                  // all columns have the vertex `first`
+    bool owns_first, owns_middle, owns_last;
+    bool pole;     // its points coincide
+    size_t corner; // the first corner of its cells, which are between the previous row and this one
+};
+
 struct tessellation {
     const lam_parametric *surface;
-    lam_mesh *mesh;
     // The mesh's arrays, writable.
     float *positions, *normals, *tangents, *texcoords;
     uint32_t *indices, *attributes;
@@ -43,8 +58,11 @@ struct tessellation {
     size_t corner;
     bool first_column_pole, last_column_pole;
     uint8_t *border; // set for each vertex on the border; NULL if not requested
-    lam_surface_point *row;
-    uint32_t *ids[3]; // vertices of the previous row, the current row and the first row
+    struct row *rows;
+    lam_surface_point *points; // rows of `widest` points, one for each thread
+    size_t widest;
+    struct loop_status loop;
+    int failed; // the first row with a bad point, or above all rows
 };
 
 // Returns the parameter at step i of n from a to b. The ends are exact; mirrored steps of a symmetric domain give
@@ -124,30 +142,31 @@ static bool column_is_pole(const struct tessellation *t, double u)
     return true;
 }
 
-static bool row_is_pole(const struct tessellation *t)
+static bool row_is_pole(const struct tessellation *t, double v)
 {
-    for (int i = 1; i <= t->surface->u_segments; i++)
-        if (!coincide(t, t->row[0].p, t->row[i].p))
+    const lam_parametric *s = t->surface;
+    lam_vec3 first = evaluate(t, s->u_min, v).p;
+    for (int i = 1; i <= s->u_segments; i++)
+        if (!coincide(t, first, evaluate(t, parameter(s->u_min, s->u_max, i, s->u_segments), v).p))
             return false;
     return true;
 }
 
-static bool add_position(struct tessellation *t, lam_vec3 p, uint32_t *id, lam_error *error)
+static bool set_position(const struct tessellation *t, uint32_t vertex, lam_vec3 p, lam_error *error)
 {
     const double limit = 1e38; // below FLT_MAX, so that differences and lengths do not overflow
     double q[3] = {p.x - t->origin[0], p.y - t->origin[1], p.z - t->origin[2]};
-    float *at = t->positions + 3 * (size_t)t->vertex;
+    float *at = t->positions + 3 * (size_t)vertex;
     for (int a = 0; a < 3; a++) {
         if (!(q[a] > -limit && q[a] < limit))
             return fail(error, LAM_BAD_ARGUMENT,
                         "parametric surface: a point's coordinate is %g, expected a finite number below 1e38", q[a]);
         at[a] = (float)(q[a] + 0.0); // −0 becomes 0
     }
-    *id = t->vertex++;
     return true;
 }
 
-static void set_attributes(struct tessellation *t, size_t at, lam_vec3 n, lam_vec3 tangent)
+static void set_attributes(const struct tessellation *t, size_t at, lam_vec3 n, lam_vec3 tangent)
 {
     float *normal = t->normals + 3 * at, *four = t->tangents + 4 * at;
     normal[0] = (float)(n.x + 0.0);
@@ -165,7 +184,7 @@ static size_t attribute_at(const struct tessellation *t, int i, int j)
 }
 
 // Gives a smooth pole one normal: the mean over its columns, if they agree with it.
-static void smooth_pole(struct tessellation *t, int j)
+static void smooth_pole(const struct tessellation *t, int j)
 {
     int count = t->surface->u_segments;
     lam_vec3 sum = v3(0, 0, 0);
@@ -187,11 +206,22 @@ static void smooth_pole(struct tessellation *t, int j)
     }
 }
 
-// Adds the attributes of row j; at a pole, the attributes of the centres of the cells.
-static void add_attributes(struct tessellation *t, int j, bool pole)
+static void copy_attributes(const struct tessellation *t, size_t to, size_t from)
+{
+    memcpy(t->normals + 3 * to, t->normals + 3 * from, 3 * sizeof(float));
+    memcpy(t->tangents + 4 * to, t->tangents + 4 * from, 4 * sizeof(float));
+}
+
+// Returns whether row j is the last one of a surface that is closed along v. Its normals and tangents are copied from
+// the first row, after all others are computed.
+static bool closes(const lam_parametric *s, int j) { return s->v_closed && j == s->v_segments; }
+
+// Computes the attributes of row j; at a pole, the attributes of the centres of the cells.
+static void set_row_attributes(const struct tessellation *t, int j, const lam_surface_point *points)
 {
     const lam_parametric *s = t->surface;
     int count = s->u_segments;
+    bool pole = t->rows[j].pole;
     double v = parameter(s->v_min, s->v_max, j, s->v_segments);
     for (int i = 0; i <= count; i++) {
         size_t at = attribute_at(t, i, j);
@@ -200,16 +230,14 @@ static void add_attributes(struct tessellation *t, int j, bool pole)
         double at_v = column_pole && j < s->v_segments ? middle(s->v_min, s->v_max, j, s->v_segments) : v;
         t->texcoords[2 * at] = (float)((u - s->u_min) / (s->u_max - s->u_min));
         t->texcoords[2 * at + 1] = (float)((at_v - s->v_min) / (s->v_max - s->v_min));
-        size_t same = s->v_closed && j == s->v_segments ? attribute_at(t, i, 0)
-                      : s->u_closed && i == count       ? attribute_at(t, 0, j)
-                                                        : at;
-        if (same != at) {
-            memcpy(t->normals + 3 * at, t->normals + 3 * same, 3 * sizeof(float));
-            memcpy(t->tangents + 4 * at, t->tangents + 4 * same, 4 * sizeof(float));
+        if (closes(s, j))
+            continue;
+        if (s->u_closed && i == count) {
+            copy_attributes(t, at, attribute_at(t, 0, j));
             continue;
         }
         lam_surface_point moved;
-        const lam_surface_point *point = &t->row[i];
+        const lam_surface_point *point = &points[i];
         if (pole || column_pole) {
             moved = evaluate(t, u, at_v);
             point = &moved;
@@ -218,30 +246,33 @@ static void add_attributes(struct tessellation *t, int j, bool pole)
         frame_at(t, u, at_v, point, &normal, &tangent);
         set_attributes(t, at, normal, tangent);
     }
-    if (pole)
+    if (pole && !closes(s, j))
         smooth_pole(t, j);
 }
 
-// Adds the vertices of row j and stores them in ids[1].
-static bool add_vertices(struct tessellation *t, int j, bool pole, lam_error *error)
+static uint32_t vertex_at(const struct tessellation *t, int i, int j)
+{
+    const struct row *row = &t->rows[j];
+    if (i == 0 || row->single)
+        return row->first;
+    return i == t->surface->u_segments ? row->last : row->middle + (uint32_t)i - 1;
+}
+
+// Writes the positions of the vertices that belong to row j.
+static bool set_row_positions(const struct tessellation *t, int j, const lam_surface_point *points, lam_error *error)
 {
     const lam_parametric *s = t->surface;
-    uint32_t *before = t->ids[0], *ids = t->ids[1], *first = t->ids[2];
+    const struct row *row = &t->rows[j];
     int count = s->u_segments;
     for (int i = 0; i <= count; i++) {
-        if (j > 0 && j == s->v_segments && s->v_closed)
-            ids[i] = first[i];
-        else if (i > 0 && (pole || (i == count && s->u_closed)))
-            ids[i] = ids[0];
-        else if (j > 0 && ((i == 0 && t->first_column_pole) || (i == count && t->last_column_pole)))
-            ids[i] = before[i];
-        else if (!add_position(t, t->row[i].p, &ids[i], error))
+        if (!(i == 0 ? row->owns_first : i == count ? row->owns_last : row->owns_middle))
+            continue;
+        uint32_t vertex = vertex_at(t, i, j);
+        if (!set_position(t, vertex, points[i].p, error))
             return false;
-        if (t->border && t->vertex && ids[i] == t->vertex - 1)
-            t->border[ids[i]] = i == 0 || i == count || j == 0 || j == s->v_segments;
+        if (t->border)
+            t->border[vertex] = i == 0 || i == count || j == 0 || j == s->v_segments;
     }
-    if (j == 0)
-        memcpy(first, ids, (size_t)(count + 1) * sizeof *ids);
     return true;
 }
 
@@ -249,62 +280,130 @@ struct cell_corner {
     uint32_t vertex, attribute;
 };
 
-static void add_triangle(struct tessellation *t, struct cell_corner a, struct cell_corner b, struct cell_corner c)
+static bool is_triangle(uint32_t a, uint32_t b, uint32_t c) { return a != b && b != c && c != a; }
+
+static void add_triangle(const struct tessellation *t, size_t *corner, struct cell_corner a, struct cell_corner b,
+                         struct cell_corner c)
 {
-    if (a.vertex == b.vertex || b.vertex == c.vertex || c.vertex == a.vertex)
+    if (!is_triangle(a.vertex, b.vertex, c.vertex))
         return;
     struct cell_corner corners[3] = {a, b, c};
     for (int k = 0; k < 3; k++) {
-        t->indices[t->corner] = corners[k].vertex;
-        t->attributes[t->corner++] = corners[k].attribute;
+        t->indices[*corner] = corners[k].vertex;
+        t->attributes[(*corner)++] = corners[k].attribute;
     }
 }
 
-// Returns the corner (i, j) of cell (cell_i, cell_j). At a pole, each cell has its own attributes, at the index of the
-// cell.
-static struct cell_corner corner_of(const struct tessellation *t, int i, int j, int cell_i, int cell_j, uint32_t vertex,
-                                    bool row_pole)
+// Writes the cells between row j − 1 and row j. At a pole, each cell has its own attributes, at the index of the cell.
+static void set_cells(const struct tessellation *t, int j)
 {
-    bool column_pole = (i == 0 && t->first_column_pole) || (i == t->surface->u_segments && t->last_column_pole);
-    return (struct cell_corner){vertex, (uint32_t)attribute_at(t, row_pole ? cell_i : i, column_pole ? cell_j : j)};
-}
-
-static void add_cells(struct tessellation *t, int j, bool pole_before, bool pole)
-{
-    const uint32_t *below = t->ids[0], *above = t->ids[1];
-    for (int i = 0; i < t->surface->u_segments; i++) {
-        struct cell_corner a = corner_of(t, i, j - 1, i, j - 1, below[i], pole_before);
-        struct cell_corner b = corner_of(t, i + 1, j - 1, i, j - 1, below[i + 1], pole_before);
-        struct cell_corner c = corner_of(t, i + 1, j, i, j - 1, above[i + 1], pole);
-        struct cell_corner d = corner_of(t, i, j, i, j - 1, above[i], pole);
-        add_triangle(t, a, b, c);
-        add_triangle(t, a, c, d);
+    const struct row *below = &t->rows[j - 1], *above = &t->rows[j];
+    int count = t->surface->u_segments;
+    uint32_t low = (uint32_t)attribute_at(t, 0, j - 1), high = (uint32_t)attribute_at(t, 0, j);
+    uint32_t left[2] = {vertex_at(t, 0, j - 1), vertex_at(t, 0, j)};
+    size_t corner = above->corner;
+    for (int i = 0; i < count; i++) {
+        uint32_t right[2] = {vertex_at(t, i + 1, j - 1), vertex_at(t, i + 1, j)}, at = (uint32_t)i;
+        bool left_pole = i == 0 && t->first_column_pole, right_pole = i + 1 == count && t->last_column_pole;
+        struct cell_corner a = {left[0], low + at}, b = {right[0], low + at + !below->pole};
+        struct cell_corner c = {right[1], (right_pole ? low : high) + at + !above->pole};
+        struct cell_corner d = {left[1], (left_pole ? low : high) + at};
+        add_triangle(t, &corner, a, b, c);
+        add_triangle(t, &corner, a, c, d);
+        left[0] = right[0];
+        left[1] = right[1];
     }
 }
 
-static bool tessellate_one(struct tessellation *t, struct call_control *call, lam_error *error)
+// Counts the corners of the cells between row j − 1 and row j. Without poles, all cells have two triangles, except in
+// surfaces with one segment, whose ends may be joined.
+static size_t count_corners(const struct tessellation *t, int j)
+{
+    const lam_parametric *s = t->surface;
+    size_t triangles = 0;
+    if (!t->rows[j - 1].single && !t->rows[j].single && !t->first_column_pole && !t->last_column_pole &&
+        s->u_segments > 1 && s->v_segments > 1)
+        return 6 * (size_t)s->u_segments;
+    for (int i = 0; i < s->u_segments; i++) {
+        uint32_t a = vertex_at(t, i, j - 1), b = vertex_at(t, i + 1, j - 1), c = vertex_at(t, i + 1, j),
+                 d = vertex_at(t, i, j);
+        triangles += (size_t)is_triangle(a, b, c) + (size_t)is_triangle(a, c, d);
+    }
+    return 3 * triangles;
+}
+
+// Numbers the vertices and corners of all rows, so that they can be computed in any order.
+static void number_rows(struct tessellation *t)
+{
+    const lam_parametric *s = t->surface;
+    for (int j = 0; j <= s->v_segments && should_continue(&t->loop); j++) {
+        struct row *row = &t->rows[j], *before = j > 0 ? row - 1 : row;
+        bool pole = row_is_pole(t, parameter(s->v_min, s->v_max, j, s->v_segments)), joined = pole || s->u_closed;
+        if (closes(s, j)) {
+            *row = t->rows[0];
+            row->owns_first = row->owns_middle = row->owns_last = false;
+        } else {
+            *row = (struct row){.single = pole,
+                                .owns_first = j == 0 || !t->first_column_pole,
+                                .owns_middle = !pole,
+                                .owns_last = !joined && (j == 0 || !t->last_column_pole)};
+            row->first = row->owns_first ? t->vertex++ : before->first;
+            row->middle = t->vertex;
+            t->vertex += row->owns_middle ? (uint32_t)s->u_segments - 1 : 0;
+            row->last = row->owns_last ? t->vertex++ : joined ? row->first : before->last;
+        }
+        row->pole = pole;
+        row->corner = t->corner;
+        t->corner += j > 0 ? count_corners(t, j) : 0;
+    }
+}
+
+static bool compute_row(const struct tessellation *t, int j, lam_surface_point *points, lam_error *error)
+{
+    const lam_parametric *s = t->surface;
+    double v = parameter(s->v_min, s->v_max, j, s->v_segments);
+    for (int i = 0; i <= s->u_segments; i++)
+        points[i] = evaluate(t, parameter(s->u_min, s->u_max, i, s->u_segments), v);
+    if (!set_row_positions(t, j, points, error))
+        return false;
+    set_row_attributes(t, j, points);
+    if (j > 0)
+        set_cells(t, j);
+    return true;
+}
+
+static void rows_task(void *user, size_t index, int thread)
+{
+    struct tessellation *t = user;
+    int first = (int)index * ROWS, last = t->surface->v_segments;
+    last = first + ROWS - 1 < last ? first + ROWS - 1 : last;
+    for (int j = first; j <= last && should_continue(&t->loop); j++) {
+        if (compute_row(t, j, t->points + (size_t)thread * t->widest, NULL))
+            continue;
+        int known = __atomic_load_n(&t->failed, __ATOMIC_RELAXED);
+        while (j < known &&
+               !__atomic_compare_exchange_n(&t->failed, &known, j, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+            ;
+        return;
+    }
+}
+
+static bool tessellate_one(struct tessellation *t, struct pool *pool, lam_error *error)
 {
     const lam_parametric *s = t->surface;
     t->first_column_pole = !s->u_closed && column_is_pole(t, s->u_min);
     t->last_column_pole = !s->u_closed && column_is_pole(t, s->u_max);
-    bool pole_before = false;
-    for (int j = 0; j <= s->v_segments; j++) {
-        if (!call_should_continue(call))
-            return call_error(call, error);
-        double v = parameter(s->v_min, s->v_max, j, s->v_segments);
-        for (int i = 0; i <= s->u_segments; i++)
-            t->row[i] = evaluate(t, parameter(s->u_min, s->u_max, i, s->u_segments), v);
-        bool pole = row_is_pole(t);
-        if (!add_vertices(t, j, pole, error))
-            return false;
-        add_attributes(t, j, pole);
-        if (j > 0)
-            add_cells(t, j, pole_before, pole);
-        pole_before = pole;
-        uint32_t *swap = t->ids[0];
-        t->ids[0] = t->ids[1];
-        t->ids[1] = swap;
-    }
+    t->failed = s->v_segments + 1;
+    number_rows(t);
+    pool_run(pool, (size_t)s->v_segments / ROWS + 1, rows_task, t);
+    if (!should_continue(&t->loop))
+        return loop_error(&t->loop, 0, error);
+    if (t->failed <= s->v_segments)
+        return compute_row(t, t->failed, t->points, error); // fails again, and fills the error
+    for (int i = 0; s->v_closed && i <= s->u_segments; i++)
+        copy_attributes(t, attribute_at(t, i, s->v_segments), attribute_at(t, i, 0));
+    if (s->v_closed && t->rows[s->v_segments].pole)
+        smooth_pole(t, s->v_segments);
     t->attribute_base += (uint32_t)(s->u_segments + 1) * (uint32_t)(s->v_segments + 1);
     return true;
 }
@@ -354,54 +453,68 @@ static bool sample_box(const lam_parametric *surfaces, int count, double low[3],
     return true;
 }
 
-bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
-                         lam_mesh *mesh, struct arena *border_arena, uint8_t **border, lam_error *error)
+// Makes a pool of at most `threads` threads (0: one for each processor) for this many vertices, or returns NULL if one
+// thread suffices.
+static struct pool *make_pool(int threads, uint64_t vertices)
+{
+    uint64_t useful = vertices / OF_THREAD;
+    threads = threads ? threads : processor_count();
+    threads = (uint64_t)threads < useful ? threads : (int)useful;
+    return threads > 1 ? pool_make(threads) : NULL;
+}
+
+static bool tessellate(const lam_parametric *surfaces, int count, const struct shape_request *request, lam_mesh *mesh,
+                       struct arena *border_arena, uint8_t **border)
 {
     uint64_t attributes = 0, triangles = 0;
-    int widest = 0;
+    int widest = 0, longest = 0;
+    struct arena *arena = request->arena;
     for (int k = 0; k < count; k++) {
         const lam_parametric *s = &surfaces[k];
-        if (!check(s, error))
+        if (!check(s, request->error))
             return false;
         attributes += (uint64_t)(s->u_segments + 1) * (uint64_t)(s->v_segments + 1);
         triangles += 2 * (uint64_t)s->u_segments * (uint64_t)s->v_segments;
         widest = s->u_segments > widest ? s->u_segments : widest;
+        longest = s->v_segments > longest ? s->v_segments : longest;
     }
     if (attributes > SHAPE_VERTICES_MAX)
-        return fail(error, LAM_LIMIT, "parametric surface: %llu vertices, expected at most %d",
+        return fail(request->error, LAM_LIMIT, "parametric surface: %llu vertices, expected at most %d",
                     (unsigned long long)attributes, SHAPE_VERTICES_MAX);
     double low[3], high[3];
-    if (!sample_box(surfaces, count, low, high, error))
+    if (!sample_box(surfaces, count, low, high, request->error))
         return false;
 
-    struct tessellation t = {.mesh = mesh};
+    struct tessellation t = {.widest = (size_t)widest + 1, .loop = {.call = request->call}};
     origin_choose(low, high, t.origin);
     for (int a = 0; a < 3; a++)
         t.size = high[a] - low[a] > t.size ? high[a] - low[a] : t.size;
-    size_t row = (size_t)widest + 1;
     struct arena scratch;
-    arena_start(&scratch, call);
-    t.row = arena_array(&scratch, row, sizeof *t.row);
-    for (int k = 0; k < 3; k++)
-        t.ids[k] = arena_array(&scratch, row, sizeof *t.ids[k]);
-    t.positions = arena_array(arena, attributes, 3 * sizeof(float));
-    t.normals = arena_array(arena, attributes, 3 * sizeof(float));
-    t.tangents = arena_array(arena, attributes, 4 * sizeof(float));
-    t.texcoords = arena_array(arena, attributes, 2 * sizeof(float));
-    t.indices = arena_array(arena, 3 * triangles, sizeof(uint32_t));
-    t.attributes = arena_array(arena, 3 * triangles, sizeof(uint32_t));
+    struct pool *pool = make_pool(request->threads, attributes);
+    arena_start(&scratch, request->call);
+    t.points = arena_array(&scratch, t.widest * (size_t)pool_threads(pool), sizeof *t.points);
+    t.rows = arena_array(&scratch, (size_t)longest + 1, sizeof *t.rows);
+    float *block = arena_array(arena, 12 * attributes + 6 * triangles, sizeof(float));
+    if (block) {
+        t.positions = block;
+        t.normals = t.positions + 3 * attributes;
+        t.tangents = t.normals + 3 * attributes;
+        t.texcoords = t.tangents + 4 * attributes;
+        t.indices = (uint32_t *)(t.texcoords + 2 * attributes);
+        t.attributes = t.indices + 3 * triangles;
+    }
     if (border)
         t.border = *border = arena_alloc_zeroed(border_arena, attributes);
-    bool ok = (!border || t.border) && t.row && t.ids[0] && t.ids[1] && t.ids[2] && t.positions && t.normals &&
-              t.tangents && t.texcoords && t.indices && t.attributes;
+    bool ok = (!border || t.border) && t.points && t.rows && block;
     if (!ok)
-        call_memory_error(call, attributes * 48 + triangles * 24, error);
+        call_memory_error(request->call, attributes * 48 + triangles * 24, request->error);
     for (int k = 0; ok && k < count; k++) {
         t.surface = &surfaces[k];
         t.u_unit = t.size / (t.surface->u_max - t.surface->u_min);
         t.v_unit = t.size / (t.surface->v_max - t.surface->v_min);
-        ok = tessellate_one(&t, call, error);
+        ok = tessellate_one(&t, pool, request->error);
     }
+    pool_free(pool);
     arena_free(&scratch);
     if (!ok)
         return false;
@@ -424,8 +537,15 @@ bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena
     return true;
 }
 
-bool tessellate_parametric(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
-                           lam_mesh *mesh, lam_error *error)
+bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
+                         lam_mesh *mesh, struct arena *scratch, uint8_t **border, lam_error *error)
 {
-    return tessellate_bordered(surfaces, count, arena, call, mesh, NULL, NULL, error);
+    const struct shape_request request = {.arena = arena, .call = call, .error = error, .threads = 1};
+    return tessellate(surfaces, count, &request, mesh, scratch, border);
+}
+
+bool tessellate_parametric(const lam_parametric *surfaces, int count, const struct shape_request *request,
+                           lam_mesh *mesh)
+{
+    return tessellate(surfaces, count, request, mesh, NULL, NULL);
 }

@@ -141,5 +141,5 @@ bool teapot_build(const struct shape_request *request, lam_mesh *mesh)
                                        .v_segments = v,
                                        .u_closed = true};
     }
-    return tessellate_parametric(surfaces, 4, request->arena, request->call, mesh, request->error);
+    return tessellate_parametric(surfaces, 4, request, mesh);
 }

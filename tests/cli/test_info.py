@@ -105,7 +105,7 @@ class Info(GltfCase):
         self.assertEqual([(r["width"], r["height"], r["threads"]) for r in rows], [(1024, 1024, 1), (1024, 1024, 3)])
         self.assertTrue(4 << 20 < rows[0]["memory_bytes"] < rows[1]["memory_bytes"] < 64 << 20, rows)
         self.assertRegex(self.good("info", "teapot").stdout.decode(), r"MB more to draw 1024×1024 pixels by \d+ thread")
-        self.assertIsNone(self.info("teapot", "--memory-limit", "9M")[0]["drawing"])
+        self.assertIsNone(self.info("teapot", "--threads", 3, "--memory-limit", "4M")[0]["drawing"])
 
     def test_required_extensions(self):
         """Models that cannot be drawn can still be inspected."""

@@ -319,6 +319,28 @@ static void test_shape_options(void **state)
     lam_scene_free(scene);
 }
 
+// Any number of threads gives the same mesh.
+static void test_threads(void **state)
+{
+    (void)state;
+    for (int i = 0; i < lam_shape_count(); i++) {
+        static const int threads[] = {1, 2, 5};
+        uint64_t hashes[3];
+        for (int k = 0; k < 3; k++) {
+            lam_scene *scene = lam_scene_make(NULL);
+            hashes[k] = hash_mesh(make(scene, lam_shape_name(i),
+                                       &(lam_shape_params){.slices = 150, .stacks = 131, .threads = threads[k]}));
+            lam_scene_free(scene);
+        }
+        assert_true(hashes[0] == hashes[1] && hashes[0] == hashes[2]);
+    }
+    lam_error error;
+    lam_scene *scene = lam_scene_make(NULL);
+    assert_int_equal(lam_scene_add_shape(scene, "torus", &(lam_shape_params){.threads = 1025}, &error), -1);
+    assert_non_null(strstr(error.text, "threads"));
+    lam_scene_free(scene);
+}
+
 // For any coarseness, no side of a triangle occurs twice in one direction. In a tube that is so coarse that it is flat,
 // both sheets are in one place and share all sides.
 static void test_coarsest_segments(void **state)
@@ -663,6 +685,27 @@ static void test_bad_formulas(void **state)
     lam_scene_free(scene);
 }
 
+// Of several bad points, the first one is reported, whichever thread finds it.
+static void test_bad_points_of_threads(void **state)
+{
+    (void)state;
+    lam_parametric bad = parametric(infinite_point, 1, 1, 150, 150, false);
+    struct arena arena;
+    lam_error errors[2] = {0};
+    for (int k = 0; k < 2; k++) {
+        struct call_control call;
+        lam_mesh mesh;
+        call_start(&call, NULL);
+        arena_start(&arena, &call);
+        const struct shape_request request = {
+            .arena = &arena, .call = &call, .error = &errors[k], .threads = k ? 5 : 1};
+        assert_false(tessellate_parametric(&bad, 1, &request, &mesh));
+        arena_free(&arena);
+    }
+    assert_int_equal(errors[0].code, LAM_BAD_ARGUMENT);
+    assert_string_equal(errors[0].text, errors[1].text);
+}
+
 // If an allocation fails, the call gives an error and nothing else.
 static void test_allocations_fail(void **state)
 {
@@ -816,6 +859,7 @@ int main(void)
         cmocka_unit_test(test_circle),
         cmocka_unit_test(test_shapes),
         cmocka_unit_test(test_shape_options),
+        cmocka_unit_test(test_threads),
         cmocka_unit_test(test_coarsest_segments),
         cmocka_unit_test(test_convergence),
         cmocka_unit_test(test_unit_sphere),
@@ -823,6 +867,7 @@ int main(void)
         cmocka_unit_test(test_tip),
         cmocka_unit_test(test_column_pole_and_origin),
         cmocka_unit_test(test_bad_formulas),
+        cmocka_unit_test(test_bad_points_of_threads),
         cmocka_unit_test(test_allocations_fail),
         cmocka_unit_test(test_teapot_data),
         cmocka_unit_test(test_teapot_against_file),

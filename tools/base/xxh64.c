@@ -15,7 +15,7 @@
 static const uint64_t prime1 = 0x9E3779B185EBCA87u, prime2 = 0xC2B2AE3D27D4EB4Fu, prime3 = 0x165667B19E3779F9u,
                       prime4 = 0x85EBCA77C2B2AE63u, prime5 = 0x27D4EB2F165667C5u;
 
-enum { STRIPE = 32, CHUNK = 64 << 10 };
+enum { STRIPE = 32, CHUNK = 32 << 10 };
 
 static uint64_t rotate(uint64_t x, int bits) { return x << bits | x >> (64 - bits); }
 
@@ -99,7 +99,7 @@ uint64_t xxh64_of(const void *bytes, size_t size)
 
 bool xxh64_file(const char *path, uint64_t *hash)
 {
-    static _Thread_local unsigned char chunk[CHUNK];
+    unsigned char chunk[CHUNK];
     struct stat about;
     if (stat(path, &about) != 0)
         return false;

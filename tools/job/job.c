@@ -107,7 +107,8 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
         return NULL;
     lam_object object = lam_object_default();
     object.name = name;
-    lam_shape_params params = {.slices = o->shading.slices, .stacks = o->shading.stacks, .control = control};
+    lam_shape_params params = {
+        .slices = o->shading.slices, .stacks = o->shading.stacks, .control = control, .threads = o->work.threads};
     const lam_formula formula = formula_of(o);
     object.mesh = formula.text ? lam_scene_add_formula(scene, &formula, control, error)
                                : lam_scene_add_shape(scene, name, &params, error);

@@ -7,7 +7,7 @@
 
 enum {
     SLAB = 2 << 20,   // a huge page
-    FILLED = 1 << 18, // number of triangles that nearly fill the first slab of each thread
+    FILLED = 1 << 17, // number of triangles for each thread that nearly fill its first slab
 };
 
 // Allocates `bytes` from a list of slabs. New slabs come from the system and are kept for later frames.
@@ -27,7 +27,8 @@ static void *slab_take(const struct raster_frame *raster, struct slab_list *list
             if (!call_charge(raster->work->call, SLAB))
                 goto out_of_memory;
             size_t held;
-            bool filled = next > 0 || raster->frame->triangle_count > FILLED; // all of its pages will be used
+            // Whether all of its pages will be used.
+            bool filled = next > 0 || raster->frame->triangle_count / (size_t)raster->thread_count > FILLED;
             void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
             if (!slab) {
                 call_refund(raster->work->call, SLAB);

@@ -36,13 +36,25 @@ struct tile_search {
     struct arena *arenas;
 };
 
-// Number of tiles: about half a million fragments, some megabytes, if all are covered.
-enum { LARGE_PICTURE = 128 };
+// Number of tiles for each thread: about a quarter of a million fragments, more than a megabyte, if all are covered.
+enum { LARGE_PICTURE = 64 };
 
-// Adds the triangles of the fragments to `set` (may be NULL), and returns the lowest and the highest. Whether a
-// fragment's triangle differs from the previous one is unpredictable, so the test is branchless.
-static void add_triangles(struct rank_bitset *set, const struct fragments *fragments, uint32_t *lowest,
-                          uint32_t *highest)
+// Finds the lowest and the highest triangle of the fragments.
+static void range_of_triangles(const struct fragments *fragments, uint32_t *lowest, uint32_t *highest)
+{
+    int32_t low = INT32_MAX, high = 0; // signed, for which every processor has vector comparisons
+    for (int i = 0; i < fragments->count; i++) {
+        int32_t id = (int32_t)(fragments->id[i] & ~BACK_SIDE);
+        low = id < low ? id : low;
+        high = id > high ? id : high;
+    }
+    *lowest = (uint32_t)low;
+    *highest = (uint32_t)high;
+}
+
+// Adds the triangles of the fragments to `set`. Whether a fragment's triangle differs from the previous one is
+// unpredictable, so the test is branchless.
+static void add_triangles(struct rank_bitset *set, const struct fragments *fragments)
 {
     uint32_t *ids = fragments->order; // not used yet
     uint32_t previous = NOTHING;
@@ -53,14 +65,8 @@ static void add_triangles(struct rank_bitset *set, const struct fragments *fragm
         count += id != previous;
         previous = id;
     }
-    *lowest = UINT32_MAX;
-    *highest = 0;
-    for (int i = 0; set && i < count; i++)
+    for (int i = 0; i < count; i++)
         rank_bitset_add(set, ids[i]);
-    for (int i = 0; i < count; i++) {
-        *lowest = ids[i] < *lowest ? ids[i] : *lowest;
-        *highest = ids[i] > *highest ? ids[i] : *highest;
-    }
 }
 
 static void search_tile(void *user, size_t index, int number)
@@ -81,8 +87,9 @@ static void search_tile(void *user, size_t index, int number)
         cpu->kernels->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
     struct fragment_store *fragment_store = &cpu->fragment_stores[index];
     uint32_t highest;
-    add_triangles(cpu->raster.frame->makes_normals ? &cpu->shade.visible.triangles : NULL, &thread->fragments,
-                  &fragment_store->lowest, &highest);
+    range_of_triangles(&thread->fragments, &fragment_store->lowest, &highest);
+    if (cpu->raster.frame->makes_normals)
+        add_triangles(&cpu->shade.visible.triangles, &thread->fragments);
     if (!cpu->kernels->save_fragments(fragment_store, &thread->fragments, cpu->raster.frame->settings.samples, highest,
                                       &search->arenas[number]))
         work_fail(&cpu->work, FAILED_MEMORY);
@@ -99,7 +106,7 @@ static bool search_tiles(struct cpu_frame *cpu, struct visible_buffers *buffers,
     memset(cpu->fragment_stores, 0, tiles * sizeof(struct fragment_store));
     buffers->arenas = (struct arena *)(cpu->fragment_stores + tiles);
     for (size_t i = 0; i < threads; i++)
-        (tiles > LARGE_PICTURE ? arena_start_large : arena_start)(&buffers->arenas[i], cpu->call);
+        (tiles > LARGE_PICTURE * threads ? arena_start_large : arena_start)(&buffers->arenas[i], cpu->call);
     uint64_t start = now_ns();
     pool_run(cpu->pool, tiles, search_tile, &(struct tile_search){cpu, buffers->arenas});
     buffers->search_ms = (double)(now_ns() - start) * 1e-6;

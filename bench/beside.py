@@ -1,23 +1,94 @@
 #!/usr/bin/env python3
-"""beside.py sheets OURS PEER OUT [--seed N]   pairs of pictures of the same name, sides shuffled, for a blind judgement
-beside.py tally OUT ANSWERS...              counts won, drawn and lost; an answer is "7A", "7B" or "7=", a file of answers a judge
-beside.py page OURS PEER OUT                the pairs with names, ours on the left: sheets of WebP for docs/beside.md
+"""beside.py draw PROGRAM OUT             draws the models of bench/peers/models.txt with Lambent and its peers: OUT/ours, OUT/f3d, …
+beside.py sheets OURS OUT PEER...      pairs of pictures of the same name, sides shuffled, for a blind judgement
+beside.py tally OUT ANSWERS...         counts won, drawn and lost; an answer is "7L", "7R" or "7=", a file of answers a judge
+beside.py page OURS PEER OUT           the pairs with names, ours on the left: sheets of WebP for docs/beside.md
 
-OURS and PEER are folders of PNG files, such as bench/contact_sheet.py and bench/model_viewer.mjs write. `sheets` writes OUT/sheet-K.png and
-OUT/key.json, which judges do not get to see. Needs python3-pil."""
+`draw` needs LAMBENT_MODELS, the folder of the models, python3-pil, F3D 1.3 and Xvfb (Debian's f3d and xvfb), Chromium, node and npm, which
+installs F3D 3.5 and model-viewer (bench/peers/package-lock.json). It skips pictures that exist, so it can be repeated. Each peer uses its best
+settings and the same camera: F3D 1.3 FXAA, ambient occlusion, depth peeling and tone mapping of glTF, at twice the size; F3D 3.5 also
+supersampling and its own environment; model-viewer its defaults, at twice the size. OUT/f3d has the better of the two pictures of F3D,
+which a person chose: see bench/peers/models.txt.
+
+`sheets` writes OUT/page_KK.png, OUT/NN_left.png and OUT/NN_right.png, and OUT/key.json, which judges do not get to see."""
 import argparse
 import json
+import os
 import pathlib
 import random
+import shutil
+import subprocess
+import sys
 
 from PIL import Image, ImageDraw, ImageFont
 
-SIDE, GAP, HEAD, COLUMNS, ROWS = 320, 8, 24, 2, 4
+import contact_sheet
+import paths
+
+sys.path.insert(0, os.path.join(paths.ROOT, "web"))
+import build  # noqa: E402
+
+SIDE, GAP, HEAD, COLUMNS, ROWS = 320, 8, 24, 2, 3
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
+PEERS = pathlib.Path(paths.BENCH) / "peers"
+
+
+def listed():
+    """Of each model its name, its path, the better F3D, and whether model-viewer draws it."""
+    for line in (PEERS / "models.txt").read_text().splitlines():
+        if not line.startswith("#"):
+            name, path, *words = line.split()
+            yield name, path, next((w for w in words if w.startswith("f3d")), "f3d-1.3"), "model-viewer" in words
+
+
+def draw_ours(program, path, out):
+    """Draws a model, and returns what Lambent prints of it as JSON."""
+    done = contact_sheet.run(program, path, "-s", SIDE, "-b", "white", "-o", out, "--json")
+    if done.returncode:
+        sys.exit("beside.py: %s" % done.stderr.decode().strip())
+    return json.loads(done.stdout)
+
+
+def draw_peers(given, tasks):
+    """Draws the missing pictures of `tasks`: (peer, name, path, report of Lambent)."""
+    root = paths.REAL_MODELS
+    tasks = [task for task in tasks if not (given.out / task[0] / (task[1] + ".png")).exists()]
+    old = [task for task in tasks if task[0] == "f3d-1.3"]
+    if old and shutil.which("f3d") and shutil.which("Xvfb"):
+        server = contact_sheet.screen()
+        for peer, name, path, report in old:
+            words = contact_sheet.f3d_words(os.path.join(root, path), report["camera"], 2 * SIDE, (255, 255, 255), str(given.out / peer / (name + ".png")))
+            contact_sheet.run(*words, "--depth-peeling")
+        server.terminate()
+    modules = build.packages(os.path.join(paths.OUT, "peers"), str(PEERS))
+    if not modules or not shutil.which("chromium"):
+        sys.exit("beside.py: F3D 3.5 and model-viewer need npm and chromium")
+    lines = [json.dumps({"peer": peer, "name": name, "path": path, "size": 2 * SIDE if peer == "model-viewer" else SIDE, "camera": report["camera"],
+                         "up": "+" + report["model"]["up"].upper()})
+             for peer, name, path, report in sorted(tasks, key=lambda task: task[0]) if peer != "f3d-1.3"]
+    subprocess.run(["node", str(PEERS / "pictures.mjs"), modules, shutil.which("chromium"), root, str(given.out)],
+                   input="\n".join(lines), text=True, check=True)
+
+
+def draw(given):
+    if not paths.REAL_MODELS:
+        sys.exit("beside.py: name the folder of models with LAMBENT_MODELS")
+    for folder in ("ours", "f3d", "f3d-1.3"):
+        (given.out / folder).mkdir(parents=True, exist_ok=True)
+    tasks = []
+    for name, path, _, in_browser in listed():
+        report = draw_ours(given.program.absolute(), os.path.join(paths.REAL_MODELS, path), given.out / "ours" / (name + ".png"))
+        tasks += [(peer, name, path, report) for peer in ["f3d-1.3", "f3d-3.5", "f3d-3.5-tone"] + ["model-viewer"] * in_browser]
+    draw_peers(given, tasks)
+    for name, _, best, _ in listed():
+        for peer in (best, "f3d-1.3", "f3d-3.5"):
+            if (given.out / peer / (name + ".png")).exists():
+                shutil.copy(given.out / peer / (name + ".png"), given.out / "f3d")
+                break
 
 
 def picture(path):
-    """White background, in the size of a cell."""
+    """On white, as large as a cell."""
     image = Image.open(path).convert("RGBA")
     page = Image.new("RGBA", image.size, "white")
     page.alpha_composite(image)
@@ -47,37 +118,44 @@ def common(ours, peer):
 
 
 def write_sheets(given):
-    names, chance, key = common(given.ours, given.peer), random.Random(given.seed), {}
-    chance.shuffle(names)
+    chance, pairs, key = random.Random(given.seed), [], {}
     given.out.mkdir(parents=True, exist_ok=True)
-    for k, part in enumerate(pages(list(enumerate(names, 1)))):
-        pairs = []
-        for number, name in part:
-            ours_left = chance.random() < 0.5
-            key[number] = (name, "A" if ours_left else "B")
-            paths = [given.ours / f"{name}.png", given.peer / f"{name}.png"]
-            pairs.append((f"{number}:  A left, B right", *(paths if ours_left else reversed(paths))))
-        sheet(pairs).save(given.out / f"sheet-{k + 1}.png")
-    (given.out / "key.json").write_text(json.dumps(key))
-    print(len(names), "pairs")
+    for peer in given.peers:
+        names = common(given.ours, peer)
+        chance.shuffle(names)
+        pairs += [(name, peer) for name in names]
+    for k, part in enumerate(pages(list(enumerate(pairs, 1))), 1):
+        rows = []
+        for number, (name, peer) in part:
+            side = chance.choice(("left", "right"))
+            key[number] = {"name": name, "peer": peer.name, "ours": side}
+            paths_ = [given.ours / f"{name}.png", peer / f"{name}.png"][::1 if side == "left" else -1]
+            rows.append((str(number), *paths_))
+            for which, path in zip(("left", "right"), paths_):
+                picture(path).save(given.out / f"{number:02}_{which}.png")
+        sheet(rows).save(given.out / f"page_{k:02}.png")
+    (given.out / "key.json").write_text(json.dumps(key, indent=1))
+    print(len(pairs), "pairs")
 
 
 def tally(given):
-    """The majority of the judges decides; without a majority, the pair is a draw."""
+    """The majority of the judges decides; without one the pair is a draw."""
     key = json.loads((given.out / "key.json").read_text())
     votes = {number: [] for number in key}
     for path in given.answers:
         for word in pathlib.Path(path).read_text().split():
             votes[word[:-1]].append(word[-1])
-    count = {"won": 0, "drawn": 0, "lost": 0}
-    for number, (name, ours) in key.items():
+    count = {}
+    for number, pair in key.items():
+        ours = "L" if pair["ours"] == "left" else "R"
         won = sum(v == ours for v in votes[number])
         lost = sum(v not in (ours, "=") for v in votes[number])
         result = "won" if 2 * won > len(votes[number]) else "lost" if 2 * lost > len(votes[number]) else "drawn"
-        count[result] += 1
+        count[pair["peer"], result] = count.get((pair["peer"], result), 0) + 1
         if result != "won":
-            print(name, result, *votes[number])
-    print(count)
+            print(pair["name"], pair["peer"], result, *votes[number])
+    for (peer, result), number in sorted(count.items()):
+        print(peer, result, number)
 
 
 def write_page(given):
@@ -90,16 +168,17 @@ def write_page(given):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(required=True)
-    for name, run in (("sheets", write_sheets), ("page", write_page)):
+    for name, run, words in (("draw", draw, ("program", "out")), ("sheets", write_sheets, ("ours", "out")), ("page", write_page, ("ours", "peer", "out")),
+                             ("tally", tally, ("out",))):
         command = commands.add_parser(name)
-        for folder in ("ours", "peer", "out"):
-            command.add_argument(folder, type=pathlib.Path)
-        command.add_argument("--seed", type=int, default=1)
         command.set_defaults(run=run)
-    command = commands.add_parser("tally")
-    command.add_argument("out", type=pathlib.Path)
-    command.add_argument("answers", nargs="+")
-    command.set_defaults(run=tally)
+        for word in words:
+            command.add_argument(word, type=pathlib.Path)
+        if name == "sheets":
+            command.add_argument("peers", nargs="+", type=pathlib.Path)
+            command.add_argument("--seed", type=int, default=1)
+        elif name == "tally":
+            command.add_argument("answers", nargs="+")
     given = parser.parse_args()
     given.run(given)
 

@@ -135,9 +135,23 @@ static bool refracts(const struct frame *frame, int material, lam_reflection mod
     return transmits(frame, material, model) && m->ior > 1 && (m->roughness > 0 || m->thickness > 0);
 }
 
+// Returns whether light passes a material unchanged at every point and on both sides (src/rays/opacity.h).
+static bool is_clear(const struct frame *frame, const lam_mesh *mesh, int material, lam_reflection model)
+{
+    const lam_material *m = frame->materials[material];
+    const lam_map used[] = {LAM_MAP_DIFFUSE, LAM_MAP_OPACITY, LAM_MAP_METALLIC, LAM_MAP_TRANSMISSION};
+    for (size_t i = 0; i < sizeof used / sizeof *used; i++)
+        if (m->maps[used[i]])
+            return false;
+    bool whole = m->alpha_mode == LAM_ALPHA_OPAQUE || (m->alpha_mode == LAM_ALPHA_BLEND && m->diffuse.a >= 1);
+    return whole && !mesh->colors && transmits(frame, material, model) && m->transmission >= 1 && m->metallic <= 0 &&
+           m->diffuse.r >= 1 && m->diffuse.g >= 1 && m->diffuse.b >= 1;
+}
+
 static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_index)
 {
-    const struct frame_draw *draw = &frame->draws[draw_index];
+    struct frame_draw *draw = &frame->draws[draw_index];
+    draw->clear = !draw->strokes;
     const lam_object *object = scene_object(scene, draw->object);
     const lam_mesh *mesh = draw->mesh;
     lam_part all = {.triangle_count = mesh->triangle_count, .material = -1};
@@ -163,6 +177,8 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
             }
             back = front;
         }
+        draw->clear = draw->clear && is_clear(frame, mesh, front, reflection) &&
+                      (draw->one_sided || is_clear(frame, mesh, back, reflection));
         bool varies = scene_extent(scene, object->mesh)->translucent;
         bool passes = transmits(frame, front, reflection) || (!draw->one_sided && transmits(frame, back, reflection));
         bool translucent = passes || sees_through(frame->materials[front], varies) ||

@@ -34,6 +34,7 @@ struct frame_draw {
     // The mesh is the ground, built for this frame in world space (frame_ground.h); its object is −1. It casts no
     // shadows.
     bool ground;
+    bool clear; // light passes all triangles unchanged, such as colourless glass: rays omit them
     lam_cull cull;
     // > 0: the mesh has no normals; the device computes the visible ones with this crease angle.
     double crease_rad;
@@ -212,6 +213,9 @@ void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4
 
 // Returns whether shadow rays meet a draw's triangles.
 static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }
+
+// Returns whether the hierarchy contains a draw's triangles.
+static inline bool frame_draw_blocks(const struct frame_draw *draw) { return frame_draw_casts(draw) && !draw->clear; }
 
 // Transforms a position of a draw's mesh to world space.
 static inline void frame_to_world(const struct frame_draw *draw, const float from[3], double to[3])

@@ -10,7 +10,7 @@ struct source {
     const float *positions;
     const uint32_t *indices;
     uint32_t triangle_count, first_id;
-    bool casts;
+    bool blocks;
     double world[3][4];
 };
 
@@ -24,10 +24,10 @@ static bool same_sources(const struct hierarchy_memory *memory, const struct fra
         const struct source *s = &sources[i];
         if (s->positions != draw->mesh->positions || s->indices != draw->mesh->indices ||
             s->triangle_count != draw->mesh->triangle_count || s->first_id != draw->first_id ||
-            s->casts != frame_draw_casts(draw))
+            s->blocks != frame_draw_blocks(draw))
             return false;
         // Objects without shadows may change from frame to frame, so they are excluded.
-        if (s->casts && memcmp(s->world, draw->world, sizeof s->world) != 0)
+        if (frame_draw_casts(draw) && memcmp(s->world, draw->world, sizeof s->world) != 0)
             return false;
     }
     return true;
@@ -51,8 +51,8 @@ static void note_sources(struct hierarchy_memory *memory, const struct frame *fr
         const struct frame_draw *draw = &frame->draws[i];
         if (frame_draw_casts(draw))
             add_rounding(&memory->hierarchy, draw);
-        sources[i] = (struct source){draw->mesh->positions, draw->mesh->indices,    draw->mesh->triangle_count,
-                                     draw->first_id,        frame_draw_casts(draw), {{0}}};
+        sources[i] = (struct source){draw->mesh->positions, draw->mesh->indices,     draw->mesh->triangle_count,
+                                     draw->first_id,        frame_draw_blocks(draw), {{0}}};
         memcpy(sources[i].world, draw->world, sizeof sources[i].world);
     }
     memory->source_count = frame->draw_count;

@@ -45,6 +45,28 @@ static bool owns_edges(const struct ray_triangle *triangle, const double origin[
     return true;
 }
 
+// The light that one side of a triangle lets through, if it is the same at all points.
+struct side_share {
+    bool known, constant;
+    float passed[3];
+};
+
+// Gets the light that passes a point of a triangle, for each of passed_channels; `share` keeps it for a side.
+static void share_at(const struct frame *frame, uint32_t number, bool back, float b1, float b2,
+                     struct side_share *share)
+{
+    if (share->known && share->constant)
+        return;
+    float *passed = share->passed;
+    if (!share->known)
+        share->constant = ray_share_is_constant(frame, number, back);
+    share->known = true;
+    if (frame->tints_rays)
+        ray_transmittance(frame, number, back, b1, b2, passed);
+    else
+        passed[0] = passed[1] = passed[2] = 1 - ray_opacity(frame, number, back, b1, b2);
+}
+
 // Records the light that a translucent triangle lets through, and returns the rays that it blocks. It uses the side
 // that faces the light.
 static unsigned filter_ray(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
@@ -67,23 +89,21 @@ static unsigned filter_ray(void *user, const struct ray_triangle *triangle, cons
     for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i++)
         n[i] = a[j] * b[k] - a[k] * b[j];
     bool mirrored = frame->draws[range->draw].mirrored;
+    struct side_share sides[2] = {{0}};
     unsigned ended = 0;
     for (unsigned rest = lanes; rest; rest &= rest - 1) {
         int i = __builtin_ctz(rest);
         const double o[3] = {ray->origin[0][i], ray->origin[1][i], ray->origin[2][i]};
         const double d[3] = {ray->direction[0][i], ray->direction[1][i], ray->direction[2][i]};
         const double w[3] = {weights[0][i], weights[1][i], weights[2][i]};
-        if (!owns_edges(triangle, o, d, w))
+        if ((w[0] == 0 || w[1] == 0 || w[2] == 0) && !owns_edges(triangle, o, d, w))
             continue;
         double toward = (d[0] * n[0] + d[1] * n[1]) + d[2] * n[2], sum = (w[0] + w[1]) + w[2];
         float b1 = (float)(w[1] / sum), b2 = (float)(w[2] / sum);
-        struct ray_layer layer = {.lane = (uint32_t)i, .number = triangle->number};
-        float *passed = layer.passed;
         bool back = (toward < 0) != mirrored;
-        if (frame->tints_rays)
-            ray_transmittance(frame, triangle->number, back, b1, b2, passed);
-        else
-            passed[0] = passed[1] = passed[2] = 1 - ray_opacity(frame, triangle->number, back, b1, b2);
+        share_at(frame, triangle->number, back, b1, b2, &sides[back]);
+        const float *passed = sides[back].passed;
+        struct ray_layer layer = {(uint32_t)i, triangle->number, {passed[0], passed[1], passed[2]}};
         if (passed[0] <= 0 && passed[1] <= 0 && passed[2] <= 0) {
             ended |= 1u << i;
             continue;

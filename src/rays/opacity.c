@@ -55,19 +55,26 @@ static float vertex_color(const lam_mesh *mesh, uint32_t triangle, int channel, 
     return at_weights(value, b1, b2);
 }
 
-// Returns a channel of a map at level 0, or 1 if the mesh lacks texture coordinates for it.
-static float map_value(const lam_mesh *mesh, const lam_texture_map *map, int channel, uint32_t triangle, float b1,
-                       float b2)
+// Returns the texel of a map at level 0, or 1 if the mesh lacks texture coordinates for it.
+static texel map_texel(const lam_mesh *mesh, const lam_texture_map *map, uint32_t triangle, float b1, float b2)
 {
-    float at[2], s[3], t[3], value = 1;
+    float at[2], s[3], t[3];
+    texel value = {1, 1, 1, 1};
     uint32_t k = 0;
     for (; k < 3 && ray_corner_texcoord(mesh, map->texcoords, 3 * triangle + k, at); k++) {
         s[k] = at[0];
         t[k] = at[1];
     }
     if (k == 3)
-        value = texture_map_base(map, at_weights(s, b1, b2), at_weights(t, b1, b2))[channel];
+        value = texture_map_base(map, at_weights(s, b1, b2), at_weights(t, b1, b2));
     return value * (map->scale != 0 ? map->scale : 1) + map->offset;
+}
+
+// Returns a channel of such a texel.
+static float map_value(const lam_mesh *mesh, const lam_texture_map *map, int channel, uint32_t triangle, float b1,
+                       float b2)
+{
+    return map_texel(mesh, map, triangle, b1, b2)[channel];
 }
 
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2)
@@ -86,6 +93,15 @@ float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b
     if (opacity && opacity->texture)
         alpha = saturated(alpha * map_value(draw->mesh, opacity, opacity->channel, triangle, b1, b2));
     return material->alpha_mode == LAM_ALPHA_MASK ? alpha >= material->alpha_cutoff : alpha;
+}
+
+bool ray_share_is_constant(const struct frame *frame, uint32_t number, bool back)
+{
+    const struct frame_draw_range *range = &frame->ranges[frame_range_of(frame, number)];
+    const struct frame_draw *draw = &frame->draws[range->draw];
+    const lam_texture_map *const *maps = frame->materials[back && !draw->one_sided ? range->back : range->front]->maps;
+    return !draw->mesh->colors && !maps[LAM_MAP_DIFFUSE] && !maps[LAM_MAP_OPACITY] && !maps[LAM_MAP_METALLIC] &&
+           !maps[LAM_MAP_TRANSMISSION];
 }
 
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3])
@@ -111,11 +127,14 @@ void ray_transmittance(const struct frame *frame, uint32_t number, bool back, fl
     if (metallic && metallic->texture)
         metal *= saturated(map_value(draw->mesh, metallic, metallic->channel, triangle, b1, b2));
     through *= 1 - metal;
+    texel colors = {1, 1, 1, 1};
+    if (maps[LAM_MAP_DIFFUSE] && maps[LAM_MAP_DIFFUSE]->texture)
+        colors = map_texel(draw->mesh, maps[LAM_MAP_DIFFUSE], triangle, b1, b2);
     const float base[3] = {material->diffuse.r, material->diffuse.g, material->diffuse.b};
     for (int c = 0; c < 3; c++) {
         float color = base[c] * (draw->mesh->colors ? vertex_color(draw->mesh, triangle, c, b1, b2) : 1);
         if (maps[LAM_MAP_DIFFUSE] && maps[LAM_MAP_DIFFUSE]->texture)
-            color *= map_value(draw->mesh, maps[LAM_MAP_DIFFUSE], c, triangle, b1, b2);
+            color *= colors[c];
         out[c] += through * saturated(color);
     }
 }

@@ -13,6 +13,9 @@ float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b
 // where light enters it.
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3]);
 
+// Returns whether both are the same at all points of a triangle.
+bool ray_share_is_constant(const struct frame *frame, uint32_t number, bool back);
+
 // The translucent triangles that a group of rays passes.
 struct ray_layers {
     struct ray_layer {

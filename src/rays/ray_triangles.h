@@ -79,7 +79,7 @@ LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct pl
 LANE_FN void ray_space_corners(const struct builder *b, uint32_t number, struct placement *place, struct point p[3])
 {
     const double *centre = b->hierarchy->centre, scale = b->hierarchy->scale;
-    bool met = world_corners(b->frame, number, place, p);
+    bool met = world_corners(b->frame, number, place, p) && !place->draw->clear;
     struct point zero = {dnum_of(0), dnum_of(0)};
     for (int k = 0; k < 3; k++) {
         p[k].xy = (p[k].xy - (dnum){centre[0], centre[1]}) * scale;

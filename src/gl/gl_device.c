@@ -49,8 +49,8 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
         c->stage = LAM_STAGE_FRAGMENT;
         return;
     }
-    c->lecture = f->device->lecture && !output_is_value(c->output);
-    c->mistake = c->lecture ? f->device->mistake : 0;
+    c->style = output_is_value(c->output) ? NULL : f->device->style;
+    c->mistake = c->style ? f->device->mistake : 0;
     if (c->stage == LAM_STAGE_APPLICATION) {
         if (!output_is_vector(c->output))
             c->output = LAM_OUTPUT_PICTURE;
@@ -474,7 +474,7 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     }
     device->base.type = &type;
     device->external_context = params->get_proc_address != NULL;
-    device->lecture = params->lecture;
+    device->style = params->lecture ? &lecture_style : NULL;
     device->hardware_filter = params->hardware_filter;
     device->mistake = mistake;
     for (int i = 0; i < 256; i++)

@@ -218,8 +218,9 @@ struct gl_device {
     struct lam_device base;
     struct gl_context context;
     bool external_context;         // the context is the caller's
-    bool lecture, hardware_filter; // lam_gl_params
-    int mistake;                   // same as glsl_choices.mistake
+    const struct glsl_style *style; // same as in glsl_choices
+    int mistake;
+    bool hardware_filter; // lam_gl_params
     GLint block_size_max, block_alignment, texture_size_max;
     GLint unit_count;    // number of texture units of the fragment shader that are used, up to UNIT_COUNT
     bool has_norm16;     // textures of 16 bits for 0…1

@@ -86,8 +86,8 @@ struct glsl_choices {
     bool catches;         // a shadow catcher: black, with the blocked share of the light as opacity
     lam_tone tone;        // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
     bool exposes;         // the fragment multiplies its light by the uniform `exposure`
-    bool lecture;         // the lecture style (lecture.h)
-    int mistake;          // mistake_find in the lecture style, or 0
+    const struct glsl_style *style; // writes the texts; NULL: the full style
+    int mistake;          // number of a change that the style makes, or 0
     bool products;        // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;       // the back is lit with −n
     bool back_material;   // the back has its own material
@@ -125,6 +125,18 @@ void glsl_use_hardware_filter(struct glsl_choices *choices);
 
 struct glsl_text {
     char *vertex, *fragment; // ASCII
+};
+
+// A style of texts beside the full one.
+struct glsl_facts;
+struct text;
+struct glsl_style {
+    // Returns whether the style supports these choices. Otherwise fails with LAM_UNSUPPORTED and the unsupported option.
+    bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
+    // Appends a stage after its version and its uniforms.
+    void (*add_stage)(struct text *text, const struct glsl_facts *stage);
+    // Makes the change choices->mistake in one of the texts, which are freed and replaced. Returns false on failure.
+    bool (*change)(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 };
 
 // Makes both sources. Errors: LAM_LIMIT (memory); LAM_BAD_ARGUMENT for choices that exclude each other (GLSL_TEXTURE or

@@ -164,9 +164,9 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
         return false;
     struct glsl_choices *c = &m->choices;
     c->version = versions[params->glsl];
-    c->lecture = params->style == LAM_SHADER_STYLE_LECTURE;
+    c->style = params->style == LAM_SHADER_STYLE_LECTURE ? &lecture_style : NULL;
     c->mistake = mistake_find(params->mistake);
-    bool array = c->version == GLSL_120 || c->lecture;
+    bool array = c->version == GLSL_120 || c->style;
     c->storage = !params->lights && array ? GLSL_ARRAY : storages[params->lights];
     c->encoding = m->frame.settings.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
     c->exposes = m->frame.exposure != 1;
@@ -529,7 +529,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     if (!order_lights(m))
         return fail(error, LAM_LIMIT, "out of memory");
     struct glsl_choices shaders = m->choices;
-    if (m->choices.lecture && m->facts.application) {
+    if (m->choices.style && m->facts.application) {
         if (!make_application(m, object, error))
             return false;
         shaders.mistake = 0; // the mistake is in the C function, which computes the light

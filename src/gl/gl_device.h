@@ -217,7 +217,7 @@ struct gl_surfaces {
 struct gl_device {
     struct lam_device base;
     struct gl_context context;
-    bool external_context;         // the context is the caller's
+    bool external_context;          // the context is the caller's
     const struct glsl_style *style; // same as in glsl_choices
     int mistake;
     bool hardware_filter; // lam_gl_params

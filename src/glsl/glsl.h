@@ -78,25 +78,25 @@ struct glsl_choices {
     bool distant_viewer;
     bool gl1;
     bool single_scattering;
-    bool widens;          // the variance of normals widens physical materials' roughness (lam_specular_aa); not in 120
-    bool passed;          // each light is multiplied by a share, a uniform that the program sets (texels: position.w)
-    bool shadows;         // traverses the hierarchy in a texture (shadows.glsl); not in 120
-    bool passes_rays;     // with shadows, some triangles transmit light
-    bool tints_rays;      // with passes_rays, they also tint the light
-    bool catches;         // a shadow catcher: black, with the blocked share of the light as opacity
-    lam_tone tone;        // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
-    bool exposes;         // the fragment multiplies its light by the uniform `exposure`
+    bool widens;      // the variance of normals widens physical materials' roughness (lam_specular_aa); not in 120
+    bool passed;      // each light is multiplied by a share, a uniform that the program sets (texels: position.w)
+    bool shadows;     // traverses the hierarchy in a texture (shadows.glsl); not in 120
+    bool passes_rays; // with shadows, some triangles transmit light
+    bool tints_rays;  // with passes_rays, they also tint the light
+    bool catches;     // a shadow catcher: black, with the blocked share of the light as opacity
+    lam_tone tone;    // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
+    bool exposes;     // the fragment multiplies its light by the uniform `exposure`
     const struct glsl_style *style; // writes the texts; NULL: the full style
-    int mistake;          // number of a change that the style makes, or 0
-    bool products;        // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
-    bool two_sided;       // the back is lit with −n
-    bool back_material;   // the back has its own material
-    bool colors;          // attribute color
-    bool tangents;        // attribute tangent; otherwise the direction field, if the model needs a tangent
-    bool converted[2];    // front, back: a metallic-roughness material with maps under a classic model
-    uint8_t alpha[2];     // front, back: lam_alpha_mode
-    uint8_t anisotropy;   // the most probes of a texture
-    bool hardware_filter; // glsl_use_hardware_filter
+    int mistake;                    // number of a change that the style makes, or 0
+    bool products;                  // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
+    bool two_sided;                 // the back is lit with −n
+    bool back_material;             // the back has its own material
+    bool colors;                    // attribute color
+    bool tangents;                  // attribute tangent; otherwise the direction field, if the model needs a tangent
+    bool converted[2];              // front, back: a metallic-roughness material with maps under a classic model
+    uint8_t alpha[2];               // front, back: lam_alpha_mode
+    uint8_t anisotropy;             // the most probes of a texture
+    bool hardware_filter;           // glsl_use_hardware_filter
     // LAYER_… of the range's materials (layer_kinds.h), and of all materials of the frame; a block has the fields of
     // the latter.
     uint8_t layers, field_layers;

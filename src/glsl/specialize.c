@@ -410,7 +410,7 @@ static bool reads_member(const struct source_span *s, struct span type, struct s
     return false;
 }
 
-static bool is_struct(const struct source_span *s) { return begins((struct span){s->start, s->end}, "STRUCT("); }
+static bool is_struct(const struct source_span *s) { return begins((struct span){s->start, s->end}, "struct "); }
 
 static bool erase_members(const struct source_span *spans, int count, const struct source_span *s)
 {

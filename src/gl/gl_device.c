@@ -362,14 +362,13 @@ static uint64_t gl_memory(const struct lam_device *base)
                      vertex_colors_bytes(&device->vertex_colors);
     const struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
-        bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;
+        bytes += lists[i]->next.capacity + lists[i]->size;
     for (int i = 0; i < device->mesh_count; i++)
         bytes += device->meshes[i].bytes;
     for (int i = 0; i < device->texture_count; i++)
         bytes += device->textures[i].bytes;
     for (int i = 0; i < device->vertex_lighting_capacity; i++)
-        bytes += device->vertex_lighting[i].bytes + device->vertex_lighting[i].sent_key.capacity +
-                 device->vertex_lighting[i].frame_key.capacity;
+        bytes += device->vertex_lighting[i].bytes;
     return bytes;
 }
 

@@ -98,9 +98,7 @@ enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_
 
 // Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
 struct gl_vertex_lighting {
-    // All inputs of the colours, as bytes: for the colours in the buffer, and for the current frame.
-    struct buffer sent_key, frame_key;
-    size_t sent_key_size;
+    uint64_t key; // of all inputs of the colours in the buffer (gl_key_add); 0: none
     // Referenced, because the key contains its address.
     struct lam_environment *environment;
     GLuint colors, array;
@@ -172,10 +170,10 @@ struct gl_targets {
 struct gl_light_buffer {
     GLuint name; // buffer or texture
     bool texture;
-    size_t size;          // bytes in use
-    size_t capacity;      // bytes of a buffer, rows of a texture
-    struct buffer shadow; // the contents
-    struct buffer next;   // the contents of this frame, compared with `shadow` before an upload
+    size_t size;        // bytes in use
+    size_t capacity;    // bytes of a buffer, rows of a texture
+    uint64_t key;       // of the contents (gl_key_add)
+    struct buffer next; // the contents of this frame
 };
 
 // How a fragment is combined with the target.
@@ -207,9 +205,7 @@ struct gl_current_state {
 
 // The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
 struct gl_surfaces {
-    // All inputs of the texels, as bytes: for the texels in the texture, and for the current frame.
-    struct buffer key, next_key;
-    size_t key_size, next_key_size;
+    uint64_t key, next_key; // of all inputs of the texels in the texture, and of those of the current frame; 0: none
     // of the current frame: the first record of each range; the positions of the textures
     struct buffer records, pixels;
 };
@@ -322,6 +318,12 @@ bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *er
 // GL_ARRAY_BUFFER. Returns NULL on failure.
 void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error);
 
+// Adds bytes to a key: a hash of 64 bits of the inputs of uploaded data, which are sent again if the key differs.
+void gl_key_add(uint64_t *key, const void *bytes, size_t count);
+
+// Returns the list with space for another row, or NULL on failure.
+void *gl_grown(void *list, int count, int *capacity, size_t size, lam_error *error);
+
 // Each function sets a state unless it is already current.
 void gl_use_program(struct gl_device *device, GLuint program);
 void gl_use_array(struct gl_device *device, GLuint array);
@@ -330,6 +332,8 @@ void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum tar
 void gl_use_sampler(struct gl_device *device, enum texture_unit unit, GLuint sampler);
 // Does the same as gl_use_texture, and makes the unit active, which uploads need.
 void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
+// Does the same as gl_edit_texture, and makes the texture if *name is 0: one level, the nearest texel, no repetition.
+void gl_edit_plain_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint *name);
 void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer);
 void gl_use_blending(struct gl_device *device, enum gl_blending blending);
 void gl_use_viewport(struct gl_device *device, int width, int height);

@@ -217,16 +217,10 @@ static struct gl_mesh *free_row(struct gl_device *device, lam_error *error)
     for (int i = 0; i < device->mesh_count; i++)
         if (!device->meshes[i].token)
             return &device->meshes[i];
-    if (device->mesh_count == device->mesh_capacity) {
-        int capacity = device->mesh_capacity ? 2 * device->mesh_capacity : 8;
-        struct gl_mesh *grown = realloc(device->meshes, (size_t)capacity * sizeof *grown);
-        if (!grown) {
-            fail_memory(error, (size_t)capacity * sizeof *grown);
-            return NULL;
-        }
-        device->meshes = grown;
-        device->mesh_capacity = capacity;
-    }
+    struct gl_mesh *list = gl_grown(device->meshes, device->mesh_count, &device->mesh_capacity, sizeof *list, error);
+    if (!list)
+        return NULL;
+    device->meshes = list;
     struct gl_mesh *row = &device->meshes[device->mesh_count++];
     *row = (struct gl_mesh){0};
     return row;

@@ -137,17 +137,12 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
     for (int i = 0; i < device->program_count; i++)
         if (memcmp(&device->programs[i].choices, choices, sizeof *choices) == 0)
             return &device->programs[i];
-    if (device->program_count == device->program_capacity) {
-        // The programs may move, so gl_device.c compiles all programs of a frame before it stores pointers to any.
-        int capacity = device->program_capacity ? 2 * device->program_capacity : 8;
-        struct gl_program *grown = realloc(device->programs, (size_t)capacity * sizeof *grown);
-        if (!grown) {
-            fail_memory(error, (size_t)capacity * sizeof *grown);
-            return NULL;
-        }
-        device->programs = grown;
-        device->program_capacity = capacity;
-    }
+    // The programs may move, so gl_device.c compiles all programs of a frame before it stores pointers to any.
+    struct gl_program *list =
+        gl_grown(device->programs, device->program_count, &device->program_capacity, sizeof *list, error);
+    if (!list)
+        return NULL;
+    device->programs = list;
     struct glsl_text text;
     if (!glsl_make(choices, &text, error))
         return NULL;

@@ -140,12 +140,7 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
         out[4 * places + h->triangles[i].number] = (float)i;
     }
     surfaces_pack(f, surfaces, out + 4 * surfaces);
-    if (!device->shadow_texture)
-        gl->GenTextures(1, &device->shadow_texture);
-    gl_use_texture(device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, device->shadow_texture);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl_edit_plain_texture(device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, &device->shadow_texture);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, (GLsizei)rows, 0, GL_RGBA, GL_FLOAT, out);
     device->shadows_sent = true;
     device->base.report.bytes_uploaded += bytes;

@@ -115,16 +115,11 @@ static struct gl_texture *free_row(struct gl_device *device, lam_error *error)
     for (int i = 0; i < device->texture_count; i++)
         if (!device->textures[i].texture)
             return &device->textures[i];
-    if (device->texture_count == device->texture_capacity) {
-        int capacity = device->texture_capacity ? 2 * device->texture_capacity : 8;
-        struct gl_texture *grown = realloc(device->textures, (size_t)capacity * sizeof *grown);
-        if (!grown) {
-            fail_memory(error, (size_t)capacity * sizeof *grown);
-            return NULL;
-        }
-        device->textures = grown;
-        device->texture_capacity = capacity;
-    }
+    struct gl_texture *list =
+        gl_grown(device->textures, device->texture_count, &device->texture_capacity, sizeof *list, error);
+    if (!list)
+        return NULL;
+    device->textures = list;
     struct gl_texture *row = &device->textures[device->texture_count++];
     *row = (struct gl_texture){0};
     return row;

@@ -18,7 +18,7 @@
 #include "context.h"
 #include "device_type.h"
 #include "fields.h"
-#include "glsl.h"
+#include "glsl_rows.h"
 #include "hierarchy.h"
 #include "screen_occlusion.h"
 #include "vertex_colors.h"
@@ -111,38 +111,22 @@ struct gl_vertex_lighting {
 
 // --- programs
 
-enum uniform {
-    UNIFORM_MODEL_VIEW_PROJECTION,
-    UNIFORM_MODEL_VIEW,
-    UNIFORM_NORMAL_MATRIX,
-    UNIFORM_ENVIRONMENT_MATRIX,
-    UNIFORM_OBJECT,
-    UNIFORM_SHADOW_MATRIX,
-    UNIFORM_SHADOW_PLACES,
-    UNIFORM_SHADOW_ROUNDING,
-    UNIFORM_HEAD, // one for each field of glsl_material_layout
-    UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
-    UNIFORM_ALPHA_CUTOFF = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX,
-    UNIFORM_BACK_ALPHA_CUTOFF,
-    UNIFORM_MAPPED_EMISSION,
-    UNIFORM_BACK_MAPPED_EMISSION,
-    UNIFORM_MAPS, // two rows for each map of the front, then of the back (glsl_map_values)
-    UNIFORM_FLOATS = UNIFORM_MAPS + 4 * LAM_MAP_COUNT, // number of the uniforms above, which are all floats
-    UNIFORM_FIRST_PRODUCT = UNIFORM_FLOATS,
-    UNIFORM_BACK_FIRST_PRODUCT,
-    UNIFORM_FIRST_TRIANGLE,
-    UNIFORM_COUNT
+// Uniforms that are no rows of glsl_rows.h; a program's rows follow.
+enum { UNIFORM_SHADOW_MATRIX, UNIFORM_SHADOW_PLACES, UNIFORM_SHADOW_ROUNDING, UNIFORM_FIRST_TRIANGLE, UNIFORM_ROWS };
+
+struct gl_uniform {
+    GLint location; // −1 if the program does not have the uniform
+    bool set;       // whether a value has been set
+    float value[16];
+    struct glsl_row row;
 };
 
 struct gl_program {
     struct glsl_choices choices;
     GLuint name;
-    GLint locations[UNIFORM_COUNT];      // −1 if the program does not have the uniform
+    struct gl_uniform *uniforms;
+    int uniform_count;
     uint8_t map_units[2][LAM_MAP_COUNT]; // texture units of the maps of the front and the back, or 0
-    // The current values, and whether any has been set.
-    float values[UNIFORM_FLOATS][16];
-    int ints[UNIFORM_COUNT - UNIFORM_FLOATS];
-    bool set[UNIFORM_COUNT];
 };
 
 // --- targets
@@ -362,8 +346,8 @@ size_t mesh_vertex_floats(const lam_mesh *mesh);
 // them there.
 bool textures_upload(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range,
                      lam_error *error);
-// Sets the uniforms of the maps and of the alpha cutoff, and binds the textures.
-void textures_use(struct gl_frame *f, struct gl_program *program, const struct frame_draw_range *range);
+// Binds the textures of the maps.
+void textures_use(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range);
 // Does the same as meshes_evict for textures.
 void textures_evict(struct gl_frame *f);
 void textures_free(struct gl_device *device);
@@ -389,8 +373,9 @@ bool occlusion_send(struct gl_frame *f, lam_error *error);
 // --- gl_programs.c
 // Returns the program of the choices, compiled on first use. NULL on failure.
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
-void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values, int count);
-void program_set_int(struct gl_frame *f, struct gl_program *program, enum uniform uniform, int value);
+// Set a uniform of a program unless it has this value already: an int, or 16, 9, 4 or one float.
+void program_set_int(struct gl_frame *f, struct gl_program *program, int uniform, GLint value);
+void program_set(struct gl_frame *f, struct gl_program *program, int uniform, const float *values, int count);
 bool program_copy_make(struct gl_device *device, lam_error *error);
 void programs_free(struct gl_device *device);
 

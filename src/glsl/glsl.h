@@ -228,8 +228,12 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
 // Returns the name of a field in the shader.
 const char *glsl_field_name(const struct material_field *field, bool products);
 
-// Returns the index in the frame of the shader's light i, or −1 past the end. Lights of a group keep the frame's order.
-int glsl_frame_light(const struct glsl_choices *choices, const struct frame *frame, int i);
+// Returns the index in the frame of the shader's next light, or −1 past the end. Lights of a group keep the frame's
+// order. A zeroed cursor is before the first light.
+struct glsl_light_cursor {
+    int group, light;
+};
+int glsl_next_light(const struct glsl_choices *choices, const struct frame *frame, struct glsl_light_cursor *cursor);
 struct glsl_light glsl_light_of(const struct frame_light *light);
 
 #endif

@@ -53,16 +53,14 @@ struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_dr
     return c;
 }
 
-int glsl_frame_light(const struct glsl_choices *c, const struct frame *frame, int i)
+int glsl_next_light(const struct glsl_choices *c, const struct frame *frame, struct glsl_light_cursor *at)
 {
-    int group = 0;
-    while (group < c->group_count && i >= c->groups[group].count)
-        i -= c->groups[group++].count;
-    for (int k = 0; group < c->group_count && k < frame->light_count; k++) {
-        const struct frame_light *light = &frame->lights[k];
-        if (light->kind == c->groups[group].kind && light->falloff == c->groups[group].falloff && i-- == 0)
-            return k;
-    }
+    for (; at->group < c->group_count; at->group++, at->light = 0)
+        while (at->light < frame->light_count) {
+            const struct frame_light *light = &frame->lights[at->light++];
+            if (light->kind == c->groups[at->group].kind && light->falloff == c->groups[at->group].falloff)
+                return at->light - 1;
+        }
     return -1;
 }
 
@@ -173,19 +171,16 @@ void glsl_pack_lights(const struct glsl_choices *c, const struct frame *frame, f
         out += 4;
     }
     size_t each = floats_of_light(c);
-    for (int g = 0; g < c->group_count; g++)
-        for (int i = 0; i < frame->light_count; i++) {
-            const struct frame_light *light = &frame->lights[i];
-            if (light->kind != c->groups[g].kind || light->falloff != c->groups[g].falloff)
-                continue;
-            struct glsl_light packed = glsl_light_of(light);
-            if (c->occlusion)
-                packed.direction[3] = light->occluded;
-            if (c->shadows)
-                pack_shadow(packed.position, light);
-            memcpy(out, &packed, each * sizeof *out);
-            out += each;
-        }
+    struct glsl_light_cursor cursor = {0, 0};
+    for (int i; (i = glsl_next_light(c, frame, &cursor)) >= 0; out += each) {
+        const struct frame_light *light = &frame->lights[i];
+        struct glsl_light packed = glsl_light_of(light);
+        if (c->occlusion)
+            packed.direction[3] = light->occluded;
+        if (c->shadows)
+            pack_shadow(packed.position, light);
+        memcpy(out, &packed, each * sizeof *out);
+    }
     for (int i = 0; i < frame->hemisphere_count; i++) {
         const struct frame_hemisphere *h = &frame->hemispheres[i];
         set3(out, h->up, 0);
@@ -232,17 +227,14 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
     // A block has an array for each product; in a texture the products of a light are consecutive.
     size_t lights = (size_t)c->light_count, hemispheres = (size_t)c->hemisphere_count, at = 0;
     size_t step = block ? 4 : c->gl1 ? 12 : 8, next = block ? 4 * lights : 4;
-    for (int g = 0; g < c->group_count; g++)
-        for (int i = 0; i < frame->light_count; i++) {
-            const struct frame_light *light = &frame->lights[i];
-            if (light->kind != c->groups[g].kind || light->falloff != c->groups[g].falloff)
-                continue;
-            product(out + at, kd, light->diffuse);
-            product(out + at + next, ks, light->specular);
-            if (c->gl1)
-                product(out + at + 2 * next, &material->ambient.r, light->ambient);
-            at += step;
-        }
+    struct glsl_light_cursor cursor = {0, 0};
+    for (int i; (i = glsl_next_light(c, frame, &cursor)) >= 0; at += step) {
+        const struct frame_light *light = &frame->lights[i];
+        product(out + at, kd, light->diffuse);
+        product(out + at + next, ks, light->specular);
+        if (c->gl1)
+            product(out + at + 2 * next, &material->ambient.r, light->ambient);
+    }
     out += lights * (c->gl1 ? 12 : 8);
     for (size_t i = 0; i < hemispheres; i++) {
         float *sky = block ? out + 4 * i : out + 8 * i, *ground = block ? sky + 4 * hemispheres : sky + 4;

@@ -189,7 +189,7 @@ struct gl_current_state {
 
 // The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
 struct gl_surfaces {
-    uint64_t key, next_key; // of all inputs of the texels in the texture, and of those of the current frame; 0: none
+    uint64_t key, next_key; // of all inputs of the texels in the texture, and for the current frame; 0: none
     // of the current frame: the first record of each range; the positions of the textures
     struct buffer records, pixels;
 };

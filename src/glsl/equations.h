@@ -1,4 +1,4 @@
-// equations.h: composes a stage's text from the equations of src/lighting and the *.glsl files of this folder.
+// equations.h: composes a stage's text from the equations of src/lighting and the texts of src/glsl/text.
 #ifndef EQUATIONS_H
 #define EQUATIONS_H
 

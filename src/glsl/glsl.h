@@ -1,6 +1,6 @@
 // glsl.h: GLSL text for a set of choices, and the values of its uniforms from a frame.
 //
-// The text consists of the called equations of src/lighting (equations.h), and of the *.glsl files in this folder,
+// The text consists of the called equations of src/lighting (equations.h), and of the texts in src/glsl/text,
 // which are ordinary texts for all choices: known conditions are resolved, and unread names are removed (specialize.h).
 //
 // Names in the text. Attributes, with their locations (GLSL 120: bound by name):

@@ -179,7 +179,7 @@ struct frame {
 
     // The environment's brightest lamp is a separate light that casts shadows: rig[rig_count]. The environment's
     // diffuse light excludes it.
-    bool lamp_apart;
+    bool separate_lamp;
 
     lam_light rig[LAM_RIG_LIGHTS_MAX + 1];
     int rig_count;

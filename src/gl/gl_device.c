@@ -193,7 +193,7 @@ static bool set_up(struct gl_frame *f, lam_error *error)
     if (!frame->range_count)
         return true;
     if (frame->environment_lights &&
-        !(f->environment_light = (frame->lamp_apart ? environment_light_without_lamp : environment_light)(
+        !(f->environment_light = (frame->separate_lamp ? environment_light_without_lamp : environment_light)(
               frame->environment, ENVIRONMENT_LIGHT_ALL, NULL, f->call, error)))
         return false;
     if (frame->settings.shadows && !shadows_send(f, error))

@@ -112,7 +112,7 @@ struct gl_vertex_lighting {
 // --- programs
 
 // Uniforms that are no rows of glsl_rows.h; a program's rows follow.
-enum { UNIFORM_SHADOW_MATRIX, UNIFORM_SHADOW_PLACES, UNIFORM_SHADOW_ROUNDING, UNIFORM_FIRST_TRIANGLE, UNIFORM_ROWS };
+enum { UNIFORM_SHADOW_MATRIX, UNIFORM_SHADOW_OFFSETS, UNIFORM_SHADOW_ROUNDING, UNIFORM_FIRST_TRIANGLE, UNIFORM_ROWS };
 
 struct gl_uniform {
     GLint location; // −1 if the program does not have the uniform
@@ -234,9 +234,9 @@ struct gl_device {
     GLuint environment_texture, environment_light_texture;
     const struct environment_light *environment_light; // contents of the texture; owned by `environment`
     struct hierarchy_memory hierarchy;
-    GLuint shadow_texture;  // contains the hierarchy
-    float shadow_places[2]; // first texel of the triangles, and of their positions
-    bool shadows_sent;      // whether the texture contains the hierarchy, and the surfaces of surfaces.key
+    GLuint shadow_texture;   // contains the hierarchy
+    float shadow_offsets[2]; // first texel of the triangles, and of their positions
+    bool shadows_sent;       // whether the texture contains the hierarchy, and the surfaces of surfaces.key
     struct gl_surfaces surfaces;
     uint64_t environment_bytes, target_bytes, shadow_bytes;
     struct gl_current_state current;

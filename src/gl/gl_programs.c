@@ -72,7 +72,7 @@ static void add_uniform(struct gl_program *program, GLint location, const struct
 // Finds the uniforms of the rows, and of the maps.
 static bool find_rows(struct gl_frame *f, struct gl_program *program, lam_error *error)
 {
-    static const char *const others[UNIFORM_ROWS] = {"shadow_matrix", "shadow_places", "shadow_rounding",
+    static const char *const others[UNIFORM_ROWS] = {"shadow_matrix", "shadow_offsets", "shadow_rounding",
                                                      "first_triangle"};
     const struct gl *gl = f->gl;
     struct glsl_row rows[GLSL_ROWS_MAX];

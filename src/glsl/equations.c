@@ -13,7 +13,7 @@ struct definition {
     const char *name;
     size_t name_length;
     int file;
-    bool apart; // an empty line precedes it
+    bool spaced; // an empty line precedes it
     bool kept;
 };
 
@@ -69,22 +69,22 @@ static void name_definition(struct definition *definition)
 static int split_definitions(struct definition *definitions, int count, char *source, int file)
 {
     char *lead = NULL;
-    bool apart = true;
+    bool spaced = true;
     for (char *at = source; *at;) {
         char *next = next_line(at);
         if (begins(at, "//")) {
             lead = lead ? lead : at;
         } else if (*at == '\n') {
             lead = NULL;
-            apart = true;
+            spaced = true;
         } else {
             struct definition *definition = &definitions[count];
             next = *at == '#' ? next : definition_end(at);
             *definition =
-                (struct definition){.lead = lead ? lead : at, .start = at, .end = next, .file = file, .apart = apart};
+                (struct definition){.lead = lead ? lead : at, .start = at, .end = next, .file = file, .spaced = spaced};
             name_definition(definition);
             lead = NULL;
-            apart = false;
+            spaced = false;
             if (++count == DEFINITIONS_MAX)
                 return count;
         }
@@ -240,7 +240,7 @@ static void write_title(struct text *text, const char *title)
 static void write_kept(struct text *text, const struct equations *w)
 {
     int file = -1, next = 0;
-    bool define = false, apart = false;
+    bool define = false, spaced = false;
     for (int i = 0; i <= w->count; i++) {
         const struct definition *p = i < w->count ? &w->definitions[i] : NULL;
         for (; next < (p ? p->file : w->source_count); next++)
@@ -251,18 +251,18 @@ static void write_kept(struct text *text, const struct equations *w)
             }
         if (!p)
             return;
-        apart |= p->apart;
+        spaced |= p->spaced;
         if (!p->kept)
             continue;
         if (p->file != file)
             write_title(text, w->sources[p->file].title);
         bool is_define = *p->start == '#', one_line = next_line(p->start) == p->end;
-        if (p->file == file && (apart || !p->file) && !(define && is_define && p->lead == p->start) &&
+        if (p->file == file && (spaced || !p->file) && !(define && is_define && p->lead == p->start) &&
             !(p->file == 0 && one_line))
             text_add(text, "\n");
         file = p->file;
         define = is_define;
-        apart = false;
+        spaced = false;
         write_definition(text, p);
     }
 }

@@ -302,6 +302,9 @@ bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *er
 // GL_ARRAY_BUFFER. Returns NULL on failure.
 void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error);
 
+// Sets an attribute of the vertex array: `size` floats from float `at` of each vertex of the bound buffer.
+void gl_point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at);
+
 // Adds bytes to a key: a hash of 64 bits of the inputs of uploaded data, which are sent again if the key differs.
 void gl_key_add(uint64_t *key, const void *bytes, size_t count);
 
@@ -339,6 +342,8 @@ struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum verte
 void meshes_evict(struct gl_frame *f);
 void meshes_free(struct gl_device *device);
 
+// Sets the attributes of a vertex array by the locations of glsl.h; `lit`: without those that only lighting reads.
+void mesh_describe(struct gl_frame *f, const struct gl_mesh *mesh, GLuint array, bool lit);
 // Returns the number of floats per vertex in the buffer.
 size_t mesh_vertex_floats(const lam_mesh *mesh);
 

@@ -62,6 +62,13 @@ void gl_edit_plain_texture(struct gl_device *device, enum texture_unit unit, GLe
     gl->TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
+void gl_point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at)
+{
+    f->gl->EnableVertexAttribArray(location);
+    f->gl->VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, (GLsizei)(stride * sizeof(float)),
+                               (const void *)(at * sizeof(float)));
+}
+
 void gl_key_add(uint64_t *key, const void *bytes, size_t count)
 {
     for (size_t at = 0; at < count; at += sizeof(uint64_t)) {

@@ -166,36 +166,16 @@ static bool reserve_row(struct gl_device *device, int draw, lam_error *error)
     return true;
 }
 
-// Sets an attribute of the vertex array, of `size` floats.
-static void point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at)
-{
-    f->gl->EnableVertexAttribArray(location);
-    f->gl->VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, (GLsizei)(stride * sizeof(float)),
-                               (const void *)(at * sizeof(float)));
-}
-
 // Sets the vertex attributes: the mesh's attributes for fragments, and the colours.
 static void describe(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh)
 {
     const struct gl *gl = f->gl;
-    const lam_mesh *m = &mesh->mesh;
-    size_t stride = mesh_vertex_floats(m), at = 6;
-    gl_use_array(f->device, row->array);
-    gl->BindBuffer(GL_ARRAY_BUFFER, mesh->vertices);
-    point_to(f, 0, 3, stride, 0);
-    if (m->colors)
-        point_to(f, 2, 4, stride, at);
-    at += (m->colors ? 4 : 0) + (m->tangents ? 4u : 0);
-    if (m->texcoords)
-        point_to(f, 7, 2, stride, at);
-    at += m->texcoords ? 2 : 0;
-    if (m->second_texcoords)
-        point_to(f, 8, 2, stride, at);
+    mesh_describe(f, mesh, row->array, true);
     gl->BindBuffer(GL_ARRAY_BUFFER, row->colors);
     for (GLuint side = 0; side < 2; side++) {
-        point_to(f, 4 + side, 4, row->separate_texture_terms ? 16 : 8, side * 4);
+        gl_point_to(f, 4 + side, 4, row->separate_texture_terms ? 16 : 8, side * 4);
         if (row->separate_texture_terms)
-            point_to(f, 9 + side, 3, 16, 8 + side * 4);
+            gl_point_to(f, 9 + side, 3, 16, 8 + side * 4);
         else
             gl->DisableVertexAttribArray(9 + side);
     }

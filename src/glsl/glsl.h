@@ -107,10 +107,11 @@ struct glsl_choices {
     int hemisphere_count;
 };
 
-// Returns the choices for a range of a frame. The caller sets version, storage, encoding and products. `environment` is
+// Sets the choices for a range of a frame, in zeroed memory that memcmp may compare. The caller sets version, storage, encoding and products. `environment` is
 // GLSL_FACES, or none if neither material is reflective. LAM_STAGE_AUTO means the vertex stage with Gouraud shading,
 // otherwise the fragment stage.
-struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *range, lam_stage stage);
+void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
+                 lam_stage stage);
 
 // Returns whether an output is a value of the geometry, evaluated for each fragment without lighting for every shading
 // method.
@@ -176,10 +177,6 @@ enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
-// Gets the colours that lights are multiplied by (frame_material_colors), without factors that maps supply at each
-// point.
-void glsl_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3]);
-
 // Do the same for one material's products: the block Products or BackProducts, or the material's texels of
 // product_list: for each light diffuse, specular and with gl1 ambient, then for each hemisphere sky and ground. The
 // uniforms first_product and back_first_product contain the index of the first texel.
@@ -189,18 +186,6 @@ void glsl_pack_products(const struct glsl_choices *choices, const struct frame *
 
 // Sets the choices about maps for a range.
 void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
-
-// Return whether shaders of the frame use a map of the material; whether maps affect the lighting at each point, as
-// with Phong shading; and whether the material is converted at each point.
-bool glsl_reads_maps(const struct frame *frame, const lam_material *material);
-static inline bool glsl_lights_maps(const struct frame *frame, const lam_material *material)
-{
-    return frame->settings.shading == LAM_SHADING_PHONG && glsl_reads_maps(frame, material);
-}
-static inline bool glsl_converts(const struct frame *frame, const lam_material *material)
-{
-    return frame_material_is_converted(frame, material) && glsl_lights_maps(frame, material);
-}
 
 // Returns whether a shader of these materials keeps the light that the diffuse map multiplies separate
 // (glsl_facts.separate_texture_terms).
@@ -215,12 +200,6 @@ void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_ran
 // Gets the rows of a map's uniforms NAME_map_s and NAME_map_t: the matrix from the mesh's texture coordinates to the
 // picture's, with the scale and the offset of the texel. A NULL map has the value 1 everywhere.
 void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4], float t[4]);
-
-// Returns whether a mesh has the texture coordinates that a map uses.
-static inline bool glsl_has_texcoords(const lam_mesh *mesh, const lam_texture_map *map)
-{
-    return map->texcoords ? mesh->second_texcoords != NULL : mesh->texcoords != NULL;
-}
 
 // Writes the values of glsl_material_layout(products, field_layers).
 void glsl_material_values(const struct frame *frame, const lam_material *material, bool products, int field_layers,

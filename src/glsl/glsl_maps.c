@@ -15,40 +15,22 @@
 
 // --- choices
 
-static bool is_drawn(int map) { return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION; }
-
 // If light is evaluated at vertices or once per triangle, these maps are still applied at each fragment.
 static bool follows_lighting(int map)
 {
     return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION;
 }
 
-static bool is_read(const struct frame *frame, const lam_material *material, int map)
-{
-    return material->maps[map] && is_drawn(map) &&
-           (frame->settings.shading == LAM_SHADING_PHONG || follows_lighting(map));
-}
-
-bool glsl_reads_maps(const struct frame *frame, const lam_material *material)
-{
-    bool any = false;
-    for (int i = 0; i < LAM_MAP_COUNT; i++)
-        any |= is_read(frame, material, i);
-    return any;
-}
-
 static void choose_side(struct glsl_choices *c, const struct frame *frame, const lam_material *material, int side,
                         const lam_mesh *mesh, const lam_texture_map *seen[2 * LAM_MAP_COUNT], int *seen_count)
 {
-    c->converted[side] = glsl_converts(frame, material);
+    const unsigned used = frame_maps(frame, material);
+    c->converted[side] = frame_converts_at_points(frame, material);
     for (int i = 0; i < LAM_MAP_COUNT; i++) {
         const lam_texture_map *map = material->maps[i];
-        bool placed = map && glsl_has_texcoords(mesh, map);
+        bool placed = map && frame_has_texcoords(mesh, map);
         bool needs_tangents = i == LAM_MAP_NORMAL || i == LAM_MAP_CLEARCOAT_NORMAL;
-        if (!is_read(frame, material, i) || (needs_tangents && (!mesh->tangents || !placed)) ||
-            (i == LAM_MAP_BUMP && !placed))
-            continue;
-        if (map_layer((lam_map)i) && !(map_layer((lam_map)i) & frame_layers(frame, material)))
+        if (!(used >> i & 1) || (needs_tangents && (!mesh->tangents || !placed)) || (i == LAM_MAP_BUMP && !placed))
             continue;
         int texels = 0;
         while (texels < *seen_count && !texture_map_same(seen[texels], map))
@@ -76,8 +58,7 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
         const lam_material *material = frame->materials[side ? range->back : range->front];
         bool masks = material->alpha_mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
         // If no texel has an alpha below 1, a map's scale makes nothing translucent.
-        bool opaque =
-            material->alpha_mode == LAM_ALPHA_MASK || (!range->translucent && glsl_reads_maps(frame, material));
+        bool opaque = material->alpha_mode == LAM_ALPHA_MASK || (!range->translucent && frame_maps(frame, material));
         c->alpha[side] = masks ? LAM_ALPHA_MASK : opaque ? LAM_ALPHA_OPAQUE : (uint8_t)material->alpha_mode;
     }
     for (int side = 0; side <= c->back_material; side++)
@@ -112,7 +93,7 @@ void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4
     }
     s[3] = map->scale != 0 ? map->scale : 1;
     t[3] = map->offset;
-    if (!glsl_has_texcoords(mesh, map)) { // as if all texels were 1
+    if (!frame_has_texcoords(mesh, map)) { // as if all texels were 1
         t[3] += s[3];
         s[3] = 0;
     }

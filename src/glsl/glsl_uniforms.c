@@ -89,7 +89,7 @@ int glsl_uniform_value(const struct glsl_choices *c, const struct glsl_uniform_s
         return put_member(out, values, row->semantic == GLSL_MATERIAL ? member : row);
     case GLSL_DIFFUSE_PRODUCT:
     case GLSL_SPECULAR_PRODUCT:
-        glsl_material_colors(frame, material, kd, ks);
+        frame_material_colors(frame, material, kd, ks);
         return row->semantic == GLSL_DIFFUSE_PRODUCT ? put_product(out, kd, light_at(from, index)->diffuse)
                                                      : put_product(out, ks, light_at(from, index)->specular);
     case GLSL_LIGHT_AMBIENT_PRODUCT:

@@ -98,13 +98,14 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, bool har
     bool mapped = false;
     for (int i = 0; i < frame->range_count; i++)
         mapped |= is_selected(frame, &frame->ranges[i], object) &&
-                  (glsl_reads_maps(frame, frame->materials[frame->ranges[i].front]) ||
-                   glsl_reads_maps(frame, frame->materials[frame->ranges[i].back]));
+                  (frame_maps(frame, frame->materials[frame->ranges[i].front]) ||
+                   frame_maps(frame, frame->materials[frame->ranges[i].back]));
     for (int i = 0; i < frame->range_count; i++) {
         const struct frame_draw_range *range = &frame->ranges[i];
         if (!is_selected(frame, range, object))
             continue;
-        struct glsl_choices own = glsl_choose(frame, range, stage);
+        struct glsl_choices own;
+        glsl_choose(&own, frame, range, stage);
         if (hardware_filter)
             glsl_use_hardware_filter(&own);
         for (int side = 0; side < 2 && mapped && !range->translucent; side++)

@@ -20,7 +20,8 @@ def library_folders():
     """The folders in their order: the base's own, the subdir() lines of src/meson.build, and the classroom's library."""
     text = open(os.path.join(ROOT, "src", "meson.build")).read()
     inner = re.findall(r"'(\w+)'", re.search(r"^base_folders = \[(.*)\]", text, re.M)[1])
-    return ["base/" + name for name in inner] + [name for name in re.findall(r"^subdir\('(\w+)'\)", text, re.M) if name != "base"] + ["classroom/check"]
+    names = re.findall(r"^(?:subdir\('([\w/]+)'\)|folders .*'lambent-(lecture)')", text, re.M)
+    return ["base/" + name for name in inner] + [name or "classroom/" + part for name, part in names if name != "base"] + ["classroom/check"]
 
 
 def floors():
@@ -32,7 +33,7 @@ def floors():
 
 def folder_of(file):
     """base/text/number -> base/text; gl/loader -> gl; import/obj/obj -> import; tools/many/jobs/job_words -> tools/many/jobs."""
-    if file.startswith(("tools/", "classroom/commands/")):
+    if file.startswith(("tools/", "classroom/commands/", "glsl/")):
         return os.path.dirname(file)
     return "/".join(file.split("/")[:2 if file.startswith(("base/", "classroom/")) else 1])
 
@@ -62,11 +63,14 @@ def objects(build):
 
 def source_of(build, path):
     """src/gl/liblambent-gl.a.p/loader.c.o -> gl/loader; sub-folders are in the object's name, joined by _.
-    lambent.p/tools_job_job_scene.c.o -> tools/job/job_scene."""
+    lambent.p/tools_job_job_scene.c.o -> tools/job/job_scene; src/liblambent-lecture.a.p/.._classroom_lecture_lecture.c.o -> classroom/lecture/lecture."""
+    if "_classroom_lecture_" in path:
+        return "classroom/lecture/" + path.partition("_classroom_lecture_")[2][:-4]
     if os.path.dirname(path) == os.path.join(build, "lambent.p"):
         name = os.path.basename(path)[:-2]
         return next(file[:-2] for file in program_files() if file.replace("/", "_") == name)
-    top, folder = os.path.relpath(path, build).split(os.sep)[:2]
+    top, *folders = os.path.relpath(path, build).split(os.sep)[:-2]
+    folder = "/".join(folders)
     name, inside = re.sub(r"\.c\.o$", "", os.path.basename(path)), os.path.join(ROOT, top, folder)
     folder = folder if top == "src" else "%s/%s" % (top, folder)
     for inner in sorted(os.listdir(inside)):
@@ -152,7 +156,6 @@ def missing_files():
 
 
 NAMED_LOBE = re.compile(r"[!=]= *LAM_REFLECTION_(?!NONE\b|AUTO\b)\w+")
-STYLES = ("glsl/lecture.",)  # programs of courses: which model they print
 
 
 def windows_elsewhere():
@@ -178,7 +181,7 @@ def lobes_asked_by_name():
     for path, _, names in os.walk(src):
         for name in sorted(names):
             file = os.path.relpath(os.path.join(path, name), src)
-            if file.endswith((".c", ".h", ".inc")) and not file.startswith(STYLES):
+            if file.endswith((".c", ".h", ".inc")):
                 yield from ((file, found) for found in NAMED_LOBE.findall(open(os.path.join(src, file), encoding="utf-8").read()))
 
 

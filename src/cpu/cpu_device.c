@@ -179,7 +179,7 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
 {
     const struct frame *frame = cpu->shade.frame;
     if (!frame->settings.reference) {
-        cpu->shade.environment_light = (frame->lamp_apart ? environment_light_without_lamp : environment_light)(
+        cpu->shade.environment_light = (frame->separate_lamp ? environment_light_without_lamp : environment_light)(
             frame->environment, environment_parts_of(&cpu->shade), cpu->pool, cpu->call, error);
         return cpu->shade.environment_light != NULL;
     }

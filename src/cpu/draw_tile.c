@@ -105,9 +105,9 @@ static void resolve_into(const struct resolve_target *target, const struct cpu_f
     if (output == LAM_OUTPUT_CLIPPED) { // resolved to floats first
         lam_image image = {
             .width = tile->width, .height = tile->height, .format = LAM_RGBA32F, .pixels = thread->sums.unclipped};
-        struct resolve_target apart = {.frame = target->frame, .image = &image};
-        kernels->resolve_empty(&apart);
-        kernels->resolve(&apart, &thread->fragments, &thread->samples, &thread->sums,
+        struct resolve_target tile_target = {.frame = target->frame, .image = &image};
+        kernels->resolve_empty(&tile_target);
+        kernels->resolve(&tile_target, &thread->fragments, &thread->samples, &thread->sums,
                          &(struct tile){0, 0, tile->width, tile->height});
     }
     output_tile(target, &thread->fragments, &thread->samples, &thread->sums, tile);
@@ -127,9 +127,9 @@ static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *threa
     }
     lam_image pixels = {
         .width = tile->width, .height = tile->height, .format = target->image->format, .pixels = thread->sums.pixels};
-    struct resolve_target apart = *target;
-    apart.image = &pixels;
-    resolve_into(&apart, cpu, thread, &(struct tile){0, 0, tile->width, tile->height});
+    struct resolve_target tile_target = *target;
+    tile_target.image = &pixels;
+    resolve_into(&tile_target, cpu, thread, &(struct tile){0, 0, tile->width, tile->height});
     size_t left = (size_t)tile->x * TILE * pixel_bytes(converted->format);
     for (int y = 0; y < tile->height; y++)
         pixels_from_working(converted->format, values_are_raw(target->frame), image_row(&pixels, y), tile->width,

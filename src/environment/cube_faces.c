@@ -66,10 +66,10 @@ void cube_close(struct lam_environment *cube)
     int n = cube->size;
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
         for (int i = 0; i < n; i++) {
-            const int places[4][2] = {{-1, i}, {n, i}, {i, -1}, {i, n}};
+            const int border[4][2] = {{-1, i}, {n, i}, {i, -1}, {i, n}};
             for (int p = 0; p < 4; p++)
-                memcpy(cube_texel(cube, face, places[p][0], places[p][1]),
-                       neighbour(cube, face, places[p][0], places[p][1]), 3 * sizeof(float));
+                memcpy(cube_texel(cube, face, border[p][0], border[p][1]),
+                       neighbour(cube, face, border[p][0], border[p][1]), 3 * sizeof(float));
         }
         for (int corner = 0; corner < 4; corner++)
             close_corner(cube, face, corner & 1 ? n : -1, corner & 2 ? n : -1);

@@ -11,7 +11,7 @@ struct cube_color {
 
 // The intersection of a direction with the cube, in texels of the bordered face, ½ … size + 1½. The zero vector gives
 // an arbitrary point.
-struct cube_place {
+struct cube_position {
     inum face;
     num s, t;
 };
@@ -36,23 +36,23 @@ LANE_FN struct cube_side cube_side(num x, num y, num z)
 }
 
 // Returns the point on a face from −1 to 1; NaN for the zero vector.
-LANE_FN struct cube_place cube_point(num x, num y, num z)
+LANE_FN struct cube_position cube_point(num x, num y, num z)
 {
     struct cube_side side = cube_side(x, y, z);
-    return (struct cube_place){side.face, side.across / side.major, side.down / side.major};
+    return (struct cube_position){side.face, side.across / side.major, side.down / side.major};
 }
 
 // OpenGL's table (4.6, 8.13): the axis with the largest magnitude selects the face. If magnitudes are equal, either
 // face works, since the filter is continuous.
-LANE_FN struct cube_place cube_place(num x, num y, num z, int size)
+LANE_FN struct cube_position cube_position(num x, num y, num z, int size)
 {
     float half = 0.5f * (float)size, middle = half + 0.5f;
     num min = num_of(0.5f), max = num_of((float)size + 0.5f);
-    struct cube_place place = cube_point(x, y, z);
+    struct cube_position at = cube_point(x, y, z);
     // The clamp also replaces NaN, 0/0, by the centre of the border.
-    place.s = min_of(max_of(place.s * half + middle, min), max);
-    place.t = min_of(max_of(place.t * half + middle, min), max);
-    return place;
+    at.s = min_of(max_of(at.s * half + middle, min), max);
+    at.t = min_of(max_of(at.t * half + middle, min), max);
+    return at;
 }
 
 LANE_FN num cube_mix(const float from[4][LANES], num s, num t)
@@ -64,12 +64,12 @@ LANE_FN num cube_mix(const float from[4][LANES], num s, num t)
 
 LANE_FN struct cube_color cube_look(const struct lam_environment *cube, num x, num y, num z)
 {
-    struct cube_place place = cube_place(x, y, z, cube->size);
-    inum column = int_of(place.s), row = int_of(place.t);
+    struct cube_position at = cube_position(x, y, z, cube->size);
+    inum column = int_of(at.s), row = int_of(at.t);
     float texels[3][4][LANES];
     size_t stride = cube_row(cube);
     for (int i = 0; i < LANES; i++) {
-        const float *from = cube_texel(cube, ilane(place.face, i), ilane(column, i) - 1, ilane(row, i) - 1);
+        const float *from = cube_texel(cube, ilane(at.face, i), ilane(column, i) - 1, ilane(row, i) - 1);
         for (int channel = 0; channel < 3; channel++) {
             texels[channel][0][i] = from[channel];
             texels[channel][1][i] = from[channel + 3];
@@ -77,7 +77,7 @@ LANE_FN struct cube_color cube_look(const struct lam_environment *cube, num x, n
             texels[channel][3][i] = from[stride + (size_t)channel + 3];
         }
     }
-    num s = place.s - num_of_int(column), t = place.t - num_of_int(row);
+    num s = at.s - num_of_int(column), t = at.t - num_of_int(row);
     return (struct cube_color){cube_mix(texels[0], s, t), cube_mix(texels[1], s, t), cube_mix(texels[2], s, t)};
 }
 

@@ -44,7 +44,7 @@ LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environ
     float half = 0.5f * (float)cube->size, middle = half + 0.5f;
     num min = num_of(0.5f), max = num_of((float)cube->size + 0.5f);
     struct cube_side at = cube_side(x, y, z);
-    num scale = half / at.major; // equals cube_place, except for rounding
+    num scale = half / at.major; // equals cube_position, except for rounding
     num across = min_of(max_of(at.across * scale + middle, min), max);
     num down = min_of(max_of(at.down * scale + middle, min), max);
     inum column = int_of(across), row = int_of(down);

@@ -7,7 +7,7 @@
 #include "environment_light.h"
 
 // Returns the light of level `number` of each lane at a point of a face (cube_point).
-LANE_FN struct cube_color level_look(const struct environment_light *light, inum number, struct cube_place point)
+LANE_FN struct cube_color level_look(const struct environment_light *light, inum number, struct cube_position point)
 {
     float sizes[LANES], texels[3][4][LANES];
     for (int i = 0; i < LANES; i++)
@@ -35,7 +35,7 @@ LANE_FN struct cube_color level_look(const struct environment_light *light, inum
 // two levels.
 LANE_FN struct cube_color prefiltered_look(const struct environment_light *light, num level, num x, num y, num z)
 {
-    struct cube_place point = cube_point(x, y, z);
+    struct cube_position point = cube_point(x, y, z);
     num first = num_of_int(int_of(min_of(level, num_of((float)(ENVIRONMENT_LEVELS - 2)))));
     num part = level - first;
     struct cube_color a = level_look(light, int_of(first), point);

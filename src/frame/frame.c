@@ -556,7 +556,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     if (!frame_lights_build(frame, scene, by_rig ? LAM_RIG_STUDIO : settings->rig,
                             output_is_one_light(frame->settings.output) ? settings->output_light : -1, &view, error))
         return false;
-    frame->lamp_apart = false;
+    frame->separate_lamp = false;
     if (!frame_lights_add_lamp(frame, scene, &view, call, error))
         return false;
     frame->settings.shadows = wants_shadows(settings) && (lam_output_is_light(frame->settings.output) ||

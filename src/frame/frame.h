@@ -180,7 +180,7 @@ struct frame {
 
     // The environment's brightest lamp is a separate light that casts shadows: rig[rig_count]. The environment's
     // diffuse light excludes it.
-    bool lamp_apart;
+    bool separate_lamp;
 
     lam_light rig[LAM_RIG_LIGHTS_MAX + 1];
     int rig_count;
@@ -242,12 +242,27 @@ int frame_back_material(struct frame *frame, int front, int back);
 // on a dark background.
 int frame_stroke_material(struct frame *frame, int front, bool colored);
 
-// Gets the colours that lights are multiplied by: kd and ks. For a physical material they are base (1 − metallic), and
-// 1, since the Fresnel factor is applied later (fresnel_of).
-void frame_material_colors(const lam_material *material, float kd[3], float ks[3]);
+// Returns the maps that shading uses: a bit 1 << LAM_MAP_… for each. If colours of vertices or triangles are
+// interpolated, these are the maps that multiply such a colour.
+unsigned frame_maps(const struct frame *frame, const lam_material *material);
 
-// Returns whether a classic material of the frame was made from a metallic-roughness one.
-bool frame_material_is_converted(const struct frame *frame, const lam_material *material);
+// Returns whether each point computes a classic material from a metallic-roughness one and its maps.
+bool frame_converts_at_points(const struct frame *frame, const lam_material *material);
+
+// Gets the colours that lights are multiplied by: kd and ks. For a physical material they are base (1 − metallic), and
+// 1, since the Fresnel factor is applied later (fresnel_of). Factors that maps change are left out; each point applies
+// them.
+void frame_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3]);
+
+// Returns whether a classic material mirrors the frame's environment.
+bool frame_reflects_environment(const struct frame *frame, const lam_material *material);
+
+// Returns whether a mesh has the texture coordinates that a map uses. If not, it is drawn without the map, as if all
+// texels were 1.
+static inline bool frame_has_texcoords(const lam_mesh *mesh, const lam_texture_map *map)
+{
+    return map->texcoords ? mesh->second_texcoords != NULL : mesh->texcoords != NULL;
+}
 
 // Returns the largest S of a material's lobe, including the Fresnel factor.
 float frame_lobe_max(const lam_material *material);

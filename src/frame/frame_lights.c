@@ -189,6 +189,6 @@ bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const la
     light->specular = (lam_rgb){0, 0, 0};
     light->angular_radius_rad = lamp.angular_radius_rad;
     light->occluded = 0.5f;
-    frame->lamp_apart = true;
+    frame->separate_lamp = true;
     return add_light(frame, scene, light, -1, view, error);
 }

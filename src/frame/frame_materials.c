@@ -133,18 +133,39 @@ int frame_stroke_material(struct frame *frame, int front, bool colored)
     return copy;
 }
 
-void frame_material_colors(const lam_material *material, float kd[3], float ks[3])
+unsigned frame_maps(const struct frame *frame, const lam_material *material)
 {
-    const float *diffuse = &material->diffuse.r, *specular = &material->specular.r;
+    unsigned maps = 0, drawn = ~(1u << LAM_MAP_DISPLACEMENT | 1u << LAM_MAP_REFLECTION);
+    if (frame->settings.shading != LAM_SHADING_PHONG)
+        drawn = 1u << LAM_MAP_DIFFUSE | 1u << LAM_MAP_OPACITY | 1u << LAM_MAP_EMISSION;
+    for (int i = 0; i < LAM_MAP_COUNT; i++)
+        if (material->maps[i] && (!map_layer((lam_map)i) || map_layer((lam_map)i) & frame_layers(frame, material)))
+            maps |= 1u << i;
+    return maps & drawn;
+}
+
+bool frame_converts_at_points(const struct frame *frame, const lam_material *material)
+{
+    bool converted =
+        !material->physical && material >= frame->converted && material < frame->converted + frame->converted_count;
+    return converted && frame->settings.shading == LAM_SHADING_PHONG && frame_maps(frame, material);
+}
+
+void frame_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3])
+{
+    bool converts = frame_converts_at_points(frame, material);
+    bool varies = converts || frame_maps(frame, material) >> LAM_MAP_METALLIC & 1;
+    const float *diffuse = converts ? &material->ambient.r : &material->diffuse.r, *specular = &material->specular.r;
     for (int i = 0; i < 3; i++) {
-        kd[i] = material->physical ? diffuse[i] * (1 - material->metallic) : diffuse[i];
-        ks[i] = material->physical ? 1 : specular[i];
+        kd[i] = material->physical && !varies ? diffuse[i] * (1 - material->metallic) : diffuse[i];
+        ks[i] = material->physical || varies ? 1 : specular[i];
     }
 }
 
-bool frame_material_is_converted(const struct frame *frame, const lam_material *material)
+bool frame_reflects_environment(const struct frame *frame, const lam_material *material)
 {
-    return !material->physical && material >= frame->converted && material < frame->converted + frame->converted_count;
+    return frame->environment && !material->physical &&
+           (material->reflectivity.r != 0 || material->reflectivity.g != 0 || material->reflectivity.b != 0);
 }
 
 int frame_layers(const struct frame *frame, const lam_material *material)

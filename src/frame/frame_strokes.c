@@ -119,7 +119,7 @@ void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera,
 // --- attributes
 
 // A position on a line: the fraction t from corner a to corner b. For a point it is corner a.
-struct place {
+struct segment_point {
     size_t a, b;
     double t;
 };
@@ -131,13 +131,13 @@ static size_t element(const uint32_t *own, const uint32_t *shared, size_t corner
 
 static float mixed(float a, float b, double t) { return (float)((double)a + ((double)b - (double)a) * t); }
 
-static void interpolate(const float *from, const uint32_t *own, const lam_mesh *mesh, size_t width, struct place place,
-                        float *out)
+static void interpolate(const float *from, const uint32_t *own, const lam_mesh *mesh, size_t width,
+                        struct segment_point segment_point, float *out)
 {
-    const float *a = from + width * element(own, mesh->indices, place.a);
-    const float *b = from + width * element(own, mesh->indices, place.b);
+    const float *a = from + width * element(own, mesh->indices, segment_point.a);
+    const float *b = from + width * element(own, mesh->indices, segment_point.b);
     for (size_t i = 0; i < width; i++)
-        out[i] = place.t == 0 ? a[i] : place.t == 1 ? b[i] : mixed(a[i], b[i], place.t);
+        out[i] = segment_point.t == 0 ? a[i] : segment_point.t == 1 ? b[i] : mixed(a[i], b[i], segment_point.t);
 }
 
 // Returns the byte whose linear intensity is closest to `light`.
@@ -154,23 +154,23 @@ static uint8_t encode_srgb(double light)
     return (uint8_t)low;
 }
 
-static void interpolate_color(const lam_mesh *mesh, size_t item, struct place place, void *out)
+static void interpolate_color(const lam_mesh *mesh, size_t item, struct segment_point segment_point, void *out)
 {
     bool each = mesh->colors_rate == LAM_PER_TRIANGLE;
-    size_t a = each ? item : element(mesh->color_indices, mesh->indices, place.a);
-    size_t b = each ? item : element(mesh->color_indices, mesh->indices, place.b);
+    size_t a = each ? item : element(mesh->color_indices, mesh->indices, segment_point.a);
+    size_t b = each ? item : element(mesh->color_indices, mesh->indices, segment_point.b);
     if (mesh->colors_format == LAM_COLORS_LINEAR_F32) {
         const float *from = mesh->colors;
         float *to = out;
         for (size_t i = 0; i < 4; i++)
-            to[i] = mixed(from[4 * a + i], from[4 * b + i], place.t);
+            to[i] = mixed(from[4 * a + i], from[4 * b + i], segment_point.t);
         return;
     }
     const uint8_t *from = mesh->colors;
     uint8_t *to = out;
-    bool ends = place.t == 0 || place.t == 1, srgb = mesh->colors_format == LAM_COLORS_SRGB8;
+    bool ends = segment_point.t == 0 || segment_point.t == 1, srgb = mesh->colors_format == LAM_COLORS_SRGB8;
     if (ends) {
-        memcpy(to, from + 4 * (place.t == 0 ? a : b), 4);
+        memcpy(to, from + 4 * (segment_point.t == 0 ? a : b), 4);
         return;
     }
     for (size_t i = 0; i < 4; i++) {
@@ -179,7 +179,7 @@ static void interpolate_color(const lam_mesh *mesh, size_t item, struct place pl
             x = srgb_linear(x);
             y = srgb_linear(y);
         }
-        double light = x + (y - x) * place.t;
+        double light = x + (y - x) * segment_point.t;
         to[i] = srgb && i < 3 ? encode_srgb(light) : (uint8_t)(light * 255 + 0.5);
     }
 }
@@ -222,19 +222,19 @@ static void store_position(const struct builder *b, size_t vertex, lam_vec3 p)
     to[2] = (float)p.z;
 }
 
-static void store_attributes(const struct builder *b, size_t item, size_t vertex, struct place place)
+static void store_attributes(const struct builder *b, size_t item, size_t vertex, struct segment_point segment_point)
 {
     const lam_mesh *mesh = b->from;
     if (b->to.normals) {
         float n[3], *to = b->to.normals + 3 * vertex;
-        interpolate(mesh->normals, mesh->normal_indices, mesh, 3, place, n);
+        interpolate(mesh->normals, mesh->normal_indices, mesh, 3, segment_point, n);
         for (int i = 0; i < 3; i++)
             to[i] = (float)(b->normal[i][0] * (double)n[0] + b->normal[i][1] * (double)n[1] +
                             b->normal[i][2] * (double)n[2]);
     }
     if (b->to.tangents) {
         float t[4], *to = b->to.tangents + 4 * vertex;
-        interpolate(mesh->tangents, mesh->tangent_indices, mesh, 4, place, t);
+        interpolate(mesh->tangents, mesh->tangent_indices, mesh, 4, segment_point, t);
         lam_vec3 turned = v3_unit(mat4_vector(&b->eye, v3((double)t[0], (double)t[1], (double)t[2])));
         to[0] = (float)turned.x;
         to[1] = (float)turned.y;
@@ -242,12 +242,12 @@ static void store_attributes(const struct builder *b, size_t item, size_t vertex
         to[3] = (float)((double)t[3] * b->bitangent);
     }
     if (b->to.texcoords)
-        interpolate(mesh->texcoords, mesh->texcoord_indices, mesh, 2, place, b->to.texcoords + 2 * vertex);
+        interpolate(mesh->texcoords, mesh->texcoord_indices, mesh, 2, segment_point, b->to.texcoords + 2 * vertex);
     if (b->to.second_texcoords)
-        interpolate(mesh->second_texcoords, mesh->second_texcoord_indices, mesh, 2, place,
+        interpolate(mesh->second_texcoords, mesh->second_texcoord_indices, mesh, 2, segment_point,
                     b->to.second_texcoords + 2 * vertex);
     if (b->to.colors)
-        interpolate_color(mesh, item, place, (char *)b->to.colors + color_size(mesh) * vertex);
+        interpolate_color(mesh, item, segment_point, (char *)b->to.colors + color_size(mesh) * vertex);
 }
 
 // Stores the corners of a rectangle: first to the `right` of both ends, then to the left, offset by (x, y) in pixels, y
@@ -262,20 +262,20 @@ static void store_corners(const struct builder *b, size_t item, const lam_vec3 e
     }
 }
 
-static void store_nothing(const struct builder *b, size_t item, struct place place)
+static void store_nothing(const struct builder *b, size_t item, struct segment_point segment_point)
 {
     for (size_t corner = 0; corner < b->corners; corner++) {
         store_position(b, b->corners * item + corner, v3(0, 0, 0));
-        store_attributes(b, item, b->corners * item + corner, place);
+        store_attributes(b, item, b->corners * item + corner, segment_point);
     }
 }
 
 static void build_point(const struct builder *b, size_t item)
 {
     lam_vec3 p = eye_position(b, item);
-    struct place place = {item, item, 0};
+    struct segment_point segment_point = {item, item, 0};
     if (!(-p.z >= b->near_plane)) {
-        store_nothing(b, item, place);
+        store_nothing(b, item, segment_point);
         return;
     }
     p = moved_nearer(b, p);
@@ -283,24 +283,24 @@ static void build_point(const struct builder *b, size_t item)
     for (size_t corner = 0; corner < b->corners; corner++) {
         const double *to = b->corner[corner];
         store_position(b, b->corners * item + corner, v3(p.x + to[0] * x, p.y + to[1] * y, p.z));
-        store_attributes(b, item, b->corners * item + corner, place);
+        store_attributes(b, item, b->corners * item + corner, segment_point);
     }
 }
 
 static void build_line(const struct builder *b, size_t item)
 {
     lam_vec3 p[2] = {eye_position(b, 2 * item), eye_position(b, 2 * item + 1)};
-    struct place places[2] = {{2 * item, 2 * item + 1, 0}, {2 * item, 2 * item + 1, 1}};
+    struct segment_point ends[2] = {{2 * item, 2 * item + 1, 0}, {2 * item, 2 * item + 1, 1}};
     double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z}; // > 0: in front of the near plane
     if (!(before[0] <= 0) && !(before[1] <= 0)) {
-        store_nothing(b, item, places[0]);
+        store_nothing(b, item, ends[0]);
         return;
     }
     for (int i = 0; i < 2; i++)
         if (before[i] > 0) {
             double t = before[0] / (before[0] - before[1]);
             lam_vec3 from = eye_position(b, 2 * item), to = eye_position(b, 2 * item + 1);
-            places[i].t = t;
+            ends[i].t = t;
             p[i] = v3_add(from, v3_scale(v3_sub(to, from), t));
             p[i].z = -b->near_plane;
         }
@@ -316,7 +316,7 @@ static void build_line(const struct builder *b, size_t item)
     else // seen end-on
         store_corners(b, item, p, 0, 0);
     for (size_t corner = 0; corner < LINE_CORNERS; corner++)
-        store_attributes(b, item, LINE_CORNERS * item + corner, places[corner == 1 || corner == 2]);
+        store_attributes(b, item, LINE_CORNERS * item + corner, ends[corner == 1 || corner == 2]);
 }
 
 // --- whole meshes

@@ -38,8 +38,8 @@ static inline uint8_t triangulated_inner_edges(const uint32_t triple[3], uint32_
 {
     uint8_t inner = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        uint32_t a = triple[k], b = triple[(k + 1) % 3], apart = a < b ? b - a : a - b;
-        inner |= (uint8_t)((apart != 1 && apart != count - 1) << k);
+        uint32_t a = triple[k], b = triple[(k + 1) % 3], distance = a < b ? b - a : a - b;
+        inner |= (uint8_t)((distance != 1 && distance != count - 1) << k);
     }
     return inner;
 }

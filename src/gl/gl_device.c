@@ -13,71 +13,59 @@
 
 // --- a frame
 
+// Resets the choices about lighting, for a program that does not depend on them; without `maps`, also those about maps.
+static void forget_lighting(struct glsl_choices *c, bool maps)
+{
+    const struct glsl_choices wanted = *c;
+    memset(c, 0, sizeof *c);
+    c->two_sided = wanted.two_sided;
+    c->output = wanted.output;
+    c->stage = wanted.stage;
+    c->shading = wanted.shading;
+    c->reflection = LAM_REFLECTION_LAMBERT;
+    c->alpha[0] = c->alpha[1] = LAM_ALPHA_BLEND;
+    if (!maps)
+        return;
+    bool masks = wanted.alpha[0] == LAM_ALPHA_MASK || wanted.alpha[1] == LAM_ALPHA_MASK;
+    memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
+    memcpy(c->maps, wanted.maps, sizeof c->maps);
+    c->anisotropy = wanted.anisotropy;
+    c->back_material = wanted.back_material;
+    c->colors = masks && output_is_value(c->output) && wanted.colors;
+}
+
 // Sets the choices for a range's program. A choice that the program does not depend on keeps its default, so that equal
-// programs have equal choices. Fields are assigned in zeroed memory because program_for compares bytes.
+// programs have equal choices, byte for byte (program_for).
 static void choices_of(const struct gl_frame *f, const struct frame_draw_range *range, struct glsl_choices *c)
 {
-    struct glsl_choices wanted = glsl_choose(f->frame, range, f->stage);
-    memset(c, 0, sizeof *c);
+    glsl_choose(c, f->frame, range, f->stage);
+    const bool geometry = glsl_output_is_geometry(c->output), ground = f->frame->draws[range->draw].ground;
+    const bool masks = c->alpha[0] == LAM_ALPHA_MASK || c->alpha[1] == LAM_ALPHA_MASK;
+    const bool application = c->stage == LAM_STAGE_APPLICATION;
+    if (geometry || application)
+        forget_lighting(c, geometry ? masks : true);
+    if (f->device->hardware_filter && (!geometry || masks))
+        glsl_use_hardware_filter(c);
     c->version = f->device->context.es ? GLSL_300_ES : GLSL_330;
     c->storage = f->storage;
     c->encoding = GLSL_PREMULTIPLIED;
     c->layer = !f->layered ? GLSL_NO_LAYERS : range_blends(f->frame, range) ? GLSL_PEELS : GLSL_WRITES_DEPTH_IDS;
     c->transmits = c->layer == GLSL_PEELS && f->frame->transmits;
     c->products = true;
-    c->two_sided = wanted.two_sided;
-    c->output = wanted.output;
-    c->stage = wanted.stage;
-    c->shading = wanted.shading;
-    bool ground = f->frame->draws[range->draw].ground;
     c->occlusion = f->occlusion && (!range->translucent || ground);
-    c->reflection = LAM_REFLECTION_LAMBERT;
-    c->alpha[0] = c->alpha[1] = LAM_ALPHA_BLEND;
-    bool geometry = glsl_output_is_geometry(c->output),
-         masks = wanted.alpha[0] == LAM_ALPHA_MASK || wanted.alpha[1] == LAM_ALPHA_MASK;
-    if (geometry ? masks : c->stage == LAM_STAGE_APPLICATION) {
-        memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
-        memcpy(c->maps, wanted.maps, sizeof c->maps);
-        c->anisotropy = wanted.anisotropy;
-        if (f->device->hardware_filter)
-            glsl_use_hardware_filter(c);
-        c->back_material = wanted.back_material;
-        c->colors = masks && output_is_value(c->output) && wanted.colors;
-    }
     if (geometry) {
         c->shading = LAM_SHADING_PHONG;
         c->stage = LAM_STAGE_FRAGMENT;
         return;
     }
-    c->lecture = f->device->lecture && !output_is_value(c->output);
-    c->mistake = c->lecture ? f->device->mistake : 0;
-    if (c->stage == LAM_STAGE_APPLICATION) {
+    c->style = output_is_value(c->output) ? NULL : f->device->style;
+    c->mistake = c->style ? f->device->mistake : 0;
+    if (application) {
         if (!output_is_vector(c->output))
             c->output = LAM_OUTPUT_PICTURE;
         return;
     }
-    c->reflection = wanted.reflection;
-    c->environment = wanted.environment;
-    c->environment_light = wanted.environment_light;
-    c->distant_viewer = wanted.distant_viewer;
-    c->gl1 = wanted.gl1;
-    c->single_scattering = wanted.single_scattering;
     c->widens = f->frame->widens_highlights && frame_is_physical(c->reflection);
-    c->back_material = wanted.back_material;
-    c->colors = wanted.colors;
-    c->tangents = wanted.tangents;
-    memcpy(c->converted, wanted.converted, sizeof c->converted);
-    memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
-    memcpy(c->maps, wanted.maps, sizeof c->maps);
-    c->layers = wanted.layers;
-    c->field_layers = wanted.field_layers;
-    c->anisotropy = wanted.anisotropy;
-    if (f->device->hardware_filter)
-        glsl_use_hardware_filter(c);
-    memcpy(c->groups, wanted.groups, sizeof c->groups);
-    c->group_count = wanted.group_count;
-    c->light_count = wanted.light_count;
-    c->hemisphere_count = wanted.hemisphere_count;
     c->shadows = f->frame->settings.shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
     c->passes_rays = c->shadows && f->frame->passes_rays;
     c->tints_rays = c->shadows && f->frame->tints_rays;
@@ -92,8 +80,9 @@ static lam_mesh mesh_as_drawn(const struct gl_frame *f, const struct frame_draw_
     for (int i = 0; i < count; i++)
         for (int side = 0; side < 2; side++) {
             const lam_material *material = f->frame->materials[side ? list[i].back : list[i].front];
-            for (int k = 0; k < LAM_MAP_COUNT && glsl_reads_maps(f->frame, material); k++)
-                if (material->maps[k])
+            unsigned used = frame_maps(f->frame, material);
+            for (int k = 0; k < LAM_MAP_COUNT; k++)
+                if (used >> k & 1)
                     read[material->maps[k]->texcoords] = true;
         }
     if (!read[0])
@@ -193,7 +182,7 @@ static bool set_up(struct gl_frame *f, lam_error *error)
     if (!frame->range_count)
         return true;
     if (frame->environment_lights &&
-        !(f->environment_light = (frame->lamp_apart ? environment_light_without_lamp : environment_light)(
+        !(f->environment_light = (frame->separate_lamp ? environment_light_without_lamp : environment_light)(
               frame->environment, ENVIRONMENT_LIGHT_ALL, NULL, f->call, error)))
         return false;
     if (frame->settings.shadows && !shadows_send(f, error))
@@ -362,14 +351,13 @@ static uint64_t gl_memory(const struct lam_device *base)
                      vertex_colors_bytes(&device->vertex_colors);
     const struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++)
-        bytes += lists[i]->shadow.capacity + lists[i]->next.capacity + lists[i]->size;
+        bytes += lists[i]->next.capacity + lists[i]->size;
     for (int i = 0; i < device->mesh_count; i++)
         bytes += device->meshes[i].bytes;
     for (int i = 0; i < device->texture_count; i++)
         bytes += device->textures[i].bytes;
     for (int i = 0; i < device->vertex_lighting_capacity; i++)
-        bytes += device->vertex_lighting[i].bytes + device->vertex_lighting[i].sent_key.capacity +
-                 device->vertex_lighting[i].frame_key.capacity;
+        bytes += device->vertex_lighting[i].bytes;
     return bytes;
 }
 
@@ -474,7 +462,7 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     }
     device->base.type = &type;
     device->external_context = params->get_proc_address != NULL;
-    device->lecture = params->lecture;
+    device->style = params->lecture ? &lecture_style : NULL;
     device->hardware_filter = params->hardware_filter;
     device->mistake = mistake;
     for (int i = 0; i < 256; i++)

@@ -18,7 +18,7 @@
 #include "context.h"
 #include "device_type.h"
 #include "fields.h"
-#include "glsl.h"
+#include "glsl_rows.h"
 #include "hierarchy.h"
 #include "screen_occlusion.h"
 #include "vertex_colors.h"
@@ -98,9 +98,7 @@ enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_
 
 // Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
 struct gl_vertex_lighting {
-    // All inputs of the colours, as bytes: for the colours in the buffer, and for the current frame.
-    struct buffer sent_key, frame_key;
-    size_t sent_key_size;
+    uint64_t key; // of all inputs of the colours in the buffer (gl_key_add); 0: none
     // Referenced, because the key contains its address.
     struct lam_environment *environment;
     GLuint colors, array;
@@ -113,38 +111,22 @@ struct gl_vertex_lighting {
 
 // --- programs
 
-enum uniform {
-    UNIFORM_MODEL_VIEW_PROJECTION,
-    UNIFORM_MODEL_VIEW,
-    UNIFORM_NORMAL_MATRIX,
-    UNIFORM_ENVIRONMENT_MATRIX,
-    UNIFORM_OBJECT,
-    UNIFORM_SHADOW_MATRIX,
-    UNIFORM_SHADOW_PLACES,
-    UNIFORM_SHADOW_ROUNDING,
-    UNIFORM_HEAD, // one for each field of glsl_material_layout
-    UNIFORM_BACK_HEAD = UNIFORM_HEAD + LAM_FIELDS_MAX,
-    UNIFORM_ALPHA_CUTOFF = UNIFORM_BACK_HEAD + LAM_FIELDS_MAX,
-    UNIFORM_BACK_ALPHA_CUTOFF,
-    UNIFORM_MAPPED_EMISSION,
-    UNIFORM_BACK_MAPPED_EMISSION,
-    UNIFORM_MAPS, // two rows for each map of the front, then of the back (glsl_map_values)
-    UNIFORM_FLOATS = UNIFORM_MAPS + 4 * LAM_MAP_COUNT, // number of the uniforms above, which are all floats
-    UNIFORM_FIRST_PRODUCT = UNIFORM_FLOATS,
-    UNIFORM_BACK_FIRST_PRODUCT,
-    UNIFORM_FIRST_TRIANGLE,
-    UNIFORM_COUNT
+// Uniforms that are no rows of glsl_rows.h; a program's rows follow.
+enum { UNIFORM_SHADOW_MATRIX, UNIFORM_SHADOW_OFFSETS, UNIFORM_SHADOW_ROUNDING, UNIFORM_FIRST_TRIANGLE, UNIFORM_ROWS };
+
+struct gl_uniform {
+    GLint location; // −1 if the program does not have the uniform
+    bool set;       // whether a value has been set
+    float value[16];
+    struct glsl_row row;
 };
 
 struct gl_program {
     struct glsl_choices choices;
     GLuint name;
-    GLint locations[UNIFORM_COUNT];      // −1 if the program does not have the uniform
+    struct gl_uniform *uniforms;
+    int uniform_count;
     uint8_t map_units[2][LAM_MAP_COUNT]; // texture units of the maps of the front and the back, or 0
-    // The current values, and whether any has been set.
-    float values[UNIFORM_FLOATS][16];
-    int ints[UNIFORM_COUNT - UNIFORM_FLOATS];
-    bool set[UNIFORM_COUNT];
 };
 
 // --- targets
@@ -172,10 +154,10 @@ struct gl_targets {
 struct gl_light_buffer {
     GLuint name; // buffer or texture
     bool texture;
-    size_t size;          // bytes in use
-    size_t capacity;      // bytes of a buffer, rows of a texture
-    struct buffer shadow; // the contents
-    struct buffer next;   // the contents of this frame, compared with `shadow` before an upload
+    size_t size;        // bytes in use
+    size_t capacity;    // bytes of a buffer, rows of a texture
+    uint64_t key;       // of the contents (gl_key_add)
+    struct buffer next; // the contents of this frame
 };
 
 // How a fragment is combined with the target.
@@ -207,9 +189,7 @@ struct gl_current_state {
 
 // The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
 struct gl_surfaces {
-    // All inputs of the texels, as bytes: for the texels in the texture, and for the current frame.
-    struct buffer key, next_key;
-    size_t key_size, next_key_size;
+    uint64_t key, next_key; // of all inputs of the texels in the texture, and for the current frame; 0: none
     // of the current frame: the first record of each range; the positions of the textures
     struct buffer records, pixels;
 };
@@ -217,9 +197,10 @@ struct gl_surfaces {
 struct gl_device {
     struct lam_device base;
     struct gl_context context;
-    bool external_context;         // the context is the caller's
-    bool lecture, hardware_filter; // lam_gl_params
-    int mistake;                   // same as glsl_choices.mistake
+    bool external_context;          // the context is the caller's
+    const struct glsl_style *style; // same as in glsl_choices
+    int mistake;
+    bool hardware_filter; // lam_gl_params
     GLint block_size_max, block_alignment, texture_size_max;
     GLint unit_count;    // number of texture units of the fragment shader that are used, up to UNIT_COUNT
     bool has_norm16;     // textures of 16 bits for 0…1
@@ -253,9 +234,9 @@ struct gl_device {
     GLuint environment_texture, environment_light_texture;
     const struct environment_light *environment_light; // contents of the texture; owned by `environment`
     struct hierarchy_memory hierarchy;
-    GLuint shadow_texture;  // contains the hierarchy
-    float shadow_places[2]; // first texel of the triangles, and of their positions
-    bool shadows_sent;      // whether the texture contains the hierarchy, and the surfaces of surfaces.key
+    GLuint shadow_texture;   // contains the hierarchy
+    float shadow_offsets[2]; // first texel of the triangles, and of their positions
+    bool shadows_sent;       // whether the texture contains the hierarchy, and the surfaces of surfaces.key
     struct gl_surfaces surfaces;
     uint64_t environment_bytes, target_bytes, shadow_bytes;
     struct gl_current_state current;
@@ -321,6 +302,15 @@ bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *er
 // GL_ARRAY_BUFFER. Returns NULL on failure.
 void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error);
 
+// Sets an attribute of the vertex array: `size` floats from float `at` of each vertex of the bound buffer.
+void gl_point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at);
+
+// Adds bytes to a key: a hash of 64 bits of the inputs of uploaded data, which are sent again if the key differs.
+void gl_key_add(uint64_t *key, const void *bytes, size_t count);
+
+// Returns the list with space for another row, or NULL on failure.
+void *gl_grown(void *list, int count, int *capacity, size_t size, lam_error *error);
+
 // Each function sets a state unless it is already current.
 void gl_use_program(struct gl_device *device, GLuint program);
 void gl_use_array(struct gl_device *device, GLuint array);
@@ -329,6 +319,8 @@ void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum tar
 void gl_use_sampler(struct gl_device *device, enum texture_unit unit, GLuint sampler);
 // Does the same as gl_use_texture, and makes the unit active, which uploads need.
 void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
+// Does the same as gl_edit_texture, and makes the texture if *name is 0: one level, the nearest texel, no repetition.
+void gl_edit_plain_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint *name);
 void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer);
 void gl_use_blending(struct gl_device *device, enum gl_blending blending);
 void gl_use_viewport(struct gl_device *device, int width, int height);
@@ -350,6 +342,8 @@ struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum verte
 void meshes_evict(struct gl_frame *f);
 void meshes_free(struct gl_device *device);
 
+// Sets the attributes of a vertex array by the locations of glsl.h; `lit`: without those that only lighting reads.
+void mesh_describe(struct gl_frame *f, const struct gl_mesh *mesh, GLuint array, bool lit);
 // Returns the number of floats per vertex in the buffer.
 size_t mesh_vertex_floats(const lam_mesh *mesh);
 
@@ -357,8 +351,8 @@ size_t mesh_vertex_floats(const lam_mesh *mesh);
 // them there.
 bool textures_upload(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range,
                      lam_error *error);
-// Sets the uniforms of the maps and of the alpha cutoff, and binds the textures.
-void textures_use(struct gl_frame *f, struct gl_program *program, const struct frame_draw_range *range);
+// Binds the textures of the maps.
+void textures_use(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range);
 // Does the same as meshes_evict for textures.
 void textures_evict(struct gl_frame *f);
 void textures_free(struct gl_device *device);
@@ -384,8 +378,9 @@ bool occlusion_send(struct gl_frame *f, lam_error *error);
 // --- gl_programs.c
 // Returns the program of the choices, compiled on first use. NULL on failure.
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
-void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values, int count);
-void program_set_int(struct gl_frame *f, struct gl_program *program, enum uniform uniform, int value);
+// Set a uniform of a program unless it has this value already: an int, or 16, 9, 4 or one float.
+void program_set_int(struct gl_frame *f, struct gl_program *program, int uniform, GLint value);
+void program_set(struct gl_frame *f, struct gl_program *program, int uniform, const float *values, int count);
 bool program_copy_make(struct gl_device *device, lam_error *error);
 void programs_free(struct gl_device *device);
 

@@ -14,7 +14,6 @@
     X(ActiveTexture)                                                                                                   \
     X(AttachShader)                                                                                                    \
     X(BeginQuery)                                                                                                      \
-    X(BindAttribLocation)                                                                                              \
     X(BindBuffer)                                                                                                      \
     X(BindBufferBase)                                                                                                  \
     X(BindBufferRange)                                                                                                 \
@@ -27,7 +26,6 @@
     X(BlendEquationSeparate)                                                                                           \
     X(BlendFunc)                                                                                                       \
     X(BlendFuncSeparate)                                                                                               \
-    X(BlitFramebuffer)                                                                                                 \
     X(BufferData)                                                                                                      \
     X(BufferSubData)                                                                                                   \
     X(CheckFramebufferStatus)                                                                                          \
@@ -35,7 +33,6 @@
     X(ClearBufferfv)                                                                                                   \
     X(ClearBufferuiv)                                                                                                  \
     X(ClearColor)                                                                                                      \
-    X(ClientWaitSync)                                                                                                  \
     X(ColorMask)                                                                                                       \
     X(CompileShader)                                                                                                   \
     X(CreateProgram)                                                                                                   \
@@ -48,7 +45,6 @@
     X(DeleteRenderbuffers)                                                                                             \
     X(DeleteShader)                                                                                                    \
     X(DeleteSamplers)                                                                                                  \
-    X(DeleteSync)                                                                                                      \
     X(DeleteTextures)                                                                                                  \
     X(DeleteVertexArrays)                                                                                              \
     X(DepthFunc)                                                                                                       \
@@ -61,9 +57,7 @@
     X(Enable)                                                                                                          \
     X(EnableVertexAttribArray)                                                                                         \
     X(EndQuery)                                                                                                        \
-    X(FenceSync)                                                                                                       \
     X(Finish)                                                                                                          \
-    X(Flush)                                                                                                           \
     X(FramebufferRenderbuffer)                                                                                         \
     X(FramebufferTexture2D)                                                                                            \
     X(FrontFace)                                                                                                       \
@@ -76,7 +70,6 @@
     X(GenVertexArrays)                                                                                                 \
     X(GetActiveAttrib)                                                                                                 \
     X(GetActiveUniform)                                                                                                \
-    X(GetActiveUniformBlockName)                                                                                       \
     X(GetActiveUniformBlockiv)                                                                                         \
     X(GetActiveUniformsiv)                                                                                             \
     X(GetAttribLocation)                                                                                               \
@@ -93,16 +86,13 @@
     X(GetString)                                                                                                       \
     X(GetStringi)                                                                                                      \
     X(GetUniformBlockIndex)                                                                                            \
-    X(GetUniformIndices)                                                                                               \
     X(GetUniformLocation)                                                                                              \
     X(IsEnabled)                                                                                                       \
     X(LinkProgram)                                                                                                     \
     X(MapBufferRange)                                                                                                  \
     X(PixelStorei)                                                                                                     \
-    X(ReadBuffer)                                                                                                      \
     X(ReadPixels)                                                                                                      \
     X(RenderbufferStorage)                                                                                             \
-    X(RenderbufferStorageMultisample)                                                                                  \
     X(SamplerParameterf)                                                                                               \
     X(SamplerParameteri)                                                                                               \
     X(Scissor)                                                                                                         \
@@ -111,52 +101,36 @@
     X(TexImage3D)                                                                                                      \
     X(TexParameteri)                                                                                                   \
     X(TexSubImage2D)                                                                                                   \
-    X(TexSubImage3D)                                                                                                   \
     X(Uniform1f)                                                                                                       \
     X(Uniform1fv)                                                                                                      \
     X(Uniform1i)                                                                                                       \
     X(Uniform1iv)                                                                                                      \
-    X(Uniform1ui)                                                                                                      \
-    X(Uniform2f)                                                                                                       \
     X(Uniform2fv)                                                                                                      \
-    X(Uniform2i)                                                                                                       \
-    X(Uniform3f)                                                                                                       \
     X(Uniform3fv)                                                                                                      \
-    X(Uniform4f)                                                                                                       \
     X(Uniform4fv)                                                                                                      \
     X(UniformBlockBinding)                                                                                             \
     X(UniformMatrix3fv)                                                                                                \
     X(UniformMatrix4fv)                                                                                                \
     X(UnmapBuffer)                                                                                                     \
     X(UseProgram)                                                                                                      \
-    X(VertexAttrib4f)                                                                                                  \
-    X(VertexAttribIPointer)                                                                                            \
     X(VertexAttribPointer)                                                                                             \
     X(Viewport)
 
 // Part of some versions only; NULL if the driver does not have the name. Call such a function only after a check of the
 // context's version and extensions: a pointer alone does not mean support.
 #define GL_OPTIONAL_FUNCTIONS(X)                                                                                       \
-    X(BindFragDataLocation) /* desktop */                                                                              \
     X(DebugMessageCallback) /* KHR_debug */                                                                            \
     X(DebugMessageControl)                                                                                             \
     X(PolygonMode) /* desktop */                                                                                       \
     X(Begin)       /* this and the following: compatibility contexts */                                                \
-    X(Color4f)                                                                                                         \
-    X(ColorPointer)                                                                                                    \
-    X(DisableClientState)                                                                                              \
     X(EnableClientState)                                                                                               \
     X(End)                                                                                                             \
     X(Lightfv)                                                                                                         \
-    X(LoadIdentity)                                                                                                    \
     X(LoadMatrixf)                                                                                                     \
     X(Materialfv)                                                                                                      \
     X(MatrixMode)                                                                                                      \
-    X(MultiTexCoord4f)                                                                                                 \
     X(Normal3f)                                                                                                        \
     X(NormalPointer)                                                                                                   \
-    X(TexCoord4f)                                                                                                      \
-    X(TexCoordPointer)                                                                                                 \
     X(Vertex3f)                                                                                                        \
     X(VertexPointer)
 

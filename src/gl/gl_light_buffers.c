@@ -37,15 +37,6 @@ static bool send_block(struct gl_frame *f, struct gl_light_buffer *list, lam_err
     return true;
 }
 
-static void plain_texture(const struct gl *gl, GLenum target)
-{
-    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl->TexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl->TexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    gl->TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
-}
-
 // Uploads rows of GLSL_LIST_WIDTH texels; `next` contains whole rows.
 static bool send_texels(struct gl_frame *f, struct gl_light_buffer *list, enum texture_unit unit, lam_error *error)
 {
@@ -57,12 +48,7 @@ static bool send_texels(struct gl_frame *f, struct gl_light_buffer *list, enum t
             "OpenGL: lights and materials need a texture of %zu rows of %d texels, this driver supports at most %d; "
             "the CPU device has no such limit",
             rows, GLSL_LIST_WIDTH, f->device->texture_size_max);
-    bool fresh = !list->name;
-    if (fresh)
-        gl->GenTextures(1, &list->name);
-    gl_edit_texture(f->device, unit, GL_TEXTURE_2D, list->name);
-    if (fresh)
-        plain_texture(gl, GL_TEXTURE_2D);
+    gl_edit_plain_texture(f->device, unit, GL_TEXTURE_2D, &list->name);
     if (rows > list->capacity) {
         uint64_t held = list->capacity * row;
         if (!gl_charge(f, &held, rows * row, error))
@@ -96,15 +82,16 @@ static bool send(struct gl_frame *f, struct gl_light_buffer *list, size_t size, 
         gl_state_invalidate(f->device);
     }
     list->texture = texture;
-    if (list->name && list->size == size && memcmp(list->shadow.data, list->next.data, size) == 0)
+    uint64_t key = size;
+    gl_key_add(&key, list->next.data, size);
+    if (list->name && list->key == key)
         return true;
     list->size = size;
+    list->key = 0;
     if (texture ? !send_texels(f, list, unit, error) : !send_block(f, list, error))
         return false;
     f->device->base.report.bytes_uploaded += size;
-    struct buffer swapped = list->shadow;
-    list->shadow = list->next;
-    list->next = swapped;
+    list->key = key;
     return true;
 }
 
@@ -156,12 +143,7 @@ bool environment_send(struct gl_frame *f, lam_error *error)
     lam_environment_free(device->environment);
     device->environment = NULL;
     device->environment_light = NULL; // another one may get the same address
-    bool fresh = !device->environment_texture;
-    if (fresh)
-        gl->GenTextures(1, &device->environment_texture);
-    gl_edit_texture(device, UNIT_ENVIRONMENT, GL_TEXTURE_2D_ARRAY, device->environment_texture);
-    if (fresh)
-        plain_texture(gl, GL_TEXTURE_2D_ARRAY);
+    gl_edit_plain_texture(device, UNIT_ENVIRONMENT, GL_TEXTURE_2D_ARRAY, &device->environment_texture);
     gl->TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGB32F, side, side, 6, 0, GL_RGB, GL_FLOAT, cube->texels);
     device->environment = cube_share(cube);
     device->base.report.bytes_uploaded += bytes;
@@ -177,12 +159,7 @@ bool environment_light_send(struct gl_frame *f, lam_error *error)
     uint64_t held = 0, bytes = (uint64_t)environment_light_rows() * ENVIRONMENT_LIGHT_WIDTH * 3 * sizeof(float);
     if (!gl_charge(f, &held, bytes, error))
         return false;
-    bool fresh = !device->environment_light_texture;
-    if (fresh)
-        gl->GenTextures(1, &device->environment_light_texture);
-    gl_edit_texture(device, UNIT_ENVIRONMENT_LIGHT, GL_TEXTURE_2D, device->environment_light_texture);
-    if (fresh)
-        plain_texture(gl, GL_TEXTURE_2D);
+    gl_edit_plain_texture(device, UNIT_ENVIRONMENT_LIGHT, GL_TEXTURE_2D, &device->environment_light_texture);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, ENVIRONMENT_LIGHT_WIDTH, environment_light_rows(), 0, GL_RGB, GL_FLOAT,
                    f->environment_light->texels);
     device->environment_light = f->environment_light;
@@ -196,7 +173,6 @@ void light_buffers_free(struct gl_device *device)
     struct gl_light_buffer *lists[] = {&device->lights, &device->products};
     for (int i = 0; i < 2; i++) {
         delete_light_buffer(gl, lists[i]);
-        buffer_free(&lists[i]->shadow);
         buffer_free(&lists[i]->next);
     }
     if (device->environment_texture)

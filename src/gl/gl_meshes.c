@@ -69,6 +69,12 @@ static void face_normal(const lam_mesh *mesh, uint32_t triangle, float out[3])
     unit(out);
 }
 
+static void copy(float *to, const float *from, size_t count, uint32_t element)
+{
+    if (from)
+        memcpy(to, from + count * element, count * sizeof *to);
+}
+
 void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
                    uint32_t count, struct mesh_vertex *out)
 {
@@ -77,32 +83,21 @@ void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum ve
         uint32_t attribute = form >= FORM_FLAT_FACE ? 3 * triangle + 2 : corner; // flat: of the last corner
         bool shared = form == FORM_SHARED;
         uint32_t p = shared ? corner : element(NULL, mesh->indices, corner);
-        memcpy(out->position, mesh->positions + 3 * (size_t)p, sizeof out->position);
+        copy(out->position, mesh->positions, 3, p);
         if (form == FORM_FLAT_FACE || !mesh->normals)
             face_normal(mesh, triangle, out->normal);
         else
-            memcpy(out->normal,
-                   mesh->normals + 3 * (size_t)(shared ? p : element(mesh->normal_indices, mesh->indices, attribute)),
-                   sizeof out->normal);
+            copy(out->normal, mesh->normals, 3, shared ? p : element(mesh->normal_indices, mesh->indices, attribute));
         if (mesh->colors)
             copy_color(device, mesh,
                        shared                                  ? p
                        : mesh->colors_rate == LAM_PER_TRIANGLE ? triangle
                                                                : element(mesh->color_indices, mesh->indices, attribute),
                        out->color);
-        if (mesh->tangents)
-            memcpy(out->tangent,
-                   mesh->tangents + 4 * (size_t)(shared ? p : element(mesh->tangent_indices, mesh->indices, attribute)),
-                   sizeof out->tangent);
-        if (mesh->texcoords)
-            memcpy(out->texcoord,
-                   mesh->texcoords + 2 * (size_t)(shared ? p : element(mesh->texcoord_indices, mesh->indices, corner)),
-                   sizeof out->texcoord);
-        if (mesh->second_texcoords)
-            memcpy(out->second_texcoord,
-                   mesh->second_texcoords +
-                       2 * (size_t)(shared ? p : element(mesh->second_texcoord_indices, mesh->indices, corner)),
-                   sizeof out->second_texcoord);
+        copy(out->tangent, mesh->tangents, 4, shared ? p : element(mesh->tangent_indices, mesh->indices, attribute));
+        copy(out->texcoord, mesh->texcoords, 2, shared ? p : element(mesh->texcoord_indices, mesh->indices, corner));
+        copy(out->second_texcoord, mesh->second_texcoords, 2,
+             shared ? p : element(mesh->second_texcoord_indices, mesh->indices, corner));
     }
 }
 
@@ -156,29 +151,25 @@ static bool send_vertices(struct gl_frame *f, const struct gl_mesh *row, lam_err
     return on || call_error(f->call, error);
 }
 
-// Sets the vertex attributes by the locations of glsl.h.
-static void describe(struct gl_frame *f, const struct gl_mesh *row)
+void mesh_describe(struct gl_frame *f, const struct gl_mesh *row, GLuint array, bool lit)
 {
-    const struct gl *gl = f->gl;
-    GLsizei stride = (GLsizei)(mesh_vertex_floats(&row->mesh) * sizeof(float));
-    gl_use_array(f->device, row->array);
-    gl->BindBuffer(GL_ARRAY_BUFFER, row->vertices);
     const struct {
-        bool there;
+        bool there, for_light;
         GLuint location;
         GLint size;
-    } attributes[] = {{true, 0, 3},
-                      {true, 1, 3},
-                      {row->mesh.colors != NULL, 2, 4},
-                      {row->mesh.tangents != NULL, 3, 4},
-                      {row->mesh.texcoords != NULL, 7, 2},
-                      {row->mesh.second_texcoords != NULL, 8, 2}};
-    size_t at = 0;
+    } attributes[] = {{true, false, 0, 3},
+                      {true, true, 1, 3},
+                      {row->mesh.colors != NULL, false, 2, 4},
+                      {row->mesh.tangents != NULL, true, 3, 4},
+                      {row->mesh.texcoords != NULL, false, 7, 2},
+                      {row->mesh.second_texcoords != NULL, false, 8, 2}};
+    size_t stride = mesh_vertex_floats(&row->mesh), at = 0;
+    gl_use_array(f->device, array);
+    f->gl->BindBuffer(GL_ARRAY_BUFFER, row->vertices);
     for (size_t i = 0; i < sizeof attributes / sizeof *attributes; i++)
         if (attributes[i].there) {
-            gl->EnableVertexAttribArray(attributes[i].location);
-            gl->VertexAttribPointer(attributes[i].location, attributes[i].size, GL_FLOAT, GL_FALSE, stride,
-                                    (const void *)(at * sizeof(float)));
+            if (!lit || !attributes[i].for_light)
+                gl_point_to(f, attributes[i].location, attributes[i].size, stride, at);
             at += (size_t)attributes[i].size;
         }
 }
@@ -217,16 +208,10 @@ static struct gl_mesh *free_row(struct gl_device *device, lam_error *error)
     for (int i = 0; i < device->mesh_count; i++)
         if (!device->meshes[i].token)
             return &device->meshes[i];
-    if (device->mesh_count == device->mesh_capacity) {
-        int capacity = device->mesh_capacity ? 2 * device->mesh_capacity : 8;
-        struct gl_mesh *grown = realloc(device->meshes, (size_t)capacity * sizeof *grown);
-        if (!grown) {
-            fail_memory(error, (size_t)capacity * sizeof *grown);
-            return NULL;
-        }
-        device->meshes = grown;
-        device->mesh_capacity = capacity;
-    }
+    struct gl_mesh *list = gl_grown(device->meshes, device->mesh_count, &device->mesh_capacity, sizeof *list, error);
+    if (!list)
+        return NULL;
+    device->meshes = list;
     struct gl_mesh *row = &device->meshes[device->mesh_count++];
     *row = (struct gl_mesh){0};
     return row;
@@ -315,7 +300,7 @@ struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum verte
         drop(device, row);
         return NULL;
     }
-    describe(f, row);
+    mesh_describe(f, row, row->array, false);
     return row;
 }
 

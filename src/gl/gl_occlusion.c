@@ -39,16 +39,7 @@ bool occlusion_send(struct gl_frame *f, lam_error *error)
     for (int y = 0; y < f->height; y++)
         for (int x = 0; x < f->width; x++)
             rows[(size_t)y * (size_t)f->width + (size_t)x] = o->unoccluded[screen_pixel(o, f->left + x, f->top + y)];
-    bool fresh = !device->occlusion_texture;
-    if (fresh)
-        gl->GenTextures(1, &device->occlusion_texture);
-    // so that its unit becomes active, whether or not it is bound
-    device->current.textures[UNIT_OCCLUSION] = UINT32_MAX;
-    gl_use_texture(device, UNIT_OCCLUSION, GL_TEXTURE_2D, device->occlusion_texture);
-    if (fresh) {
-        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    }
+    gl_edit_plain_texture(device, UNIT_OCCLUSION, GL_TEXTURE_2D, &device->occlusion_texture);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, f->width, f->height, 0, GL_RED, GL_FLOAT, rows);
     device->base.report.bytes_uploaded += (uint64_t)f->width * (uint64_t)f->height * sizeof(float);
     return true;

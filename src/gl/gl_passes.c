@@ -29,38 +29,21 @@ static void to_clip(const struct gl_frame *f, const struct frame_draw *draw, flo
     }
 }
 
-static void columns(float *out, const float *rows, int count, int stride)
+static void set_uniforms(struct gl_frame *f, struct gl_program *program, const struct frame_draw_range *range)
 {
-    for (int i = 0; i < count; i++)
-        for (int j = 0; j < count; j++)
-            out[count * j + i] = rows[i * stride + j];
-}
-
-static void set_matrices(struct gl_frame *f, struct gl_program *program, const struct frame_draw *draw)
-{
-    float clip[16], eye[16] = {0}, three[9];
-    to_clip(f, draw, clip);
-    program_set(f, program, UNIFORM_MODEL_VIEW_PROJECTION, clip, 16);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++)
-            eye[4 * j + i] = draw->eye[i][j];
-    eye[15] = 1;
-    program_set(f, program, UNIFORM_MODEL_VIEW, eye, 16);
-    columns(three, draw->normal[0], 3, 3);
-    program_set(f, program, UNIFORM_NORMAL_MATRIX, three, 9);
-    columns(three, f->frame->to_environment[0], 3, 3);
-    program_set(f, program, UNIFORM_ENVIRONMENT_MATRIX, three, 9);
-}
-
-// With GLSL_TEXTURE the fields of the material besides the products are plain uniforms.
-static void set_head(struct gl_frame *f, struct gl_program *program, const lam_material *material, bool back)
-{
-    struct glsl_material_layout layout = glsl_material_layout(true, program->choices.field_layers);
-    float values[GLSL_MATERIAL_MAX];
-    glsl_material_values(f->frame, material, true, program->choices.field_layers, values);
-    for (int i = 0; i < layout.count; i++) {
-        enum uniform uniform = (enum uniform)((back ? UNIFORM_BACK_HEAD : UNIFORM_HEAD) + i);
-        program_set(f, program, uniform, values + layout.at[i], layout.fields[i]->field.type < LAM_FIELD_RGB ? 1 : 4);
+    const struct glsl_uniform_source from = {.frame = f->frame, .range = range};
+    for (int i = UNIFORM_ROWS; i < program->uniform_count; i++) {
+        const struct glsl_row *row = &program->uniforms[i].row;
+        float values[16];
+        int count = 16;
+        if (row->semantic == GLSL_MODEL_VIEW_PROJECTION)
+            to_clip(f, &f->frame->draws[range->draw], values);
+        else
+            count = glsl_uniform_value(&program->choices, &from, row, NULL, 0, values);
+        if (strcmp(row->type, "int") == 0)
+            program_set_int(f, program, i, (GLint)values[0]);
+        else
+            program_set(f, program, i, values, count);
     }
 }
 
@@ -80,9 +63,9 @@ static void set_light_buffers(struct gl_frame *f, const struct gl_draw_call *cal
 {
     struct gl_device *device = f->device;
     const struct glsl_choices *c = &call->program->choices;
-    size_t front = (size_t)call->range->front * f->material_stride,
-           back = (size_t)call->range->back * f->material_stride;
     if (f->storage == GLSL_BLOCK) {
+        size_t front = (size_t)call->range->front * f->material_stride;
+        size_t back = (size_t)call->range->back * f->material_stride;
         use_block(f, POINT_LIGHTS, device->lights.name, 0, device->lights.size);
         use_block(f, POINT_PRODUCTS, device->products.name, front, glsl_products_bytes(c));
         use_block(f, POINT_BACK_PRODUCTS, device->products.name, back, glsl_products_bytes(c));
@@ -90,10 +73,6 @@ static void set_light_buffers(struct gl_frame *f, const struct gl_draw_call *cal
     }
     gl_use_texture(device, UNIT_LIGHTS, GL_TEXTURE_2D, device->lights.name);
     gl_use_texture(device, UNIT_PRODUCTS, GL_TEXTURE_2D, device->products.name);
-    program_set_int(f, call->program, UNIFORM_FIRST_PRODUCT, (int)front);
-    program_set_int(f, call->program, UNIFORM_BACK_FIRST_PRODUCT, (int)back);
-    set_head(f, call->program, f->frame->materials[call->range->front], false);
-    set_head(f, call->program, f->frame->materials[call->range->back], true);
 }
 
 static void set_sides(struct gl_frame *f, const struct frame_draw *draw)
@@ -111,7 +90,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
 {
     const struct gl *gl = f->gl;
     const struct frame_draw *draw = call->draw;
-    set_matrices(f, call->program, draw);
+    set_uniforms(f, call->program, call->range);
     if (call->lit)
         set_light_buffers(f, call);
     if (call->program->choices.environment != GLSL_NO_ENVIRONMENT)
@@ -127,9 +106,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
         if (f->device->hardware_filter) // a map may have been read through this unit
             gl_use_sampler(f->device, unit, 0);
     }
-    float object = (float)draw->object;
-    program_set(f, call->program, UNIFORM_OBJECT, &object, 1);
-    program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (int)draw->first_id);
+    program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (GLint)draw->first_id);
     set_sides(f, draw);
     gl_use_program(f->device, call->program->name);
     gl_use_array(f->device, call->array);

@@ -7,24 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const uniform_names[UNIFORM_COUNT] = {
-    [UNIFORM_MODEL_VIEW_PROJECTION] = "model_view_projection",
-    [UNIFORM_MODEL_VIEW] = "model_view",
-    [UNIFORM_NORMAL_MATRIX] = "normal_matrix",
-    [UNIFORM_ENVIRONMENT_MATRIX] = "environment_matrix",
-    [UNIFORM_OBJECT] = "object",
-    [UNIFORM_SHADOW_MATRIX] = "shadow_matrix",
-    [UNIFORM_SHADOW_PLACES] = "shadow_places",
-    [UNIFORM_SHADOW_ROUNDING] = "shadow_rounding",
-    [UNIFORM_FIRST_PRODUCT] = "first_product",
-    [UNIFORM_BACK_FIRST_PRODUCT] = "back_first_product",
-    [UNIFORM_FIRST_TRIANGLE] = "first_triangle",
-    [UNIFORM_ALPHA_CUTOFF] = "alpha_cutoff",
-    [UNIFORM_BACK_ALPHA_CUTOFF] = "back_alpha_cutoff",
-    [UNIFORM_MAPPED_EMISSION] = "glow",
-    [UNIFORM_BACK_MAPPED_EMISSION] = "back_glow",
-};
-
 static GLuint compile(const struct gl *gl, GLenum kind, const char *text, lam_error *error)
 {
     GLuint shader = gl->CreateShader(kind);
@@ -68,31 +50,47 @@ static GLuint link_program(const struct gl *gl, const char *vertex, const char *
     return program;
 }
 
-// Finds the uniforms of maps, and assigns a unit to each sampler.
-static bool find_maps(struct gl_frame *f, struct gl_program *program, lam_error *error)
+// Assigns a texture unit to the sampler of a map.
+static bool find_map(struct gl_frame *f, struct gl_program *program, const struct glsl_row *row, GLint at, int *unit,
+                     lam_error *error)
 {
+    if (*unit == f->device->unit_count)
+        return fail(error, LAM_UNSUPPORTED,
+                    "OpenGL: a material reads more than %d different textures, the number of texture units of this "
+                    "driver",
+                    f->device->unit_count - UNIT_FIRST_MAP);
+    f->gl->Uniform1i(at, *unit);
+    program->map_units[row->back][row->map] = (uint8_t)(*unit)++;
+    return true;
+}
+
+static void add_uniform(struct gl_program *program, GLint location, const struct glsl_row *row)
+{
+    program->uniforms[program->uniform_count++] = (struct gl_uniform){.location = location, .row = *row};
+}
+
+// Finds the uniforms of the rows, and of the maps.
+static bool find_rows(struct gl_frame *f, struct gl_program *program, lam_error *error)
+{
+    static const char *const others[UNIFORM_ROWS] = {"shadow_matrix", "shadow_offsets", "shadow_rounding",
+                                                     "first_triangle"};
     const struct gl *gl = f->gl;
-    int unit = UNIT_FIRST_MAP;
-    for (int side = 0; side < 2; side++)
-        for (int i = 0; i < LAM_MAP_COUNT; i++) {
-            char name[64];
-            int length = snprintf(name, sizeof name, "%s%s_map", side ? "back_" : "", lam_map_name((lam_map)i));
-            GLint at = gl->GetUniformLocation(program->name, name);
-            if (at >= 0 && unit == f->device->unit_count)
-                return fail(error, LAM_UNSUPPORTED,
-                            "OpenGL: a material reads more than %d different textures, the number of texture units of "
-                            "this driver",
-                            f->device->unit_count - UNIT_FIRST_MAP);
-            if (at >= 0) {
-                gl->Uniform1i(at, unit);
-                program->map_units[side][i] = (uint8_t)unit++;
-            }
-            for (int row = 0; row < 2; row++) {
-                snprintf(name + length, sizeof name - (size_t)length, "_%c", row ? 't' : 's');
-                program->locations[UNIFORM_MAPS + 2 * (side * LAM_MAP_COUNT + i) + row] =
-                    gl->GetUniformLocation(program->name, name);
-            }
-        }
+    struct glsl_row rows[GLSL_ROWS_MAX];
+    struct glsl_facts facts = glsl_facts_of(&program->choices);
+    int count = glsl_rows(&facts, rows), unit = UNIT_FIRST_MAP;
+    size_t bytes = ((size_t)count + UNIFORM_ROWS) * sizeof *program->uniforms;
+    program->uniforms = malloc(bytes);
+    if (!program->uniforms)
+        return fail_memory(error, bytes);
+    for (int i = 0; i < UNIFORM_ROWS; i++)
+        add_uniform(program, gl->GetUniformLocation(program->name, others[i]), &(struct glsl_row){0});
+    for (int i = 0; i < count; i++) {
+        GLint at = rows[i].block ? -1 : gl->GetUniformLocation(program->name, rows[i].name);
+        if (at >= 0 && rows[i].semantic == GLSL_MAP && !find_map(f, program, &rows[i], at, &unit, error))
+            return false;
+        if (at >= 0 && strncmp(rows[i].type, "sampler", strlen("sampler")) != 0)
+            add_uniform(program, at, &rows[i]);
+    }
     return true;
 }
 
@@ -100,35 +98,29 @@ static bool find_uniforms(struct gl_frame *f, struct gl_program *program, lam_er
 {
     const struct gl *gl = f->gl;
     gl_use_program(f->device, program->name);
-    for (int u = 0; u < UNIFORM_COUNT; u++)
-        program->locations[u] = uniform_names[u] ? gl->GetUniformLocation(program->name, uniform_names[u]) : -1;
-    struct glsl_material_layout head = glsl_material_layout(true, program->choices.field_layers);
-    for (int i = 0; i < head.count; i++) {
-        char back[64] = "back_";
-        const char *name = strcat(back, glsl_field_name(head.fields[i], true)) + strlen("back_");
-        program->locations[UNIFORM_HEAD + i] = gl->GetUniformLocation(program->name, name);
-        program->locations[UNIFORM_BACK_HEAD + i] = gl->GetUniformLocation(program->name, back);
-    }
-    static const char *const textures[UNIT_COPY] = {"environment_faces", "light_list",       "product_list",
-                                                    "nearer_depth_ids",  "opaque_depth_ids", "environment_light"};
-    for (int unit = 0; unit < UNIT_COPY; unit++) {
-        GLint at = gl->GetUniformLocation(program->name, textures[unit]);
+    const struct {
+        const char *name;
+        int unit;
+    } textures[] = {{"environment_faces", UNIT_ENVIRONMENT},
+                    {"light_list", UNIT_LIGHTS},
+                    {"product_list", UNIT_PRODUCTS},
+                    {"nearer_depth_ids", UNIT_NEARER_DEPTH_IDS},
+                    {"opaque_depth_ids", UNIT_OPAQUE_DEPTH_IDS},
+                    {"environment_light", UNIT_ENVIRONMENT_LIGHT},
+                    {"shadow_tree", UNIT_SHADOW_TREE},
+                    {"ambient_occlusion", gl_occlusion_unit(program)}};
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+        GLint at = gl->GetUniformLocation(program->name, textures[i].name);
         if (at >= 0)
-            gl->Uniform1i(at, unit);
+            gl->Uniform1i(at, textures[i].unit);
     }
-    GLint tree = gl->GetUniformLocation(program->name, "shadow_tree");
-    if (tree >= 0)
-        gl->Uniform1i(tree, UNIT_SHADOW_TREE);
-    GLint occlusion = gl->GetUniformLocation(program->name, "ambient_occlusion");
-    if (occlusion >= 0)
-        gl->Uniform1i(occlusion, gl_occlusion_unit(program));
     static const char *const blocks[POINT_COUNT] = {"Lights", "Products", "BackProducts"};
     for (GLuint point = 0; point < POINT_COUNT; point++) {
         GLuint block = gl->GetUniformBlockIndex(program->name, blocks[point]);
         if (block != GL_INVALID_INDEX)
             gl->UniformBlockBinding(program->name, block, point);
     }
-    return find_maps(f, program, error);
+    return find_rows(f, program, error);
 }
 
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error)
@@ -137,17 +129,12 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
     for (int i = 0; i < device->program_count; i++)
         if (memcmp(&device->programs[i].choices, choices, sizeof *choices) == 0)
             return &device->programs[i];
-    if (device->program_count == device->program_capacity) {
-        // The programs may move, so gl_device.c compiles all programs of a frame before it stores pointers to any.
-        int capacity = device->program_capacity ? 2 * device->program_capacity : 8;
-        struct gl_program *grown = realloc(device->programs, (size_t)capacity * sizeof *grown);
-        if (!grown) {
-            fail_memory(error, (size_t)capacity * sizeof *grown);
-            return NULL;
-        }
-        device->programs = grown;
-        device->program_capacity = capacity;
-    }
+    // The programs may move, so gl_device.c compiles all programs of a frame before it stores pointers to any.
+    struct gl_program *list =
+        gl_grown(device->programs, device->program_count, &device->program_capacity, sizeof *list, error);
+    if (!list)
+        return NULL;
+    device->programs = list;
     struct glsl_text text;
     if (!glsl_make(choices, &text, error))
         return NULL;
@@ -161,6 +148,7 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
     if (find_uniforms(f, program, error))
         return program;
     f->gl->DeleteProgram(name);
+    free(program->uniforms);
     device->program_count--;
     device->current.program = UINT32_MAX;
     return NULL;
@@ -168,16 +156,29 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
 
 // --- uniforms, set only if the value has changed
 
-void program_set(struct gl_frame *f, struct gl_program *program, enum uniform uniform, const float *values, int count)
+// Returns whether a uniform needs a new value, which it then keeps; the program is in use.
+static bool changes(struct gl_frame *f, struct gl_program *program, int uniform, const void *value, size_t bytes)
 {
-    GLint at = program->locations[uniform];
-    float *before = program->values[uniform];
-    size_t bytes = (size_t)count * sizeof *values;
-    if (at < 0 || (program->set[uniform] && memcmp(before, values, bytes) == 0))
-        return;
-    memcpy(before, values, bytes);
-    program->set[uniform] = true;
+    struct gl_uniform *u = &program->uniforms[uniform];
+    if (u->location < 0 || (u->set && memcmp(u->value, value, bytes) == 0))
+        return false;
+    memcpy(u->value, value, bytes);
+    u->set = true;
     gl_use_program(f->device, program->name);
+    return true;
+}
+
+void program_set_int(struct gl_frame *f, struct gl_program *program, int uniform, GLint value)
+{
+    if (changes(f, program, uniform, &value, sizeof value))
+        f->gl->Uniform1i(program->uniforms[uniform].location, value);
+}
+
+void program_set(struct gl_frame *f, struct gl_program *program, int uniform, const float *values, int count)
+{
+    GLint at = program->uniforms[uniform].location;
+    if (!changes(f, program, uniform, values, (size_t)count * sizeof *values))
+        return;
     if (count == 16)
         f->gl->UniformMatrix4fv(at, 1, GL_FALSE, values);
     else if (count == 9)
@@ -185,19 +186,7 @@ void program_set(struct gl_frame *f, struct gl_program *program, enum uniform un
     else if (count == 4)
         f->gl->Uniform4fv(at, 1, values);
     else
-        f->gl->Uniform1f(at, values[0]);
-}
-
-void program_set_int(struct gl_frame *f, struct gl_program *program, enum uniform uniform, int value)
-{
-    GLint at = program->locations[uniform];
-    int *before = &program->ints[uniform - UNIFORM_FLOATS];
-    if (at < 0 || (program->set[uniform] && *before == value))
-        return;
-    *before = value;
-    program->set[uniform] = true;
-    gl_use_program(f->device, program->name);
-    f->gl->Uniform1i(at, value);
+        f->gl->Uniform1f(at, *values);
 }
 
 // --- the program that copies a target
@@ -269,8 +258,10 @@ bool program_copy_make(struct gl_device *device, lam_error *error)
 void programs_free(struct gl_device *device)
 {
     const struct gl *gl = &device->context.gl;
-    for (int i = 0; i < device->program_count; i++)
+    for (int i = 0; i < device->program_count; i++) {
         gl->DeleteProgram(device->programs[i].name);
+        free(device->programs[i].uniforms);
+    }
     free(device->programs);
     if (device->copy_program)
         gl->DeleteProgram(device->copy_program);

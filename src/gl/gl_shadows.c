@@ -108,8 +108,8 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->settings.output)) // no shader traverses it
         return true;
     // Triangle indices are stored as floats and must fit the texels of a texture.
-    size_t triangles = (size_t)NODE * h->node_count, places = triangles + (size_t)TRIANGLE * (h->triangle_count + 1);
-    size_t surfaces = places + h->triangle_count / 4 + 1, surface_texels = 0;
+    size_t triangles = (size_t)NODE * h->node_count, positions = triangles + (size_t)TRIANGLE * (h->triangle_count + 1);
+    size_t surfaces = positions + h->triangle_count / 4 + 1, surface_texels = 0;
     size_t most = (size_t)device->texture_size_max * WIDTH;
     most = most < TEXELS_MAX ? most : TEXELS_MAX;
     if (surfaces > most)
@@ -117,8 +117,8 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
                     "OpenGL: the hierarchy of %u triangles needs a texture of %zu texels, this device can have %zu; "
                     "the CPU device has no such limit",
                     h->triangle_count, surfaces, most);
-    device->shadow_places[0] = (float)triangles;
-    device->shadow_places[1] = (float)places;
+    device->shadow_offsets[0] = (float)triangles;
+    device->shadow_offsets[1] = (float)positions;
     bool same;
     if (!surfaces_count(f, surfaces, most, &surface_texels, &same, error))
         return false;
@@ -137,15 +137,10 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
         pack_node(out + (size_t)4 * NODE * i, &h->nodes[i]);
     for (uint32_t i = 0; i < h->triangle_count; i++) {
         pack_triangle(out + 4 * (triangles + (size_t)TRIANGLE * i), f, &h->triangles[i]);
-        out[4 * places + h->triangles[i].number] = (float)i;
+        out[4 * positions + h->triangles[i].number] = (float)i;
     }
     surfaces_pack(f, surfaces, out + 4 * surfaces);
-    if (!device->shadow_texture)
-        gl->GenTextures(1, &device->shadow_texture);
-    gl_use_texture(device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, device->shadow_texture);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl_edit_plain_texture(device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, &device->shadow_texture);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, (GLsizei)rows, 0, GL_RGBA, GL_FLOAT, out);
     device->shadows_sent = true;
     device->base.report.bytes_uploaded += bytes;
@@ -156,8 +151,8 @@ void shadows_use(struct gl_frame *f, struct gl_program *program)
 {
     const struct hierarchy *h = &f->device->hierarchy.hierarchy;
     float matrix[16] = {0},
-          places[4] = {f->device->shadow_places[0], f->device->shadow_places[1],
-                       f->frame->settings.flat_terminator ? 0 : 1, (float)f->frame->settings.shadow_samples};
+          offsets[4] = {f->device->shadow_offsets[0], f->device->shadow_offsets[1],
+                        f->frame->settings.flat_terminator ? 0 : 1, (float)f->frame->settings.shadow_samples};
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
             matrix[4 * j + i] = (float)(f->frame->eye_to_world[i][j] * h->scale);
@@ -166,7 +161,7 @@ void shadows_use(struct gl_frame *f, struct gl_program *program)
     matrix[15] = 1;
     gl_use_texture(f->device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, f->device->shadow_texture);
     program_set(f, program, UNIFORM_SHADOW_MATRIX, matrix, 16);
-    program_set(f, program, UNIFORM_SHADOW_PLACES, places, 4);
+    program_set(f, program, UNIFORM_SHADOW_OFFSETS, offsets, 4);
     float rounding[4] = {(float)h->rounding[0], (float)h->rounding[1], (float)h->rounding[2], (float)h->scale};
     program_set(f, program, UNIFORM_SHADOW_ROUNDING, rounding, 4);
 }

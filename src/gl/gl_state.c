@@ -3,6 +3,7 @@
 
 #include "fail.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 void gl_use_program(struct gl_device *device, GLuint program)
@@ -43,6 +44,52 @@ void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum ta
     gl_use_texture(device, unit, target, texture);
     if (device->current.unit != (int)unit)
         device->context.gl.ActiveTexture(GL_TEXTURE0 + (GLenum)(device->current.unit = (int)unit));
+}
+
+void gl_edit_plain_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint *name)
+{
+    const struct gl *gl = &device->context.gl;
+    bool fresh = !*name;
+    if (fresh)
+        gl->GenTextures(1, name);
+    gl_edit_texture(device, unit, target, *name);
+    if (!fresh)
+        return;
+    gl->TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
+}
+
+void gl_point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at)
+{
+    f->gl->EnableVertexAttribArray(location);
+    f->gl->VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, (GLsizei)(stride * sizeof(float)),
+                               (const void *)(at * sizeof(float)));
+}
+
+void gl_key_add(uint64_t *key, const void *bytes, size_t count)
+{
+    for (size_t at = 0; at < count; at += sizeof(uint64_t)) {
+        uint64_t word = 0;
+        memcpy(&word, (const char *)bytes + at, count - at < sizeof word ? count - at : sizeof word);
+        *key = (*key ^ word) * UINT64_C(0x9e3779b97f4a7c15);
+        *key ^= *key >> 32;
+    }
+}
+
+void *gl_grown(void *list, int count, int *capacity, size_t size, lam_error *error)
+{
+    if (count < *capacity)
+        return list;
+    int more = *capacity ? 2 * *capacity : 8;
+    void *grown = realloc(list, (size_t)more * size);
+    if (grown)
+        *capacity = more;
+    else
+        fail_memory(error, (size_t)more * size);
+    return grown;
 }
 
 void gl_use_blending(struct gl_device *device, enum gl_blending blending)

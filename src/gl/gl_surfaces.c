@@ -19,16 +19,6 @@ enum {
     WIDE = -1,   // channel number for all four channels
 };
 
-// The maximum bytes of a range's key: its arrays and numbers, and for each side its values and its maps with their
-// textures.
-enum {
-    ARRAYS = 7,
-    NUMBERS = 4,
-    RANGE_KEY = ARRAYS * (int)sizeof(void *) + NUMBERS * (int)sizeof(uint32_t) +
-                2 * (4 * SIDE * (int)sizeof(float) +
-                     MAPS * (4 * MAP * (int)sizeof(float) + (int)sizeof(void *) + (int)sizeof(int))),
-};
-
 // The packed pixels of a texture, or of one channel, and their position.
 struct packed_pixels {
     const struct lam_texture *texture;
@@ -41,18 +31,11 @@ struct packed_pixels {
 struct packer {
     float *out; // NULL means only size and key are computed
     size_t first, used;
-    uint8_t *key;
-    size_t key_size;
+    uint64_t key;
     struct packed_pixels *pixels;
     int pixel_count;
     size_t *records; // the first record of each range, or 0
 };
-
-static void note(struct packer *p, const void *data, size_t size)
-{
-    memcpy(p->key + p->key_size, data, size);
-    p->key_size += size;
-}
 
 // Reserves texels and returns their position, counted from the first texel of the texture.
 static size_t add_texels(struct packer *p, size_t count)
@@ -69,7 +52,7 @@ static void put(struct packer *p, size_t at, const float *numbers, size_t size)
     if (p->out)
         memcpy(texel_of(p, at), numbers, size);
     else
-        note(p, numbers, size);
+        gl_key_add(&p->key, numbers, size);
 }
 
 // Packs the pixels at level 0: one texel each with all channels, or one channel of four pixels per texel.
@@ -83,8 +66,8 @@ static size_t add_pixels(struct packer *p, const struct lam_texture *texture, in
     size_t at = add_texels(p, channel == WIDE ? count : (count + 3) / 4);
     p->pixels[p->pixel_count++] = (struct packed_pixels){texture, channel, at};
     if (!p->out) {
-        note(p, &texture, sizeof texture);
-        note(p, &channel, sizeof channel);
+        gl_key_add(&p->key, &texture, sizeof texture);
+        gl_key_add(&p->key, &channel, sizeof channel);
     }
     float *out = p->out ? texel_of(p, at) : NULL;
     for (int y = 0; out && y < level->height; y++)
@@ -159,15 +142,15 @@ static size_t record_size(const struct frame *frame, const struct frame_draw_ran
     return frame->draws[range->draw].mesh->colors ? COLORED : RECORD;
 }
 
-static void note_range(struct packer *p, const struct frame_draw *draw, const struct frame_draw_range *range)
+static void key_add_range(struct packer *p, const struct frame_draw *draw, const struct frame_draw_range *range)
 {
     const lam_mesh *m = draw->mesh;
-    const void *const arrays[ARRAYS] = {
+    const void *const arrays[] = {
         m->indices, m->texcoords,    m->texcoord_indices, m->second_texcoords, m->second_texcoord_indices,
         m->colors,  m->color_indices};
-    const uint32_t numbers[NUMBERS] = {range->first_id, range->count, draw->first_id, draw->mirrored};
-    note(p, arrays, sizeof arrays);
-    note(p, numbers, sizeof numbers);
+    const uint32_t numbers[] = {range->first_id, range->count, draw->first_id, draw->mirrored};
+    gl_key_add(&p->key, arrays, sizeof arrays);
+    gl_key_add(&p->key, numbers, sizeof numbers);
 }
 
 // Returns the position of the record of a range's first triangle.
@@ -176,7 +159,7 @@ static size_t add_range(struct packer *p, const struct frame *frame, const struc
     const struct frame_draw *draw = &frame->draws[range->draw];
     const lam_mesh *mesh = draw->mesh;
     if (!p->out)
-        note_range(p, draw, range);
+        key_add_range(p, draw, range);
     size_t front = add_side(p, frame, range, false), back = add_side(p, frame, range, true);
     size_t each = record_size(frame, range), at = add_texels(p, each * range->count);
     for (uint32_t i = 0; p->out && i < range->count; i++) {
@@ -197,8 +180,9 @@ static size_t add_range(struct packer *p, const struct frame *frame, const struc
 
 static void add_ranges(struct packer *p, const struct frame *frame)
 {
-    p->used = p->key_size = 0;
+    p->used = 0;
     p->pixel_count = 0;
+    p->key = 1;
     for (int i = 0; i < frame->range_count; i++) {
         const struct frame_draw_range *range = &frame->ranges[i];
         bool passes = range->passes_rays && frame_draw_casts(&frame->draws[range->draw]);
@@ -218,16 +202,14 @@ bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count
 {
     struct gl_surfaces *own = &f->device->surfaces;
     size_t ranges = f->frame->passes_rays ? (size_t)f->frame->range_count : 0;
-    *count = own->next_key_size = 0;
-    *same = own->key_size == 0;
+    *count = own->next_key = 0;
+    *same = own->key == 0;
     if (!ranges)
         return true;
     if (!buffer_reserve(&own->pixels, ranges * 2 * MAPS * sizeof(struct packed_pixels), f->call, error) ||
-        !buffer_reserve(&own->records, ranges * sizeof(size_t), f->call, error) ||
-        !buffer_reserve(&own->next_key, ranges * RANGE_KEY, f->call, error))
+        !buffer_reserve(&own->records, ranges * sizeof(size_t), f->call, error))
         return false;
-    struct packer p = {
-        .first = first, .key = own->next_key.data, .pixels = own->pixels.data, .records = own->records.data};
+    struct packer p = {.first = first, .pixels = own->pixels.data, .records = own->records.data};
     add_ranges(&p, f->frame);
     if (first + p.used > most)
         return fail(error, LAM_LIMIT,
@@ -235,35 +217,28 @@ bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count
                     "beside the hierarchy's %zu, this device can have %zu; the CPU device has no such limit",
                     p.used, first, most);
     *count = p.used;
-    own->next_key_size = p.key_size;
-    *same = p.key_size == own->key_size && (!p.key_size || memcmp(own->key.data, own->next_key.data, p.key_size) == 0);
+    own->next_key = p.key;
+    *same = p.key == own->key;
     return true;
 }
 
 void surfaces_pack(struct gl_frame *f, size_t first, float *out)
 {
     struct gl_surfaces *own = &f->device->surfaces;
-    struct buffer packed = own->next_key;
-    if (own->next_key_size) {
+    if (own->next_key) {
         struct packer p = {.out = out, .first = first, .pixels = own->pixels.data, .records = own->records.data};
         add_ranges(&p, f->frame);
     }
-    own->next_key = own->key;
-    own->key = packed;
-    own->key_size = own->next_key_size;
+    own->key = own->next_key;
 }
 
 uint64_t surfaces_bytes(const struct gl_device *device)
 {
-    const struct gl_surfaces *own = &device->surfaces;
-    return own->key.capacity + own->next_key.capacity + own->records.capacity + own->pixels.capacity;
+    return device->surfaces.records.capacity + device->surfaces.pixels.capacity;
 }
 
 void surfaces_free(struct gl_device *device)
 {
-    struct gl_surfaces *own = &device->surfaces;
-    buffer_free(&own->key);
-    buffer_free(&own->next_key);
-    buffer_free(&own->records);
-    buffer_free(&own->pixels);
+    buffer_free(&device->surfaces.records);
+    buffer_free(&device->surfaces.pixels);
 }

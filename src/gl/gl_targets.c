@@ -9,13 +9,9 @@
 static GLuint make_texture(struct gl_frame *f, GLenum format, int width, int height, GLenum layout, GLenum type)
 {
     const struct gl *gl = f->gl;
-    GLuint name;
-    gl->GenTextures(1, &name);
-    gl_edit_texture(f->device, UNIT_COPY, GL_TEXTURE_2D, name);
+    GLuint name = 0;
+    gl_edit_plain_texture(f->device, UNIT_COPY, GL_TEXTURE_2D, &name);
     gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, layout, type, NULL);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     return name;
 }
 

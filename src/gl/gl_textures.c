@@ -115,16 +115,11 @@ static struct gl_texture *free_row(struct gl_device *device, lam_error *error)
     for (int i = 0; i < device->texture_count; i++)
         if (!device->textures[i].texture)
             return &device->textures[i];
-    if (device->texture_count == device->texture_capacity) {
-        int capacity = device->texture_capacity ? 2 * device->texture_capacity : 8;
-        struct gl_texture *grown = realloc(device->textures, (size_t)capacity * sizeof *grown);
-        if (!grown) {
-            fail_memory(error, (size_t)capacity * sizeof *grown);
-            return NULL;
-        }
-        device->textures = grown;
-        device->texture_capacity = capacity;
-    }
+    struct gl_texture *list =
+        gl_grown(device->textures, device->texture_count, &device->texture_capacity, sizeof *list, error);
+    if (!list)
+        return NULL;
+    device->textures = list;
     struct gl_texture *row = &device->textures[device->texture_count++];
     *row = (struct gl_texture){0};
     return row;
@@ -211,29 +206,18 @@ bool textures_upload(struct gl_frame *f, const struct gl_program *program, const
     return ok;
 }
 
-void textures_use(struct gl_frame *f, struct gl_program *program, const struct frame_draw_range *range)
+void textures_use(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range)
 {
-    for (int side = 0; side < 2; side++) {
-        const lam_material *material = f->frame->materials[side ? range->back : range->front];
-        float cutoff = glsl_alpha_cutoff(f->frame, material), emission[4];
-        glsl_mapped_emission(f->frame, range, side, emission);
-        program_set(f, program, side ? UNIFORM_BACK_ALPHA_CUTOFF : UNIFORM_ALPHA_CUTOFF, &cutoff, 1);
-        program_set(f, program, side ? UNIFORM_BACK_MAPPED_EMISSION : UNIFORM_MAPPED_EMISSION, emission, 4);
+    for (int side = 0; side < 2; side++)
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
-            float s[4], t[4];
-            enum uniform rows = (enum uniform)(UNIFORM_MAPS + 2 * (side * LAM_MAP_COUNT + i));
-            if (program->locations[rows] < 0 && program->locations[rows + 1] < 0 && !program->map_units[side][i])
-                continue;
-            glsl_map_values(material->maps[i], f->frame->draws[range->draw].mesh, s, t);
-            program_set(f, program, rows, s, 4);
-            program_set(f, program, (enum uniform)(rows + 1), t, 4);
             enum texture_unit unit = (enum texture_unit)program->map_units[side][i];
-            if (unit)
-                gl_use_texture(f->device, unit, GL_TEXTURE_2D, find(f, material->maps[i]->texture)->name);
-            if (unit && f->device->hardware_filter)
-                gl_use_sampler(f->device, unit, sampler_of(f, material->maps[i]));
+            if (!unit)
+                continue;
+            const lam_texture_map *map = f->frame->materials[side ? range->back : range->front]->maps[i];
+            gl_use_texture(f->device, unit, GL_TEXTURE_2D, find(f, map->texture)->name);
+            if (f->device->hardware_filter)
+                gl_use_sampler(f->device, unit, sampler_of(f, map));
         }
-    }
 }
 
 void textures_evict(struct gl_frame *f)

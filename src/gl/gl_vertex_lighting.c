@@ -1,11 +1,79 @@
 // gl_vertex_lighting.c: the stage `application`: the CPU lights the vertices (vertex_colors.h), and the front and back colours are
 // uploaded as attributes. A draw is lit again only if an input of its colours has changed.
-#include "gl_vertex_key.h"
+#include "gl_device.h"
 
 #include "fail.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+// --- the key
+
+// Members are added without the padding between them, whose bytes are indeterminate.
+static void key_add_light(uint64_t *key, const struct frame_light *light)
+{
+    const int kind[] = {light->kind, light->falloff};
+    size_t first = offsetof(struct frame_light, position), end = offsetof(struct frame_light, light);
+    gl_key_add(key, kind, sizeof kind);
+    gl_key_add(key, (const char *)light + first, end - first);
+}
+
+static void key_add_material(uint64_t *key, const lam_material *m)
+{
+    for (int i = 0; lam_material_field(i); i++) {
+        double numbers[4];
+        int count = lam_field_get(lam_material_field(i), m, numbers);
+        gl_key_add(key, numbers, (size_t)count * sizeof *numbers);
+    }
+}
+
+// Returns the key of all inputs of a draw's colours.
+static uint64_t key_of(const struct gl_frame *f, const struct gl_mesh *mesh, int number)
+{
+    const struct frame *frame = f->frame;
+    const struct frame_draw *draw = &frame->draws[number];
+    const int choices[] = {frame->settings.output,
+                           frame->settings.shading,
+                           frame->settings.gl1,
+                           frame->distant_viewer,
+                           frame->settings.match_highlights,
+                           frame->settings.single_scattering,
+                           frame->light_count,
+                           frame->hemisphere_count,
+                           draw->one_sided,
+                           frame->settings.flat_normal,
+                           (int)mesh->form,
+                           frame->translucent};
+    // Contents that belong to this frame, and shadows, which depend on all meshes.
+    const uint64_t frame_number = mesh->passing || frame->settings.shadows ? f->device->frame_number : 0;
+    const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
+    uint64_t key = 1;
+    gl_key_add(&key, choices, sizeof choices);
+    gl_key_add(&key, pointers, sizeof pointers);
+    gl_key_add(&key, &frame_number, sizeof frame_number);
+    gl_key_add(&key, draw->eye, sizeof draw->eye);
+    gl_key_add(&key, draw->normal, sizeof draw->normal);
+    gl_key_add(&key, draw->tangent, sizeof draw->tangent);
+    gl_key_add(&key, frame->ambient, sizeof frame->ambient);
+    gl_key_add(&key, frame->to_environment, sizeof frame->to_environment);
+    for (int i = 0; i < frame->light_count; i++)
+        key_add_light(&key, &frame->lights[i]);
+    for (int i = 0; i < frame->hemisphere_count; i++)
+        gl_key_add(&key, &frame->hemispheres[i], offsetof(struct frame_hemisphere, light));
+    for (int i = 0; i < frame->range_count; i++) {
+        const struct frame_draw_range *s = &frame->ranges[i];
+        const uint32_t run[] = {s->first_id, s->count, s->translucent, s->reflection};
+        if (s->draw != number)
+            continue;
+        gl_key_add(&key, run, sizeof run);
+        key_add_material(&key, frame->materials[s->front]);
+        key_add_material(&key, frame->materials[s->back]);
+    }
+    return key;
+}
+
+// --- the colours
 
 // Lights the vertices of a range, and interleaves front and back colours.
 static bool light_range(struct gl_frame *f, const struct gl_mesh *mesh, uint32_t range, uint32_t first, uint32_t end,
@@ -98,36 +166,16 @@ static bool reserve_row(struct gl_device *device, int draw, lam_error *error)
     return true;
 }
 
-// Sets an attribute of the vertex array, of `size` floats.
-static void point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at)
-{
-    f->gl->EnableVertexAttribArray(location);
-    f->gl->VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, (GLsizei)(stride * sizeof(float)),
-                               (const void *)(at * sizeof(float)));
-}
-
 // Sets the vertex attributes: the mesh's attributes for fragments, and the colours.
 static void describe(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh)
 {
     const struct gl *gl = f->gl;
-    const lam_mesh *m = &mesh->mesh;
-    size_t stride = mesh_vertex_floats(m), at = 6;
-    gl_use_array(f->device, row->array);
-    gl->BindBuffer(GL_ARRAY_BUFFER, mesh->vertices);
-    point_to(f, 0, 3, stride, 0);
-    if (m->colors)
-        point_to(f, 2, 4, stride, at);
-    at += (m->colors ? 4 : 0) + (m->tangents ? 4u : 0);
-    if (m->texcoords)
-        point_to(f, 7, 2, stride, at);
-    at += m->texcoords ? 2 : 0;
-    if (m->second_texcoords)
-        point_to(f, 8, 2, stride, at);
+    mesh_describe(f, mesh, row->array, true);
     gl->BindBuffer(GL_ARRAY_BUFFER, row->colors);
     for (GLuint side = 0; side < 2; side++) {
-        point_to(f, 4 + side, 4, row->separate_texture_terms ? 16 : 8, side * 4);
+        gl_point_to(f, 4 + side, 4, row->separate_texture_terms ? 16 : 8, side * 4);
         if (row->separate_texture_terms)
-            point_to(f, 9 + side, 3, 16, 8 + side * 4);
+            gl_point_to(f, 9 + side, 3, 16, 8 + side * 4);
         else
             gl->DisableVertexAttribArray(9 + side);
     }
@@ -139,29 +187,25 @@ GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh
 {
     struct gl_device *device = f->device;
     const struct gl *gl = f->gl;
-    size_t size = 0;
-    if (!reserve_row(device, draw, error) ||
-        !vertex_lighting_key(f, &device->vertex_lighting[draw], mesh, draw, &size, error))
+    if (!reserve_row(device, draw, error))
         return 0;
+    uint64_t key = key_of(f, mesh, draw);
     struct gl_vertex_lighting *row = &device->vertex_lighting[draw];
     bool separate = false;
     for (int i = 0; i < f->frame->range_count; i++)
         separate |= f->frame->ranges[i].draw == draw && glsl_separates_texture_terms(f->frame, &f->frame->ranges[i]);
     if (row->separate_texture_terms != separate)
-        row->sent_key_size = row->of_vertices = 0;
+        row->key = row->of_vertices = 0;
     row->separate_texture_terms = separate;
     if (!row->colors) {
         gl->GenBuffers(1, &row->colors);
         gl->GenVertexArrays(1, &row->array);
     }
-    if (size != row->sent_key_size || memcmp(row->frame_key.data, row->sent_key.data, size) != 0) {
-        row->sent_key_size = 0;
+    if (row->key != key) {
+        row->key = 0;
         if (!send_colors(f, row, mesh, draw, error))
             return 0;
-        struct buffer swapped = row->sent_key;
-        row->sent_key = row->frame_key;
-        row->frame_key = swapped;
-        row->sent_key_size = size;
+        row->key = key;
         lam_environment_free(row->environment);
         row->environment = cube_share(f->frame->environment);
     }
@@ -178,8 +222,6 @@ void vertex_lighting_free(struct gl_device *device)
         gl->DeleteBuffers(1, &row->colors);
         gl->DeleteVertexArrays(1, &row->array);
         lam_environment_free(row->environment);
-        buffer_free(&row->sent_key);
-        buffer_free(&row->frame_key);
     }
     free(device->vertex_lighting);
     vertex_colors_free(&device->vertex_colors);

@@ -1,17 +1,30 @@
 #!/usr/bin/env python3
-"""embed.py OUT FILE...: writes text files as C strings text_NAME_ENDING, each up to a line "// --- C only". A line
-`#include "NAME"` becomes the file of that name beside it."""
+"""embed.py [--dialect] OUT FILE...: writes text files as C strings text_NAME_ENDING, each up to a line "// --- C only". A line
+`#include "NAME"` becomes the file of that name beside it. With --dialect, the dialect of src/lighting becomes GLSL: num is float,
+mask is bool, STRUCT(name) is struct name, FN and the definitions of these words go; numbers lose their f, num_of(1.0f) is 1.0."""
 import os
 import re
 import sys
+
+DEFINITIONS = re.compile(r"#ifdef|#endif|precision|#define (?:FN$|STRUCT|num |mask |vec3_of |vec4_of )|float num_of\(")
+WORDS = {"num": "float", "num_of": "float", "mask": "bool", "vec3_of": "vec3", "vec4_of": "vec4"}
+TOKEN = re.compile(r"(//.*)|\b(?:FN|SCENE|IN_SCENE) |\bSTRUCT\((\w+)\)|\bnum_of\(([-.0-9e]*)f?\)|(?<!\w)(\d\w*)f\b|\b(num|num_of|mask|vec3_of|vec4_of)\b")
+
+
+def glsl(line):
+    def replaced(match):
+        comment, struct, constant, number, word = match.groups()
+        return comment or struct and "struct " + struct or constant or number or WORDS.get(word, "")
+    return "" if DEFINITIONS.match(line) else TOKEN.sub(replaced, line)
 
 
 def quoted(line):
     return '"' + line.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'
 
 
-with open(sys.argv[1], "w") as out:
-    for path in sys.argv[2:]:
+files = [word for word in sys.argv[1:] if word != "--dialect"]
+with open(files[0], "w") as out:
+    for path in files[1:]:
         name = "text_" + re.sub("[.-]", "_", os.path.basename(path))
         def included(line):
             return open(os.path.join(os.path.dirname(path), line.group(1)), encoding="utf-8").read()
@@ -19,4 +32,6 @@ with open(sys.argv[1], "w") as out:
         source = re.sub(r'^#include "(.*)"\n', included, source, flags=re.M)
         source.encode("ascii")  # GLSL 120 and 330 allow no other characters
         lines = source.splitlines(keepends=True)
+        if "--dialect" in sys.argv:
+            lines = [glsl(line) for line in lines]
         out.write("static const char %s[] =\n%s;\n" % (name, "\n".join(quoted(line) for line in lines)))

@@ -1,5 +1,4 @@
-// equations.c: splits the files of src/lighting into definitions, selects those that a shader calls, and writes them as
-// plain GLSL.
+// equations.c: splits the files of src/lighting into definitions, selects those that a shader calls, and writes them.
 #include "equations.h"
 
 #include "fail.h"
@@ -14,7 +13,7 @@ struct definition {
     const char *name;
     size_t name_length;
     int file;
-    bool apart; // an empty line precedes it
+    bool spaced; // an empty line precedes it
     bool kept;
 };
 
@@ -52,7 +51,7 @@ static void name_definition(struct definition *definition)
     const char *at = definition->start;
     if (begins(at, "#define ")) {
         definition->name = at + 8;
-    } else if (begins(at, "STRUCT(")) {
+    } else if (begins(at, "struct ")) {
         definition->name = at + 7;
     } else {
         if (begins(at, "layout("))
@@ -67,37 +66,25 @@ static void name_definition(struct definition *definition)
         definition->name_length++;
 }
 
-// Detects definitions of the dialect's own words, which GLSL does not need.
-static bool is_dialect_definition(const char *at)
-{
-    static const char *const starts[] = {"#ifdef",        "#endif",           "precision",
-                                         "#define FN\n",  "#define STRUCT",   "#define num ",
-                                         "#define mask ", "#define vec3_of ", "#define vec4_of "};
-    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
-        if (begins(at, starts[i]))
-            return true;
-    return begins(at, "float num_of(");
-}
-
 static int split_definitions(struct definition *definitions, int count, char *source, int file)
 {
     char *lead = NULL;
-    bool apart = true;
+    bool spaced = true;
     for (char *at = source; *at;) {
         char *next = next_line(at);
         if (begins(at, "//")) {
             lead = lead ? lead : at;
-        } else if (*at == '\n' || is_dialect_definition(at)) {
+        } else if (*at == '\n') {
             lead = NULL;
-            apart |= *at == '\n';
+            spaced = true;
         } else {
             struct definition *definition = &definitions[count];
             next = *at == '#' ? next : definition_end(at);
             *definition =
-                (struct definition){.lead = lead ? lead : at, .start = at, .end = next, .file = file, .apart = apart};
+                (struct definition){.lead = lead ? lead : at, .start = at, .end = next, .file = file, .spaced = spaced};
             name_definition(definition);
             lead = NULL;
-            apart = false;
+            spaced = false;
             if (++count == DEFINITIONS_MAX)
                 return count;
         }
@@ -144,71 +131,28 @@ static bool mark(struct definition *definitions, const struct definition_index *
     return changed;
 }
 
-// Words of the dialect, and their GLSL equivalents.
-static const char *const renamed[][2] = {
-    {"num_of", "float"}, {"num", "float"}, {"mask", "bool"}, {"vec3_of", "vec3"}, {"vec4_of", "vec4"}};
-
-static void write_glsl(struct text *text, const char *at, const char *end)
+// Appends a text without its erased bytes.
+static void write_rest(struct text *text, const char *at, const char *end)
 {
-    bool comment = false;
-    while (at < end) {
-        if (*at == '\n')
-            comment = false;
-        else if (at[0] == '/' && at[1] == '/')
-            comment = true;
-        if (*at == SPECIALIZE_ERASED) {
-            at++;
-            continue;
-        }
-        if (comment || !in_name(*at)) {
-            text_add_part(text, at++, 1);
-            continue;
-        }
-        size_t length = 1;
-        while (at + length < end && in_name(at[length]))
-            length++;
-        if (begins(at, "FN ") || begins(at, "SCENE ") || begins(at, "IN_SCENE ")) {
-            at += length + 1;
-            continue;
-        }
-        if (length == 6 && begins(at, "STRUCT(")) {
-            size_t name = strcspn(at + 7, ")");
-            text_add(text, "struct ");
-            text_add_part(text, at + 7, name);
-            at += 8 + name;
-            continue;
-        }
-        // Numbers lose C's suffix f and the call of num_of.
-        if (length == 6 && begins(at, "num_of(") && at[7 + strspn(at + 7, "-.0123456789ef")] == ')') {
-            size_t number = strcspn(at + 7, ")");
-            text_add_part(text, at + 7, number - (at[6 + number] == 'f'));
-            at += 8 + number;
-            continue;
-        }
-        if (*at >= '0' && *at <= '9' && at[length - 1] == 'f') {
-            text_add_part(text, at, length - 1);
-            at += length;
-            continue;
-        }
-        const char *other = NULL;
-        for (size_t i = 0; i < sizeof renamed / sizeof *renamed; i++)
-            if (strlen(renamed[i][0]) == length && memcmp(renamed[i][0], at, length) == 0)
-                other = renamed[i][1];
-        text_add_part(text, other ? other : at, other ? strlen(other) : length);
-        at += length;
+    for (const char *erased; at < end; at = erased) {
+        at += strspn(at, "\1");
+        erased = memchr(at, SPECIALIZE_ERASED, at < end ? (size_t)(end - at) : 0);
+        erased = erased ? erased : end;
+        if (at < erased)
+            text_add_part(text, at, (size_t)(erased - at));
     }
 }
 
 // Writes a definition. The comments of a struct's members are aligned again, because GLSL types have other lengths.
 static void write_definition(struct text *text, const struct definition *p)
 {
-    if (!begins(p->start, "STRUCT(")) {
-        write_glsl(text, p->lead, p->end);
+    if (!begins(p->start, "struct ")) {
+        write_rest(text, p->lead, p->end);
         return;
     }
     struct text plain = {0};
-    write_glsl(text, p->lead, p->start);
-    write_glsl(&plain, p->start, p->end);
+    write_rest(text, p->lead, p->start);
+    write_rest(&plain, p->start, p->end);
     size_t width = 0;
     for (const char *at = plain.bytes; at && *at; at = next_line(at)) {
         size_t code = strcspn(at, ";\n");
@@ -296,7 +240,7 @@ static void write_title(struct text *text, const char *title)
 static void write_kept(struct text *text, const struct equations *w)
 {
     int file = -1, next = 0;
-    bool define = false, apart = false;
+    bool define = false, spaced = false;
     for (int i = 0; i <= w->count; i++) {
         const struct definition *p = i < w->count ? &w->definitions[i] : NULL;
         for (; next < (p ? p->file : w->source_count); next++)
@@ -307,18 +251,18 @@ static void write_kept(struct text *text, const struct equations *w)
             }
         if (!p)
             return;
-        apart |= p->apart;
+        spaced |= p->spaced;
         if (!p->kept)
             continue;
         if (p->file != file)
             write_title(text, w->sources[p->file].title);
         bool is_define = *p->start == '#', one_line = next_line(p->start) == p->end;
-        if (p->file == file && (apart || !p->file) && !(define && is_define && p->lead == p->start) &&
+        if (p->file == file && (spaced || !p->file) && !(define && is_define && p->lead == p->start) &&
             !(p->file == 0 && one_line))
             text_add(text, "\n");
         file = p->file;
         define = is_define;
-        apart = false;
+        spaced = false;
         write_definition(text, p);
     }
 }

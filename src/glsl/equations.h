@@ -1,4 +1,4 @@
-// equations.h: composes a stage's text from the equations of src/lighting and the *.glsl files of this folder.
+// equations.h: composes a stage's text from the equations of src/lighting and the texts of src/glsl/text.
 #ifndef EQUATIONS_H
 #define EQUATIONS_H
 
@@ -13,8 +13,8 @@ struct stage_source {
 };
 
 // Appends the definitions that the function `main` needs, directly or indirectly: those in the equations first, then
-// those in the sources. Words of the dialect are replaced by GLSL: num by float, mask by bool, STRUCT by struct; FN is
-// removed. Branches with a known condition are resolved, and names that are then unread are removed (specialize.h).
+// those in the sources. Branches with a known condition are resolved, and names that are then unread are removed
+// (specialize.h). embed.py has translated the dialect of the equations to GLSL.
 void equations_add(struct text *text, const struct stage_source *sources, int count, const struct known *known);
 
 #endif

@@ -2,7 +2,7 @@
 #include "glsl.h"
 
 #include "fail.h"
-#include "lecture.h"
+#include "glsl_rows.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_
         return fail(error, LAM_BAD_ARGUMENT, "Phong shading lights every fragment: its stage is fragment");
     if (f->shading == LAM_SHADING_GOURAUD && f->per_fragment)
         return fail(error, LAM_BAD_ARGUMENT, "Gouraud shading lights every vertex: its stage is application or vertex");
-    return !c->lecture || lecture_check(c, f, error);
+    return !c->style || c->style->check(c, f, error);
 }
 
 // --- the shader
@@ -37,8 +37,8 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
     struct text body = {0}, text = {0};
     const struct glsl_choices *c = f->choices;
     const struct glsl_facts stage = glsl_stage_facts(f, fragment);
-    if (c->lecture)
-        lecture_add(&body, &stage);
+    if (c->style)
+        c->style->add_stage(&body, &stage);
     else
         glsl_add_stage(&body, &stage);
     text_add(&text, version_lines[c->version]);
@@ -51,7 +51,7 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
         text_add(&text, "precision highp sampler2D;\n");
     if (c->version == GLSL_300_ES && fragment == f->per_fragment && f->has_environment)
         text_print(&text, "precision highp %s;\n", c->environment == GLSL_CUBE ? "samplerCube" : "sampler2DArray");
-    if (c->lecture)
+    if (c->style)
         glsl_declare(&text, f, fragment);
     if (body.bytes && !body.failed)
         text_add(&text, body.bytes);
@@ -74,7 +74,7 @@ bool glsl_make(const struct glsl_choices *choices, struct glsl_text *text, lam_e
     text->vertex = make_stage(&facts, false, error);
     text->fragment = text->vertex ? make_stage(&facts, true, error) : NULL;
     char *texts[2] = {text->vertex, text->fragment};
-    bool ok = text->fragment && (!choices->mistake || mistake_apply(choices, texts, 2, error));
+    bool ok = text->fragment && (!choices->mistake || choices->style->change(choices, texts, 2, error));
     if (text->fragment)
         *text = (struct glsl_text){texts[0], texts[1]};
     if (!ok)

@@ -1,6 +1,6 @@
 // glsl.h: GLSL text for a set of choices, and the values of its uniforms from a frame.
 //
-// The text consists of the called equations of src/lighting (equations.h), and of the *.glsl files in this folder,
+// The text consists of the called equations of src/lighting (equations.h), and of the texts in src/glsl/text,
 // which are ordinary texts for all choices: known conditions are resolved, and unread names are removed (specialize.h).
 //
 // Names in the text. Attributes, with their locations (GLSL 120: bound by name):
@@ -78,25 +78,25 @@ struct glsl_choices {
     bool distant_viewer;
     bool gl1;
     bool single_scattering;
-    bool widens;          // the variance of normals widens physical materials' roughness (lam_specular_aa); not in 120
-    bool passed;          // each light is multiplied by a share, a uniform that the program sets (texels: position.w)
-    bool shadows;         // traverses the hierarchy in a texture (shadows.glsl); not in 120
-    bool passes_rays;     // with shadows, some triangles transmit light
-    bool tints_rays;      // with passes_rays, they also tint the light
-    bool catches;         // a shadow catcher: black, with the blocked share of the light as opacity
-    lam_tone tone;        // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
-    bool exposes;         // the fragment multiplies its light by the uniform `exposure`
-    bool lecture;         // the lecture style (lecture.h)
-    int mistake;          // mistake_find in the lecture style, or 0
-    bool products;        // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
-    bool two_sided;       // the back is lit with −n
-    bool back_material;   // the back has its own material
-    bool colors;          // attribute color
-    bool tangents;        // attribute tangent; otherwise the direction field, if the model needs a tangent
-    bool converted[2];    // front, back: a metallic-roughness material with maps under a classic model
-    uint8_t alpha[2];     // front, back: lam_alpha_mode
-    uint8_t anisotropy;   // the most probes of a texture
-    bool hardware_filter; // glsl_use_hardware_filter
+    bool widens;      // the variance of normals widens physical materials' roughness (lam_specular_aa); not in 120
+    bool passed;      // each light is multiplied by a share, a uniform that the program sets (texels: position.w)
+    bool shadows;     // traverses the hierarchy in a texture (shadows.glsl); not in 120
+    bool passes_rays; // with shadows, some triangles transmit light
+    bool tints_rays;  // with passes_rays, they also tint the light
+    bool catches;     // a shadow catcher: black, with the blocked share of the light as opacity
+    lam_tone tone;    // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
+    bool exposes;     // the fragment multiplies its light by the uniform `exposure`
+    const struct glsl_style *style; // writes the texts; NULL: the full style
+    int mistake;                    // number of a change that the style makes, or 0
+    bool products;                  // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
+    bool two_sided;                 // the back is lit with −n
+    bool back_material;             // the back has its own material
+    bool colors;                    // attribute color
+    bool tangents;                  // attribute tangent; otherwise the direction field, if the model needs a tangent
+    bool converted[2];              // front, back: a metallic-roughness material with maps under a classic model
+    uint8_t alpha[2];               // front, back: lam_alpha_mode
+    uint8_t anisotropy;             // the most probes of a texture
+    bool hardware_filter;           // glsl_use_hardware_filter
     // LAYER_… of the range's materials (layer_kinds.h), and of all materials of the frame; a block has the fields of
     // the latter.
     uint8_t layers, field_layers;
@@ -107,10 +107,11 @@ struct glsl_choices {
     int hemisphere_count;
 };
 
-// Returns the choices for a range of a frame. The caller sets version, storage, encoding and products. `environment` is
+// Sets the choices for a range of a frame, in zeroed memory that memcmp may compare. The caller sets version, storage, encoding and products. `environment` is
 // GLSL_FACES, or none if neither material is reflective. LAM_STAGE_AUTO means the vertex stage with Gouraud shading,
 // otherwise the fragment stage.
-struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *range, lam_stage stage);
+void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
+                 lam_stage stage);
 
 // Returns whether an output is a value of the geometry, evaluated for each fragment without lighting for every shading
 // method.
@@ -125,6 +126,18 @@ void glsl_use_hardware_filter(struct glsl_choices *choices);
 
 struct glsl_text {
     char *vertex, *fragment; // ASCII
+};
+
+// A style of texts beside the full one.
+struct glsl_facts;
+struct text;
+struct glsl_style {
+    // Returns whether the style supports these choices. Otherwise fails with LAM_UNSUPPORTED and the unsupported option.
+    bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
+    // Appends a stage after its version and its uniforms.
+    void (*add_stage)(struct text *text, const struct glsl_facts *stage);
+    // Makes the change choices->mistake in one of the texts, which are freed and replaced. Returns false on failure.
+    bool (*change)(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 };
 
 // Makes both sources. Errors: LAM_LIMIT (memory); LAM_BAD_ARGUMENT for choices that exclude each other (GLSL_TEXTURE or
@@ -164,10 +177,6 @@ enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
-// Gets the colours that lights are multiplied by (frame_material_colors), without factors that maps supply at each
-// point.
-void glsl_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3]);
-
 // Do the same for one material's products: the block Products or BackProducts, or the material's texels of
 // product_list: for each light diffuse, specular and with gl1 ambient, then for each hemisphere sky and ground. The
 // uniforms first_product and back_first_product contain the index of the first texel.
@@ -177,18 +186,6 @@ void glsl_pack_products(const struct glsl_choices *choices, const struct frame *
 
 // Sets the choices about maps for a range.
 void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
-
-// Return whether shaders of the frame use a map of the material; whether maps affect the lighting at each point, as
-// with Phong shading; and whether the material is converted at each point.
-bool glsl_reads_maps(const struct frame *frame, const lam_material *material);
-static inline bool glsl_lights_maps(const struct frame *frame, const lam_material *material)
-{
-    return frame->settings.shading == LAM_SHADING_PHONG && glsl_reads_maps(frame, material);
-}
-static inline bool glsl_converts(const struct frame *frame, const lam_material *material)
-{
-    return frame_material_is_converted(frame, material) && glsl_lights_maps(frame, material);
-}
 
 // Returns whether a shader of these materials keeps the light that the diffuse map multiplies separate
 // (glsl_facts.separate_texture_terms).
@@ -204,20 +201,18 @@ void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_ran
 // picture's, with the scale and the offset of the texel. A NULL map has the value 1 everywhere.
 void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4], float t[4]);
 
-// Returns whether a mesh has the texture coordinates that a map uses.
-static inline bool glsl_has_texcoords(const lam_mesh *mesh, const lam_texture_map *map)
-{
-    return map->texcoords ? mesh->second_texcoords != NULL : mesh->texcoords != NULL;
-}
-
 // Writes the values of glsl_material_layout(products, field_layers).
 void glsl_material_values(const struct frame *frame, const lam_material *material, bool products, int field_layers,
                           float out[GLSL_MATERIAL_MAX]);
 // Returns the name of a field in the shader.
 const char *glsl_field_name(const struct material_field *field, bool products);
 
-// Returns the index in the frame of the shader's light i, or −1 past the end. Lights of a group keep the frame's order.
-int glsl_frame_light(const struct glsl_choices *choices, const struct frame *frame, int i);
+// Returns the index in the frame of the shader's next light, or −1 past the end. Lights of a group keep the frame's
+// order. A zeroed cursor is before the first light.
+struct glsl_light_cursor {
+    int group, light;
+};
+int glsl_next_light(const struct glsl_choices *choices, const struct frame *frame, struct glsl_light_cursor *cursor);
 struct glsl_light glsl_light_of(const struct frame_light *light);
 
 #endif

@@ -1,8 +1,8 @@
-// glsl_maps.c: generates the GLSL for maps: a struct with a member for each number that maps change, and for each side
-// a function that reads the texels and fills it. The rules are the same as in src/cpu/shade/textures.inc.
-//
-// Longer than 600 lines: one generated text, built from the rows of its table.
+// glsl_maps.c: the maps of a shader: the choices about them, the maps that it reads, and the words of maps.glsl, which computes their values.
+#include "fail.h"
 #include "glsl_rows.h"
+#include "maps.inc"
+#include "specialize.h"
 
 #define LANES 1
 #include "lighting.h"
@@ -10,11 +10,10 @@
 #include "texture_map.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 // --- choices
-
-static bool is_drawn(int map) { return map != LAM_MAP_DISPLACEMENT && map != LAM_MAP_REFLECTION; }
 
 // If light is evaluated at vertices or once per triangle, these maps are still applied at each fragment.
 static bool follows_lighting(int map)
@@ -22,32 +21,16 @@ static bool follows_lighting(int map)
     return map == LAM_MAP_DIFFUSE || map == LAM_MAP_OPACITY || map == LAM_MAP_EMISSION;
 }
 
-static bool is_read(const struct frame *frame, const lam_material *material, int map)
-{
-    return material->maps[map] && is_drawn(map) &&
-           (frame->settings.shading == LAM_SHADING_PHONG || follows_lighting(map));
-}
-
-bool glsl_reads_maps(const struct frame *frame, const lam_material *material)
-{
-    bool any = false;
-    for (int i = 0; i < LAM_MAP_COUNT; i++)
-        any |= is_read(frame, material, i);
-    return any;
-}
-
 static void choose_side(struct glsl_choices *c, const struct frame *frame, const lam_material *material, int side,
                         const lam_mesh *mesh, const lam_texture_map *seen[2 * LAM_MAP_COUNT], int *seen_count)
 {
-    c->converted[side] = glsl_converts(frame, material);
+    const unsigned used = frame_maps(frame, material);
+    c->converted[side] = frame_converts_at_points(frame, material);
     for (int i = 0; i < LAM_MAP_COUNT; i++) {
         const lam_texture_map *map = material->maps[i];
-        bool placed = map && glsl_has_texcoords(mesh, map);
+        bool placed = map && frame_has_texcoords(mesh, map);
         bool needs_tangents = i == LAM_MAP_NORMAL || i == LAM_MAP_CLEARCOAT_NORMAL;
-        if (!is_read(frame, material, i) || (needs_tangents && (!mesh->tangents || !placed)) ||
-            (i == LAM_MAP_BUMP && !placed))
-            continue;
-        if (map_layer((lam_map)i) && !(map_layer((lam_map)i) & frame_layers(frame, material)))
+        if (!(used >> i & 1) || (needs_tangents && (!mesh->tangents || !placed)) || (i == LAM_MAP_BUMP && !placed))
             continue;
         int texels = 0;
         while (texels < *seen_count && !texture_map_same(seen[texels], map))
@@ -75,8 +58,7 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
         const lam_material *material = frame->materials[side ? range->back : range->front];
         bool masks = material->alpha_mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
         // If no texel has an alpha below 1, a map's scale makes nothing translucent.
-        bool opaque =
-            material->alpha_mode == LAM_ALPHA_MASK || (!range->translucent && glsl_reads_maps(frame, material));
+        bool opaque = material->alpha_mode == LAM_ALPHA_MASK || (!range->translucent && frame_maps(frame, material));
         c->alpha[side] = masks ? LAM_ALPHA_MASK : opaque ? LAM_ALPHA_OPAQUE : (uint8_t)material->alpha_mode;
     }
     for (int side = 0; side <= c->back_material; side++)
@@ -111,7 +93,7 @@ void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4
     }
     s[3] = map->scale != 0 ? map->scale : 1;
     t[3] = map->offset;
-    if (!glsl_has_texcoords(mesh, map)) { // as if all texels were 1
+    if (!frame_has_texcoords(mesh, map)) { // as if all texels were 1
         t[3] += s[3];
         s[3] = 0;
     }
@@ -245,70 +227,6 @@ lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
 
 static bool any_has(const struct glsl_facts *f, lam_map map) { return f->maps[0][map] || f->maps[1][map]; }
 
-// The members of the struct, and the map of each; members for layers follow (glsl_layer_input).
-enum {
-    COLOR,
-    AMBIENT,
-    SPECULAR,
-    EMISSION,
-    NORMAL,
-    OPACITY,
-    SHININESS,
-    OCCLUSION,
-    ROUGHNESS,
-    METALLIC,
-    DIELECTRIC,
-    SLOPES,
-    ACROSS,
-    DOWN,
-    LEVEL,
-    COAT_NORMAL,
-    NORMAL_VARIANCE,
-    COAT_VARIANCE,
-    STRETCH,
-    MEMBERS
-};
-static const struct {
-    const char *name, *type, *meaning;
-    lam_map map;
-} members[MEMBERS] = {
-    [COLOR] = {"color", "vec3", "factor of the diffuse or base colour", LAM_MAP_DIFFUSE},
-    [AMBIENT] = {"ambient", "vec3", "factor of the ambient colour", LAM_MAP_AMBIENT},
-    [SPECULAR] = {"specular", "vec3", "factor of the highlights", LAM_MAP_SPECULAR},
-    [EMISSION] = {"emission", "vec3", "factor of the emission", LAM_MAP_EMISSION},
-    [NORMAL] = {"normal", "vec3", "components of the normal along tangent, bitangent and the mesh's normal",
-                LAM_MAP_NORMAL},
-    [OPACITY] = {"opacity", "float", "factor of the opacity", LAM_MAP_OPACITY},
-    [SHININESS] = {"shininess", "float", "exponent of the highlights", LAM_MAP_SHININESS},
-    [OCCLUSION] = {"occlusion", "float", "unoccluded share of ambient light", LAM_MAP_OCCLUSION},
-    [ROUGHNESS] = {"roughness", "float", "0 a mirror, 1 matt", LAM_MAP_ROUGHNESS},
-    [METALLIC] = {"metallic", "float", "0 a dielectric, 1 a metal", LAM_MAP_METALLIC},
-    [DIELECTRIC] = {"dielectric", "float", "factor of the diffuse light", LAM_MAP_METALLIC},
-    [SLOPES] = {"slopes", "vec2", "by how much the surface rises along the next two", LAM_MAP_BUMP},
-    [ACROSS] = {"across", "vec3", "the direction of the picture's rows in eye space, not unit", LAM_MAP_BUMP},
-    [DOWN] = {"down", "vec3", "the direction of its columns", LAM_MAP_BUMP},
-    [LEVEL] = {"level", "float", "level of detail", LAM_MAP_COUNT},
-    [COAT_NORMAL] = {"coat_normal", "vec3", "components of the coat's normal", LAM_MAP_CLEARCOAT_NORMAL},
-    [NORMAL_VARIANCE] = {"normal_variance", "float", "the variance of the normals within the pixel", LAM_MAP_NORMAL},
-    [COAT_VARIANCE] = {"coat_variance", "float", "the variance of the coat's normals", LAM_MAP_CLEARCOAT_NORMAL},
-    [STRETCH] = {"stretch", "vec3", "direction of the stretch by tangent and bitangent, and its strength",
-                 LAM_MAP_ANISOTROPY},
-};
-
-static bool has_member(const struct glsl_facts *f, int member)
-{
-    bool masks = member == OPACITY && f->value_masks;
-    if (member == LEVEL || (f->shows_level && !masks))
-        return member == LEVEL && f->shows_level && f->has_maps && !f->maps_interpolated_light;
-    if ((member == NORMAL_VARIANCE || member == COAT_VARIANCE) && !f->widens_roughness)
-        return false;
-    bool from_physical = member == SPECULAR || member == SHININESS
-                             ? f->highlights
-                             : member == ROUGHNESS || member == METALLIC || member == DIELECTRIC;
-    return any_has(f, members[member].map) || (member == OPACITY && any_has(f, LAM_MAP_DIFFUSE)) ||
-           (f->converts && f->has_maps && from_physical);
-}
-
 static bool has_layer_input(const struct glsl_facts *f, const struct glsl_layer_input *input)
 {
     return input->map != LAM_MAP_COUNT && any_has(f, input->map) && !f->shows_level;
@@ -316,9 +234,28 @@ static bool has_layer_input(const struct glsl_facts *f, const struct glsl_layer_
 
 bool glsl_maps_have(const struct glsl_facts *f, const char *member)
 {
-    for (int i = 0; i < MEMBERS; i++)
-        if (strcmp(members[i].name, member) == 0)
-            return has_member(f, i);
+    // The members of surface_maps that other texts read, and the map of each. Members for layers follow.
+    static const struct {
+        const char *name;
+        lam_map map;
+        bool converted; // a conversion to a classic model computes it as well
+    } members[] = {{"color", LAM_MAP_DIFFUSE, false},       {"ambient", LAM_MAP_AMBIENT, false},
+                   {"specular", LAM_MAP_SPECULAR, true},    {"emission", LAM_MAP_EMISSION, false},
+                   {"opacity", LAM_MAP_OPACITY, false},     {"shininess", LAM_MAP_SHININESS, true},
+                   {"occlusion", LAM_MAP_OCCLUSION, false}, {"roughness", LAM_MAP_ROUGHNESS, true},
+                   {"metallic", LAM_MAP_METALLIC, true},    {"dielectric", LAM_MAP_METALLIC, true},
+                   {"stretch", LAM_MAP_ANISOTROPY, false}};
+    bool opacity = strcmp(member, "opacity") == 0;
+    if (strcmp(member, "level") == 0)
+        return f->shows_level && f->has_maps && !f->maps_interpolated_light;
+    if (f->shows_level && !(opacity && f->value_masks))
+        return false;
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
+        if (strcmp(members[i].name, member) == 0) {
+            bool of_highlight = members[i].map == LAM_MAP_SPECULAR || members[i].map == LAM_MAP_SHININESS;
+            return any_has(f, members[i].map) || (opacity && any_has(f, LAM_MAP_DIFFUSE)) ||
+                   (members[i].converted && f->converts && f->has_maps && (f->highlights || !of_highlight));
+        }
     for (int i = 0; glsl_layer_input(i); i++)
         if (strcmp(glsl_layer_input(i)->member, member) == 0)
             return has_layer_input(f, glsl_layer_input(i));
@@ -327,281 +264,180 @@ bool glsl_maps_have(const struct glsl_facts *f, const char *member)
 
 // --- text
 
+// The words of maps.glsl for one side.
+enum { WORDS_MAX = 9 * LAM_MAP_COUNT + 24, WORD_MAX = 128 };
+struct words {
+    const struct glsl_facts *facts;
+    int side;
+    struct known rows[WORDS_MAX + 1];
+    char names[WORDS_MAX][36], texts[WORDS_MAX][WORD_MAX];
+    int count;
+};
+
+// Adds the word `start``end`.
+__attribute__((format(printf, 4, 5))) static void add_word(struct words *w, const char *start, const char *end,
+                                                           const char *format, ...);
+static void add_word(struct words *w, const char *start, const char *end, const char *format, ...)
+{
+    __builtin_va_list arguments;
+    __builtin_va_start(arguments, format);
+    vsnprintf(w->texts[w->count], WORD_MAX, format, arguments);
+    __builtin_va_end(arguments);
+    snprintf(w->names[w->count], sizeof *w->names, "%s%s", start, end);
+    w->rows[w->count] = (struct known){w->names[w->count], w->texts[w->count]};
+    w->count++;
+}
+
+static void add_flag(struct words *w, const char *start, const char *end, bool holds)
+{
+    add_word(w, start, end, "%s", holds ? "true" : "false");
+}
+
 static const char *prefix(int side) { return side ? "back_" : ""; }
 
-// Appends a parameter of the side's material.
-static void add_own(struct text *text, const struct glsl_facts *f, int side, const char *name)
+// Adds a parameter of the side's material.
+static void add_own(struct words *w, const char *name)
 {
-    text_print(text, "%s%s%s", prefix(side), f->choices->products ? "" : "material.", name);
+    add_word(w, "own_", name, "%s%s%s", prefix(w->side), w->facts->choices->products ? "" : "material.", name);
 }
 
-// Appends the value of a map, or of one channel.
-static void add_value(struct text *text, const struct glsl_facts *f, int side, lam_map map, const char *channels)
-{
-    const char *name = lam_map_name(map), *owner = lam_map_name(glsl_map_owner(f, side, map));
-    text_print(text, "%s_texel.%s * %s%s_map_s.w + %s%s_map_t.w", owner, channels, prefix(side), name, prefix(side),
-               name);
-}
+static const char *footprint_word(const struct glsl_map *map) { return map->texcoords ? "second" : "first"; }
 
-static void add_number(struct text *text, const struct glsl_facts *f, int side, lam_map map)
-{
-    static const char *const channels[] = {"r", "g", "b", "a"};
-    add_value(text, f, side, map, channels[f->choices->maps[side][map].channel]);
-}
-
-static void add_color(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
-{
-    if (!has_member(f, member))
-        return;
-    text_print(text, "    maps.%s = ", members[member].name);
-    if (f->maps[side][map])
-        add_value(text, f, side, map, "rgb");
-    else
-        text_add(text, member == AMBIENT && has_member(f, COLOR) ? "maps.color" : "vec3(1.0)");
-    text_add(text, ";\n");
-}
-
-// Appends a number: the material's own times the map's.
-static void add_factor(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map,
-                       const char *own)
-{
-    if (!has_member(f, member))
-        return;
-    text_print(text, "    maps.%s = ", members[member].name);
-    if (own)
-        add_own(text, f, side, own);
-    else
-        text_add(text, "1.0");
-    if (f->maps[side][map]) {
-        text_add(text, " * (");
-        add_number(text, f, side, map);
-        text_add(text, ")");
-    }
-    text_add(text, ";\n");
-}
-
-// Appends the arguments for the texture lookup: its texture coordinates, and the filters that the shader computes.
-static void add_sampling(struct text *text, const struct glsl_map *map)
+// Writes the arguments for the texture lookup: its texture coordinates, and the filters that the shader computes.
+static void write_sampling(char out[WORD_MAX], const struct glsl_map *map)
 {
     static const char *const wraps[] = {"WRAP_REPEAT", "WRAP_CLAMP", "WRAP_MIRROR"};
     static const char *const filters[] = {"FILTER_LINEAR", "FILTER_NEAREST"};
     static const char *const mips[] = {"MIP_LINEAR", "MIP_NEAREST", "MIP_NONE"};
-    text_print(text, "%s,\n        sampling(%s, %s, %s, %s, %s)", map->texcoords ? "second" : "first",
-               wraps[map->wrap_s], wraps[map->wrap_t], filters[map->magnify], filters[map->minify], mips[map->mip]);
+    snprintf(out, WORD_MAX, "%s,\n        sampling(%s, %s, %s, %s, %s)", footprint_word(map), wraps[map->wrap_s],
+             wraps[map->wrap_t], filters[map->magnify], filters[map->minify], mips[map->mip]);
+}
+
+static void add_map(struct words *w, lam_map map)
+{
+    const struct glsl_facts *f = w->facts;
+    const struct glsl_map *of = &f->choices->maps[w->side][map];
+    const char *p = prefix(w->side), *name = lam_map_name(map), *owner = lam_map_name(glsl_map_owner(f, w->side, map));
+    char factor[WORD_MAX / 2];
+    snprintf(factor, sizeof factor, "* %s%s_map_s.w + %s%s_map_t.w", p, name, p, name);
+    add_flag(w, "has_", name, f->maps[w->side][map]);
+    add_flag(w, "any_", name, any_has(f, map));
+    add_word(w, name, "_texel", "%s_texel", owner);
+    add_word(w, name, "_scale", "%s%s_map_s.w", p, name);
+    add_word(w, name, "_rgb", "%s_texel.rgb %s", owner, factor);
+    add_word(w, name, "_alpha", "%s_texel.a %s", owner, factor);
+    add_word(w, name, "_number", "%s_texel.%c %s", owner, "rgba"[of->channel], factor);
+    add_word(w, name, "_level", "map_level(%s%s_map, %s%s_map_s, %s%s_map_t, %s)", p, owner, p, name, p, name,
+             footprint_word(of));
+}
+
+static void add_bump(struct words *w)
+{
+    const struct glsl_map *map = &w->facts->choices->maps[w->side][LAM_MAP_BUMP];
+    char sampling[WORD_MAX];
+    write_sampling(sampling, map);
+    add_word(w, "bump_picture", "", "%s%s_map", prefix(w->side),
+             lam_map_name(glsl_map_owner(w->facts, w->side, LAM_MAP_BUMP)));
+    add_word(w, "bump_s", "", "%sbump_map_s", prefix(w->side));
+    add_word(w, "bump_t", "", "%sbump_map_t", prefix(w->side));
+    add_word(w, "BUMP_SAMPLING", "", "%s", sampling);
+    add_word(w, "BUMP_CHANNEL", "", ".%c", "rgba"[map->channel]);
+    add_word(w, "BUMP_FOOTPRINT", "", "%s", footprint_word(map));
 }
 
 static void add_texels(struct text *text, const struct glsl_facts *f, int side)
 {
-    for (int i = 0; i < LAM_MAP_COUNT && (!has_member(f, LEVEL) || f->value_masks); i++) {
+    for (int i = 0; i < LAM_MAP_COUNT && (!glsl_maps_have(f, "level") || f->value_masks); i++) {
         if (!f->maps[side][i] || i == LAM_MAP_BUMP || glsl_map_owner(f, side, (lam_map)i) != (lam_map)i)
             continue;
         const char *name = lam_map_name((lam_map)i), *p = prefix(side);
-        text_print(text, "    vec4 %s_texel = map_texel(%s%s_map, %s%s_map_s, %s%s_map_t, ", name, p, name, p, name, p,
-                   name);
-        add_sampling(text, &f->choices->maps[side][i]);
-        text_add(text, ");\n");
+        char sampling[WORD_MAX];
+        write_sampling(sampling, &f->choices->maps[side][i]);
+        text_print(text, "    vec4 %s_texel = map_texel(%s%s_map, %s%s_map_s, %s%s_map_t, %s);\n", name, p, name, p,
+                   name, p, name, sampling);
     }
 }
 
-// Appends the heights of a bump map one texel of level 0 before and behind the point, along rows and columns.
-static void add_slopes(struct text *text, const struct glsl_facts *f, int side)
+// Appends the numbers and colours of layers: the material's own times the map's. The thickness of a film is
+// interpolated between two numbers.
+static void add_layer_values(struct text *text, const struct glsl_facts *f, int side)
 {
-    if (!has_member(f, SLOPES))
-        return;
-    if (!f->maps[side][LAM_MAP_BUMP]) {
-        text_add(text, "    maps.slopes = vec2(0.0);\n    maps.across = vec3(0.0);\n    maps.down = vec3(0.0);\n");
-        return;
-    }
-    static const char *const names[] = {"left", "right", "above", "below"};
-    const struct glsl_map *map = &f->choices->maps[side][LAM_MAP_BUMP];
-    const char *p = prefix(side), *owner = lam_map_name(glsl_map_owner(f, side, LAM_MAP_BUMP));
-    text_print(text, "    vec2 one = 1.0 / vec2(textureSize(%s%s_map, 0));\n", p, owner);
-    for (int i = 0; i < 4; i++) {
-        text_print(text, "    float %s = map_texel(%s%s_map, %sbump_map_s%s, %sbump_map_t%s, ", names[i], p, owner, p,
-                   i == 0   ? " - vec4(0.0, 0.0, one.x, 0.0)"
-                   : i == 1 ? " + vec4(0.0, 0.0, one.x, 0.0)"
-                            : "",
-                   p,
-                   i == 2   ? " - vec4(0.0, 0.0, one.y, 0.0)"
-                   : i == 3 ? " + vec4(0.0, 0.0, one.y, 0.0)"
-                            : "");
-        add_sampling(text, map);
-        text_print(text, ").%c;\n", "rgba"[map->channel]);
-    }
-    text_print(text, "    maps.slopes = vec2(right - left, below - above) * (0.5 * %sbump_map_s.w);\n", p);
-    text_print(text, "    picture_axes(p, %sbump_map_s, %sbump_map_t, %s, maps.across, maps.down);\n", p, p,
-               map->texcoords ? "second" : "first");
-}
-
-static void add_opacity(struct text *text, const struct glsl_facts *f, int side)
-{
-    if (!has_member(f, OPACITY))
-        return;
-    text_add(text, "    maps.opacity = 1.0");
-    for (int i = 0; i < 2; i++) {
-        lam_map map = i ? LAM_MAP_OPACITY : LAM_MAP_DIFFUSE;
-        if (!f->maps[side][map])
+    const char *p = prefix(side), *own = f->choices->products ? "" : "material.";
+    for (int i = 0; glsl_layer_input(i); i++) {
+        const struct glsl_layer_input *input = glsl_layer_input(i);
+        if (!has_layer_input(f, input))
             continue;
-        text_add(text, " * (");
-        if (i)
-            add_number(text, f, side, map);
-        else
-            add_value(text, f, side, map, "a");
-        text_add(text, ")");
+        bool read = f->maps[side][input->map], between = read && input->map == LAM_MAP_IRIDESCENCE_THICKNESS;
+        const char *name = lam_map_name(input->map);
+        text_print(text, "    maps.%s = ", input->member);
+        if (between)
+            text_print(text, "mix(%s%siridescence_thickness_min, ", p, own);
+        text_print(text, "%s%s%s%s", p, own, input->field, input->color ? ".rgb" : "");
+        if (read)
+            text_print(text, "%s%s_texel.%.*s * %s%s_map_s.w + %s%s_map_t.w)", between ? ", " : " * (",
+                       lam_map_name(glsl_map_owner(f, side, input->map)), input->color ? 3 : 1,
+                       input->color ? "rgb" : &"rgba"[f->choices->maps[side][input->map].channel], p, name, p, name);
+        text_add(text, ";\n");
     }
-    text_add(text, ";\n");
 }
 
-// Appends the numbers of a metallic-roughness material for a classic model (lam_material_as_classic).
-static void add_conversion(struct text *text, const struct glsl_facts *f, int side)
+static void add_layer_members(struct text *text, const struct glsl_facts *f)
 {
-    bool mirrored = lobe_properties((int)f->choices->reflection) & LOBE_MIRRORED;
-    if (!has_member(f, SHININESS) || !has_member(f, SPECULAR))
-        return;
-    text_add(text, "    float exponent = classic_exponent(maps.roughness);\n    vec3 base = ");
-    add_own(text, f, side, "diffuse.rgb");
-    text_print(text, "%s%s;\n", f->choices->colors ? " * tint.rgb" : "", has_member(f, COLOR) ? " * maps.color" : "");
-    text_print(text,
-               "    maps.specular = classic_specular(base, maps.metallic, exponent);\n"
-               "    maps.shininess = exponent%s;\n",
-               mirrored ? " * 0.25" : "");
-}
-
-// Appends the normal from a normal map, along tangent, bitangent and the mesh's own normal.
-static void add_normal(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
-{
-    const char *to = members[member].name, *p = prefix(side), *name = lam_map_name(map);
-    if (!has_member(f, member))
-        return;
-    if (!f->maps[side][map]) {
-        text_print(text, "    maps.%s = vec3(0.0, 0.0, 1.0);\n", to);
-        return;
-    }
-    const char *owner = lam_map_name(glsl_map_owner(f, side, map));
-    text_print(text, "    maps.%s = vec3((%s_texel.xy * 2.0 - 1.0) * %s%s_map_s.w, %s_texel.z * 2.0 - 1.0);\n", to,
-               owner, p, name, owner);
-    text_print(text, "    if (%s%s_map_s.w == 0.0) {\n        maps.%s = vec3(0.0, 0.0, 1.0);\n    }\n", p, name, to);
-}
-
-// Appends the variance of a normal map.
-static void add_variance(struct text *text, const struct glsl_facts *f, int side, int member, lam_map map)
-{
-    const char *to = members[member].name, *p = prefix(side), *name = lam_map_name(map);
-    if (!has_member(f, member))
-        return;
-    if (!f->maps[side][map]) {
-        text_print(text, "    maps.%s = 0.0;\n", to);
-        return;
-    }
-    const char *owner = lam_map_name(glsl_map_owner(f, side, map));
-    text_print(text,
-               "    maps.%s = map_variance(%s_texel.xyz * 2.0 - 1.0, %s%s_map_s.w, map_level(%s%s_map, %s%s_map_s, "
-               "%s%s_map_t, %s));\n",
-               to, owner, p, name, p, owner, p, name, p, name,
-               f->choices->maps[side][map].texcoords ? "second" : "first");
-}
-
-// Appends a number or a colour of a layer: the material's own times the map's. The thickness of a film is interpolated
-// between two numbers.
-static void add_layer_input(struct text *text, const struct glsl_facts *f, int side,
-                            const struct glsl_layer_input *input)
-{
-    bool read = f->maps[side][input->map], between = read && input->map == LAM_MAP_IRIDESCENCE_THICKNESS;
-    text_print(text, between ? "    maps.%s = mix(" : "    maps.%s = ", input->member);
-    if (between) {
-        add_own(text, f, side, "iridescence_thickness_min");
-        text_add(text, ", ");
-    }
-    add_own(text, f, side, input->field);
-    text_add(text, input->color ? ".rgb" : "");
-    text_add(text, between ? ", " : read ? " * (" : "");
-    if (read && input->color)
-        add_value(text, f, side, input->map, "rgb");
-    else if (read)
-        add_number(text, f, side, input->map);
-    text_add(text, read ? ");\n" : ";\n");
-}
-
-static void add_stretch(struct text *text, const struct glsl_facts *f, int side)
-{
-    if (!has_member(f, STRETCH))
-        return;
-    text_add(text, "    float turned = ");
-    add_own(text, f, side, "anisotropy_rotation_rad");
-    text_add(text, ";\n    vec3 stretch = ");
-    if (f->maps[side][LAM_MAP_ANISOTROPY])
-        add_value(text, f, side, LAM_MAP_ANISOTROPY, "rgb");
-    else
-        text_add(text, "vec3(1.0, 0.5, 1.0)");
-    text_add(text, ";\n    stretch.xy = stretch.xy * 2.0 - 1.0;\n"
-                   "    stretch.xy = stretch.xy * rsqrt(dot(stretch.xy, stretch.xy));\n"
-                   "    maps.stretch = vec3(cos(turned) * stretch.x - sin(turned) * stretch.y,\n"
-                   "                        sin(turned) * stretch.x + cos(turned) * stretch.y, stretch.z * ");
-    add_own(text, f, side, "anisotropy");
-    text_add(text, ");\n");
-}
-
-static void add_side(struct text *text, const struct glsl_facts *f, int side)
-{
-    const struct glsl_choices *c = f->choices;
-    bool varies = c->converted[side] || f->maps[side][LAM_MAP_METALLIC];
-    text_print(text,
-               "\n// Returns the values of the maps of the %s at the point.\n"
-               "surface_maps %s_maps(footprint first, footprint second, vec3 p, vec4 tint)\n{\n",
-               side ? "back" : "front", side ? "back" : "front");
-    text_add(text, "    surface_maps maps;\n");
-    add_texels(text, f, side);
-    add_color(text, f, side, COLOR, LAM_MAP_DIFFUSE);
-    add_color(text, f, side, AMBIENT, LAM_MAP_AMBIENT);
-    add_color(text, f, side, SPECULAR, LAM_MAP_SPECULAR);
-    add_color(text, f, side, EMISSION, LAM_MAP_EMISSION);
-    add_normal(text, f, side, NORMAL, LAM_MAP_NORMAL);
-    add_normal(text, f, side, COAT_NORMAL, LAM_MAP_CLEARCOAT_NORMAL);
-    add_variance(text, f, side, NORMAL_VARIANCE, LAM_MAP_NORMAL);
-    add_variance(text, f, side, COAT_VARIANCE, LAM_MAP_CLEARCOAT_NORMAL);
-    if (has_member(f, LEVEL)) {
-        lam_map map = lod_map(f, side);
-        const char *p = prefix(side), *name = map < LAM_MAP_COUNT ? lam_map_name(map) : NULL;
-        if (name)
-            text_print(text, "    maps.level = map_level(%s%s_map, %s%s_map_s, %s%s_map_t, %s);\n", p,
-                       lam_map_name(glsl_map_owner(f, side, map)), p, name, p, name,
-                       f->choices->maps[side][map].texcoords ? "second" : "first");
-        else
-            text_add(text, "    maps.level = 0.0;\n");
-    }
-    add_slopes(text, f, side);
-    add_opacity(text, f, side);
-    add_factor(text, f, side, SHININESS, LAM_MAP_SHININESS, "shininess");
-    add_factor(text, f, side, OCCLUSION, LAM_MAP_OCCLUSION, NULL);
-    add_factor(text, f, side, ROUGHNESS, LAM_MAP_ROUGHNESS, "roughness");
-    add_factor(text, f, side, METALLIC, LAM_MAP_METALLIC, "metallic");
-    if (has_member(f, DIELECTRIC)) // without products, the diffuse colours of lights never include this factor
-        text_add(text, varies || (!c->products && f->microfacet) ? "    maps.dielectric = 1.0 - maps.metallic;\n"
-                                                                 : "    maps.dielectric = 1.0;\n");
-    for (int i = 0; glsl_layer_input(i); i++)
-        if (has_layer_input(f, glsl_layer_input(i)))
-            add_layer_input(text, f, side, glsl_layer_input(i));
-    add_stretch(text, f, side);
-    if (c->converted[side])
-        add_conversion(text, f, side);
-    text_add(text, "    return maps;\n}\n");
-}
-
-void glsl_add_maps(struct text *text, const struct glsl_facts *f)
-{
-    if (!f->has_maps)
-        return;
-    text_add(text, "// The values of maps at a point.\nSTRUCT(surface_maps)\n{\n");
-    for (int i = 0; i < MEMBERS; i++)
-        if (has_member(f, i))
-            text_print(text, "    %s %s; // %s\n", members[i].type, members[i].name, members[i].meaning);
     for (int i = 0; material_field(i); i++) {
         const struct glsl_layer_input *input = glsl_layer_input_of(material_field(i));
         if (input && has_layer_input(f, input))
             text_print(text, "    %s %s; // %s\n", input->color ? "vec3" : "float", input->member,
                        material_field(i)->field.summary);
     }
-    text_add(text, "};\n");
-    for (int side = 0; side <= f->back_material; side++)
+}
+
+static const char *level_word(const struct words *w)
+{
+    lam_map map = lod_map(w->facts, w->side);
+    for (int i = 0; map < LAM_MAP_COUNT && i < w->count; i++)
+        if (strncmp(w->names[i], lam_map_name(map), strlen(lam_map_name(map))) == 0 &&
+            strcmp(w->names[i] + strlen(lam_map_name(map)), "_level") == 0)
+            return w->texts[i];
+    return "0.0";
+}
+
+static void add_side(struct text *text, const struct glsl_facts *f, int side)
+{
+    const struct glsl_choices *c = f->choices;
+    struct words w = {.facts = f, .side = side};
+    struct text texels = {0}, layers = {0}, members = {0};
+    for (int i = 0; i < LAM_MAP_COUNT; i++)
+        add_map(&w, (lam_map)i);
+    add_bump(&w);
+    add_flag(&w, "of_back", "", side);
+    add_flag(&w, "shows_level", "", f->shows_level);
+    add_flag(&w, "varies", "", // without products, the diffuse colours of lights never include this factor
+             c->converted[side] || f->maps[side][LAM_MAP_METALLIC] || (!c->products && f->microfacet));
+    add_flag(&w, "is_converted", "", c->converted[side]);
+    add_flag(&w, "mirrored", "", lobe_properties((int)c->reflection) & LOBE_MIRRORED);
+    add_word(&w, "MAPS_OF_SIDE", "", side ? "back_maps" : "front_maps");
+    add_word(&w, "LEVEL", "", "%s", level_word(&w));
+    add_word(&w, "BASE", "", "%s%sdiffuse.rgb%s%s", prefix(side), c->products ? "" : "material.",
+             c->colors ? " * tint.rgb" : "", any_has(f, LAM_MAP_DIFFUSE) ? " * maps.color" : "");
+    static const char *const fields[] = {"shininess", "roughness", "metallic", "anisotropy", "anisotropy_rotation_rad"};
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        add_own(&w, fields[i]);
+    add_texels(&texels, f, side);
+    add_layer_values(&layers, f, side);
+    add_layer_members(&members, f);
+    const struct known made[] = {{"TEXELS", texels.bytes ? texels.bytes : ""},
+                                 {"LAYER_VALUES", layers.bytes ? layers.bytes : ""},
+                                 {"LAYER_MEMBERS", members.bytes ? members.bytes : ""}};
+    memcpy(w.rows + w.count, made, sizeof made);
+    specialize_branches(text, text_maps_glsl, w.rows);
+    text->failed |= texels.failed || layers.failed || members.failed;
+    free(texels.bytes);
+    free(layers.bytes);
+    free(members.bytes);
+}
+
+void glsl_add_maps(struct text *text, const struct glsl_facts *f)
+{
+    for (int side = 0; side <= f->back_material && f->has_maps; side++)
         add_side(text, f, side);
 }

@@ -9,13 +9,14 @@ struct list {
     int count;
 };
 
-__attribute__((format(printf, 6, 7))) static void add(struct list *list, enum glsl_semantic semantic, const char *type,
-                                                      int count, const char *block, const char *name, ...);
+__attribute__((format(printf, 7, 8))) static void add(struct list *list, enum glsl_semantic semantic, const char *type,
+                                                      int count, const char *block, const char *meaning,
+                                                      const char *name, ...);
 static void add(struct list *list, enum glsl_semantic semantic, const char *type, int count, const char *block,
-                const char *name, ...)
+                const char *meaning, const char *name, ...)
 {
     struct glsl_row *row = &list->rows[list->count++];
-    *row = (struct glsl_row){.semantic = semantic, .type = type, .count = count, .block = block};
+    *row = (struct glsl_row){.semantic = semantic, .type = type, .count = count, .block = block, .meaning = meaning};
     __builtin_va_list arguments;
     __builtin_va_start(arguments, name);
     vsnprintf(row->name, sizeof row->name, name, arguments);
@@ -25,12 +26,9 @@ static void add(struct list *list, enum glsl_semantic semantic, const char *type
 static void add_member(struct list *list, enum glsl_semantic semantic, const char *type, int at, const char *name,
                        const char *meaning)
 {
-    add(list, semantic, type, 0, NULL, "%s", name);
+    add(list, semantic, type, 0, NULL, meaning, "%s", name);
     list->rows[list->count - 1].at = at;
-    list->rows[list->count - 1].meaning = meaning;
 }
-
-static void set_meaning(struct list *list, const char *meaning) { list->rows[list->count - 1].meaning = meaning; }
 
 // Returns whether the equations use a field of the material.
 static bool is_read(const struct glsl_facts *f, const struct material_field *row)
@@ -61,8 +59,8 @@ static void add_fields(struct list *list, const struct glsl_facts *f, const char
         if (f->choices->storage != GLSL_BLOCK && !is_read(f, row))
             continue;
         add(list, products ? GLSL_HEAD : GLSL_MATERIAL, row->field.type < LAM_FIELD_RGB ? "float" : "vec4", 0, block,
-            "%s%s", prefix, glsl_field_name(row, products));
-        set_meaning(list, products && row->product_summary ? row->product_summary : row->field.summary);
+            products && row->product_summary ? row->product_summary : row->field.summary, "%s%s", prefix,
+            glsl_field_name(row, products));
         list->rows[list->count - 1].at = layout.at[i];
     }
 }
@@ -77,27 +75,22 @@ static void add_products(struct list *list, const struct glsl_facts *f, bool bac
         hemispheres = f->has_hemispheres && lists ? c->hemisphere_count : 0;
     add_fields(list, f, block, p);
     if (lights) {
-        add(list, GLSL_DIFFUSE_PRODUCT, "vec4", lights, block, "%sdiffuse_product", p);
-        set_meaning(list, "kd Ld of each light");
-        if (all || f->highlights) {
-            add(list, GLSL_SPECULAR_PRODUCT, "vec4", lights, block, "%sspecular_product", p);
-            set_meaning(list, "ks Ls of each light");
-        }
-        if (c->gl1) {
-            add(list, GLSL_LIGHT_AMBIENT_PRODUCT, "vec4", lights, block, "%slight_ambient_product", p);
-            set_meaning(list, "ka La of each light, before attenuation");
-        }
+        add(list, GLSL_DIFFUSE_PRODUCT, "vec4", lights, block, "kd Ld of each light", "%sdiffuse_product", p);
+        if (all || f->highlights)
+            add(list, GLSL_SPECULAR_PRODUCT, "vec4", lights, block, "ks Ls of each light", "%sspecular_product", p);
+        if (c->gl1)
+            add(list, GLSL_LIGHT_AMBIENT_PRODUCT, "vec4", lights, block, "ka La of each light, before attenuation",
+                "%slight_ambient_product", p);
     }
     if (hemispheres) {
-        add(list, GLSL_SKY_PRODUCT, "vec4", hemispheres, block, "%ssky_product", p);
-        set_meaning(list, "ka times the light from above, of each hemisphere");
-        add(list, GLSL_GROUND_PRODUCT, "vec4", hemispheres, block, "%sground_product", p);
-        set_meaning(list, "ka times the light from below, of each hemisphere");
+        add(list, GLSL_SKY_PRODUCT, "vec4", hemispheres, block, "ka times the light from above, of each hemisphere",
+            "%ssky_product", p);
+        add(list, GLSL_GROUND_PRODUCT, "vec4", hemispheres, block, "ka times the light from below, of each hemisphere",
+            "%sground_product", p);
     }
-    if (!lists && (f->has_lights || f->has_hemispheres)) {
-        add(list, GLSL_FIRST_PRODUCT, "int", 0, NULL, "%sfirst_product", p);
-        set_meaning(list, "index of the material's first texel in product_list");
-    }
+    if (!lists && (f->has_lights || f->has_hemispheres))
+        add(list, GLSL_FIRST_PRODUCT, "int", 0, NULL, "index of the material's first texel in product_list",
+            "%sfirst_product", p);
     for (int i = first; i < list->count; i++)
         list->rows[i].back = back;
 }
@@ -105,8 +98,7 @@ static void add_products(struct list *list, const struct glsl_facts *f, bool bac
 static void add_map_row(struct list *list, enum glsl_semantic semantic, const char *type, lam_map map, int side,
                         const char *ending, const char *meaning)
 {
-    add(list, semantic, type, 0, NULL, "%s%s_map%s", side ? "back_" : "", lam_map_name(map), ending);
-    set_meaning(list, meaning);
+    add(list, semantic, type, 0, NULL, meaning, "%s%s_map%s", side ? "back_" : "", lam_map_name(map), ending);
     list->rows[list->count - 1].map = map;
     list->rows[list->count - 1].back = side;
 }
@@ -131,24 +123,22 @@ static void add_environment(struct list *list, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     if (f->has_environment) {
-        add(list, GLSL_ENVIRONMENT_MATRIX, "mat3", 0, NULL, "environment_matrix");
-        set_meaning(list, "directions in eye space to the environment's axes");
+        add(list, GLSL_ENVIRONMENT_MATRIX, "mat3", 0, NULL, "directions in eye space to the environment's axes",
+            "environment_matrix");
         if (c->environment == GLSL_CUBE) {
-            add(list, GLSL_ENVIRONMENT, "samplerCube", 0, NULL, "environment");
-            set_meaning(list, "linear light; bilinear filter, seamless, no mipmaps");
+            add(list, GLSL_ENVIRONMENT, "samplerCube", 0, NULL, "linear light; bilinear filter, seamless, no mipmaps",
+                "environment");
         } else {
-            add(list, GLSL_ENVIRONMENT, "sampler2DArray", 0, NULL, "environment_faces");
-            set_meaning(list, "linear light; six faces +x -x +y -y +z -z, each with a border of one texel");
+            add(list, GLSL_ENVIRONMENT, "sampler2DArray", 0, NULL,
+                "linear light; six faces +x -x +y -y +z -z, each with a border of one texel", "environment_faces");
         }
-        if (f->environment_light) {
-            add(list, GLSL_ENVIRONMENT_LIGHT, "sampler2D", 0, NULL, "environment_light");
-            set_meaning(list, "float texture, 1024 texels wide, no filter: lam_environment_light_image");
-        }
+        if (f->environment_light)
+            add(list, GLSL_ENVIRONMENT_LIGHT, "sampler2D", 0, NULL,
+                "float texture, 1024 texels wide, no filter: lam_environment_light_image", "environment_light");
     }
-    if (f->occluded) {
-        add(list, GLSL_OCCLUSION, "sampler2D", 0, NULL, "ambient_occlusion");
-        set_meaning(list, "a texel for each pixel: the unoccluded share of surrounding light");
-    }
+    if (f->occluded)
+        add(list, GLSL_OCCLUSION, "sampler2D", 0, NULL,
+            "a texel for each pixel: the unoccluded share of surrounding light", "ambient_occlusion");
 }
 
 // Adds the light for an output of one light.
@@ -158,83 +148,68 @@ static void add_one_light(struct list *list, const struct glsl_facts *f)
     if (!f->has_lights)
         return;
     add(list, texture ? GLSL_LIGHT_LIST : GLSL_LIGHTS, texture ? "sampler2D" : "Light",
-        texture ? 0 : f->choices->light_count, f->choices->storage == GLSL_BLOCK ? "Lights" : NULL,
+        texture ? 0 : f->choices->light_count, f->choices->storage == GLSL_BLOCK ? "Lights" : NULL, "the light",
         texture ? "light_list" : "lights");
-    set_meaning(list, "the light");
 }
 
 static void add_lights(struct list *list, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     const char *block = c->storage == GLSL_BLOCK ? "Lights" : NULL;
-    if (!c->products && !f->unlit) {
-        add(list, GLSL_AMBIENT_LIGHT, "vec4", 0, block, "ambient_light");
-        set_meaning(list, "La: global ambient light plus the ambient light of all lights");
-    }
+    if (!c->products && !f->unlit)
+        add(list, GLSL_AMBIENT_LIGHT, "vec4", 0, block, "La: global ambient light plus the ambient light of all lights",
+            "ambient_light");
     if (c->storage == GLSL_TEXTURE) {
         if (f->has_lights || f->has_hemispheres) {
-            add(list, GLSL_LIGHT_LIST, "sampler2D", 0, NULL, "light_list");
-            set_meaning(list, "float texture, 1024 texels wide, no filter: the lights, then the hemispheres "
-                              "(docs/shaders.md)");
-            if (c->products) {
-                add(list, GLSL_PRODUCT_LIST, "sampler2D", 0, NULL, "product_list");
-                set_meaning(list, "float texture, 1024 texels wide, no filter: the products of the materials and the "
-                                  "lights");
-            }
+            add(list, GLSL_LIGHT_LIST, "sampler2D", 0, NULL,
+                "float texture, 1024 texels wide, no filter: the lights, then the hemispheres "
+                "(docs/shaders.md)",
+                "light_list");
+            if (c->products)
+                add(list, GLSL_PRODUCT_LIST, "sampler2D", 0, NULL,
+                    "float texture, 1024 texels wide, no filter: the products of the materials and the "
+                    "lights",
+                    "product_list");
         }
     } else {
-        if (f->has_lights) {
-            add(list, GLSL_LIGHTS, "Light", c->light_count, block, "lights");
-            set_meaning(list, "the lights, grouped by kind");
-        }
-        if (f->has_hemispheres) {
-            add(list, GLSL_HEMISPHERES, "Hemisphere", c->hemisphere_count, block, "hemispheres");
-            set_meaning(list, "hemisphere lights");
-        }
+        if (f->has_lights)
+            add(list, GLSL_LIGHTS, "Light", c->light_count, block, "the lights, grouped by kind", "lights");
+        if (f->has_hemispheres)
+            add(list, GLSL_HEMISPHERES, "Hemisphere", c->hemisphere_count, block, "hemisphere lights", "hemispheres");
     }
-    if (c->passed && f->has_lights && c->storage != GLSL_TEXTURE) {
-        add(list, GLSL_PASSED, "float", c->light_count, NULL, "passed");
-        set_meaning(list, "the unblocked share of each light, 0...1");
-    }
+    if (c->passed && f->has_lights && c->storage != GLSL_TEXTURE)
+        add(list, GLSL_PASSED, "float", c->light_count, NULL, "the unblocked share of each light, 0...1", "passed");
 }
 
 int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
 {
     const struct glsl_choices *c = f->choices;
     struct list list = {.rows = rows};
-    add(&list, GLSL_MODEL_VIEW_PROJECTION, "mat4", 0, NULL, "model_view_projection");
-    set_meaning(&list, "mesh positions to clip space");
-    if (f->needs_position) {
-        add(&list, GLSL_MODEL_VIEW, "mat4", 0, NULL, "model_view");
-        set_meaning(&list, "mesh positions to eye space");
-    }
-    if (f->needs_normal) {
-        add(&list, GLSL_NORMAL_MATRIX, "mat3", 0, NULL, "normal_matrix");
-        set_meaning(&list,
-                    "normals to eye space: the inverse transpose of model_view's 3x3, times any positive number");
-    }
-    if (c->exposes && !f->output_geometry && !f->output_vector) {
-        add(&list, GLSL_EXPOSURE, "float", 0, NULL, "exposure");
-        set_meaning(&list, "factor of all light: 2 to the power of the stops");
-    }
+    add(&list, GLSL_MODEL_VIEW_PROJECTION, "mat4", 0, NULL, "mesh positions to clip space", "model_view_projection");
+    if (f->needs_position)
+        add(&list, GLSL_MODEL_VIEW, "mat4", 0, NULL, "mesh positions to eye space", "model_view");
+    if (f->needs_normal)
+        add(&list, GLSL_NORMAL_MATRIX, "mat3", 0, NULL,
+            "normals to eye space: the inverse transpose of model_view's 3x3, times any positive number",
+            "normal_matrix");
+    if (c->exposes && !f->output_geometry && !f->output_vector)
+        add(&list, GLSL_EXPOSURE, "float", 0, NULL, "factor of all light: 2 to the power of the stops", "exposure");
     for (int back = 0; back <= f->back_material && f->has_mask; back++)
         if (c->alpha[back] == LAM_ALPHA_MASK) {
-            add(&list, GLSL_ALPHA_CUTOFF, "float", 0, NULL, "%salpha_cutoff", back ? "back_" : "");
-            set_meaning(&list, "points with less opacity are discarded");
+            add(&list, GLSL_ALPHA_CUTOFF, "float", 0, NULL, "points with less opacity are discarded", "%salpha_cutoff",
+                back ? "back_" : "");
             list.rows[list.count - 1].back = back;
         }
     add_maps(&list, f);
     bool has_emission_map =
         f->maps_interpolated_light && (f->maps[0][LAM_MAP_EMISSION] || f->maps[1][LAM_MAP_EMISSION]);
     for (int back = 0; back <= f->back_material && has_emission_map; back++) {
-        add(&list, GLSL_MAPPED_EMISSION, "vec4", 0, NULL, "%sglow", back ? "back_" : "");
-        set_meaning(&list, "emission, which the emission map multiplies");
+        add(&list, GLSL_MAPPED_EMISSION, "vec4", 0, NULL, "emission, which the emission map multiplies", "%sglow",
+            back ? "back_" : "");
         list.rows[list.count - 1].back = back;
     }
-    if (c->output == LAM_OUTPUT_IDS) {
-        add(&list, GLSL_OBJECT, "float", 0, NULL, "object");
-        set_meaning(&list, "index of the object");
-    }
+    if (c->output == LAM_OUTPUT_IDS)
+        add(&list, GLSL_OBJECT, "float", 0, NULL, "index of the object", "object");
     add_environment(&list, f);
     if (!f->lit || f->output_vector) {
         add_one_light(&list, f);
@@ -246,9 +221,8 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
             add_products(&list, f, back);
             continue;
         }
-        add(&list, GLSL_MATERIAL, "Material", 0, c->storage == GLSL_BLOCK ? "Materials" : NULL, "%smaterial",
-            back ? "back_" : "");
-        set_meaning(&list, back ? "material of the back" : "material of the front");
+        add(&list, GLSL_MATERIAL, "Material", 0, c->storage == GLSL_BLOCK ? "Materials" : NULL,
+            back ? "material of the back" : "material of the front", "%smaterial", back ? "back_" : "");
         list.rows[list.count - 1].back = back;
     }
     return list.count;
@@ -342,32 +316,26 @@ int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row r
     bool all = c->storage == GLSL_BLOCK; // a block has all members, used or not
     if (strcmp(type, "Light") == 0) {
         bool both = all || f->output_vector;
-        if (both || f->positions) {
+        if (both || f->positions)
             add_member(&list, GLSL_LIGHTS, "vec4", 0, "position",
                        "in eye space, w 1; not read for a directional light");
-        }
-        if (both || f->directions) {
+        if (both || f->directions)
             add_member(&list, GLSL_LIGHTS, "vec4", 4, "direction",
                        "in eye space, unit, w 0: direction of travel of a directional light, axis of a spot");
-        }
-        if (all || f->has_falloff) {
+        if (all || f->has_falloff)
             add_member(&list, GLSL_LIGHTS, "vec4", 8, "attenuation",
                        "constant, linear, quadratic, 1 / range (0: no range)");
-        }
-        if (all || f->has_cone) {
+        if (all || f->has_cone)
             add_member(&list, GLSL_LIGHTS, "vec4", 12, "cone",
                        "cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner - cos outer); "
                        "read according to the kind of spot");
-        }
         if (c->products || f->output_vector)
             return list.count;
         add_member(&list, GLSL_LIGHTS, "vec4", 16, "diffuse", "Ld");
-        if (all || f->highlights) {
+        if (all || f->highlights)
             add_member(&list, GLSL_LIGHTS, "vec4", 20, "specular", "Ls");
-        }
-        if (c->gl1) {
+        if (c->gl1)
             add_member(&list, GLSL_LIGHTS, "vec4", 24, "ambient", "La, before attenuation");
-        }
     } else if (strcmp(type, "Hemisphere") == 0) {
         add_member(&list, GLSL_HEMISPHERES, "vec4", 0, "up", "in eye space, unit, w 0: towards the sky");
         if (c->products)

@@ -184,6 +184,15 @@ int glsl_attributes(const struct glsl_facts *facts, struct glsl_attribute rows[G
 bool glsl_row_is_in(const struct glsl_facts *facts, const struct glsl_row *row, bool fragment);
 // Lists the members of a struct type. Returns their number, or 0 if `type` is not a struct.
 int glsl_members(const struct glsl_facts *facts, const char *type, struct glsl_row rows[GLSL_ROWS_MAX]);
+// Writes the value of element `index` of a uniform, or of a member of that element, matrices by columns. Returns the
+// number of floats; 0 for textures and for the projection, which depends on the window.
+struct glsl_uniform_source {
+    const struct frame *frame;
+    const struct frame_draw_range *range; // NULL for uniforms of the frame
+    const int *order;                     // index in the frame of each of the shader's lights; NULL: no row reads one
+};
+int glsl_uniform_value(const struct glsl_choices *choices, const struct glsl_uniform_source *from,
+                       const struct glsl_row *row, const struct glsl_row *member, int index, float out[16]);
 // Append the declarations.
 void glsl_declare_attributes(struct text *text, const struct glsl_facts *facts);
 void glsl_declare(struct text *text, const struct glsl_facts *facts, bool fragment);

@@ -1,4 +1,4 @@
-// glsl_stage.c: selects the sources of a stage, the *.glsl files of this folder, and the conditions that its choices
+// glsl_stage.c: selects the sources of a stage, the texts of src/glsl/text, and the conditions that its choices
 // determine.
 #include "environment_light.h"
 #include "equations.h"

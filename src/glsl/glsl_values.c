@@ -16,53 +16,46 @@ static void find_groups(struct glsl_choices *c, const struct frame *frame)
     c->hemisphere_count = frame->hemisphere_count;
 }
 
-static bool mirrors(const lam_material *m)
+void glsl_choose(struct glsl_choices *c, const struct frame *frame, const struct frame_draw_range *range,
+                 lam_stage stage)
 {
-    return m->reflectivity.r != 0 || m->reflectivity.g != 0 || m->reflectivity.b != 0;
-}
-
-struct glsl_choices glsl_choose(const struct frame *frame, const struct frame_draw_range *range, lam_stage stage)
-{
-    struct glsl_choices c;
-    memset(&c, 0, sizeof c);
+    memset(c, 0, sizeof *c);
     const struct frame_draw *draw = &frame->draws[range->draw];
-    c.shading = frame->settings.shading;
-    c.stage = stage ? stage : frame->settings.shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX : LAM_STAGE_FRAGMENT;
-    c.reflection = range->reflection;
-    c.output = frame->settings.output;
-    c.distant_viewer = frame->distant_viewer;
-    c.gl1 = frame->settings.gl1;
-    c.single_scattering = frame_is_physical(range->reflection) && frame->settings.single_scattering;
-    c.two_sided = !draw->one_sided;
-    c.back_material = c.two_sided && range->back != range->front;
-    c.colors = draw->mesh->colors != NULL;
-    c.tangents = draw->mesh->tangents != NULL;
+    c->shading = frame->settings.shading;
+    c->stage = stage ? stage : frame->settings.shading == LAM_SHADING_GOURAUD ? LAM_STAGE_VERTEX : LAM_STAGE_FRAGMENT;
+    c->reflection = range->reflection;
+    c->output = frame->settings.output;
+    c->distant_viewer = frame->distant_viewer;
+    c->gl1 = frame->settings.gl1;
+    c->single_scattering = frame_is_physical(range->reflection) && frame->settings.single_scattering;
+    c->two_sided = !draw->one_sided;
+    c->back_material = c->two_sided && range->back != range->front;
+    c->colors = draw->mesh->colors != NULL;
+    c->tangents = draw->mesh->tangents != NULL;
     if (frame->environment_lights && frame_is_physical(range->reflection)) {
-        c.environment = GLSL_FACES;
-        c.environment_light = true;
-    } else if (frame->environment && !frame_is_physical(range->reflection) &&
-               (mirrors(frame->materials[range->front]) || (c.back_material && mirrors(frame->materials[range->back]))))
-        c.environment = GLSL_FACES;
+        c->environment = GLSL_FACES;
+        c->environment_light = true;
+    } else if (frame_reflects_environment(frame, frame->materials[range->front]) ||
+               (c->back_material && frame_reflects_environment(frame, frame->materials[range->back]))) {
+        c->environment = GLSL_FACES;
+    }
     for (int i = 0; i < frame->material_count; i++)
-        c.field_layers |= (uint8_t)frame_layers(frame, frame->materials[i]);
+        c->field_layers |= (uint8_t)frame_layers(frame, frame->materials[i]);
     if (frame_is_physical(range->reflection))
-        c.layers = (uint8_t)(frame_layers(frame, frame->materials[range->front]) |
-                             (c.back_material ? frame_layers(frame, frame->materials[range->back]) : 0));
-    find_groups(&c, frame);
-    glsl_choose_maps(&c, frame, range);
-    return c;
+        c->layers = (uint8_t)(frame_layers(frame, frame->materials[range->front]) |
+                              (c->back_material ? frame_layers(frame, frame->materials[range->back]) : 0));
+    find_groups(c, frame);
+    glsl_choose_maps(c, frame, range);
 }
 
-int glsl_frame_light(const struct glsl_choices *c, const struct frame *frame, int i)
+int glsl_next_light(const struct glsl_choices *c, const struct frame *frame, struct glsl_light_cursor *at)
 {
-    int group = 0;
-    while (group < c->group_count && i >= c->groups[group].count)
-        i -= c->groups[group++].count;
-    for (int k = 0; group < c->group_count && k < frame->light_count; k++) {
-        const struct frame_light *light = &frame->lights[k];
-        if (light->kind == c->groups[group].kind && light->falloff == c->groups[group].falloff && i-- == 0)
-            return k;
-    }
+    for (; at->group < c->group_count; at->group++, at->light = 0)
+        while (at->light < frame->light_count) {
+            const struct frame_light *light = &frame->lights[at->light++];
+            if (light->kind == c->groups[at->group].kind && light->falloff == c->groups[at->group].falloff)
+                return at->light - 1;
+        }
     return -1;
 }
 
@@ -126,7 +119,7 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
     struct glsl_material_layout layout = glsl_material_layout(products, field_layers);
     lam_material in_use = *material;
     in_use.shininess = frame_shininess(frame, material);
-    if (glsl_converts(frame, material)) { // each point computes its colours from the base colour
+    if (frame_converts_at_points(frame, material)) { // each point computes its colours from the base colour
         in_use.diffuse = (lam_rgba){material->ambient.r, material->ambient.g, material->ambient.b, material->diffuse.a};
         in_use.specular = (lam_rgb){1, 1, 1};
     }
@@ -173,19 +166,16 @@ void glsl_pack_lights(const struct glsl_choices *c, const struct frame *frame, f
         out += 4;
     }
     size_t each = floats_of_light(c);
-    for (int g = 0; g < c->group_count; g++)
-        for (int i = 0; i < frame->light_count; i++) {
-            const struct frame_light *light = &frame->lights[i];
-            if (light->kind != c->groups[g].kind || light->falloff != c->groups[g].falloff)
-                continue;
-            struct glsl_light packed = glsl_light_of(light);
-            if (c->occlusion)
-                packed.direction[3] = light->occluded;
-            if (c->shadows)
-                pack_shadow(packed.position, light);
-            memcpy(out, &packed, each * sizeof *out);
-            out += each;
-        }
+    struct glsl_light_cursor cursor = {0, 0};
+    for (int i; (i = glsl_next_light(c, frame, &cursor)) >= 0; out += each) {
+        const struct frame_light *light = &frame->lights[i];
+        struct glsl_light packed = glsl_light_of(light);
+        if (c->occlusion)
+            packed.direction[3] = light->occluded;
+        if (c->shadows)
+            pack_shadow(packed.position, light);
+        memcpy(out, &packed, each * sizeof *out);
+    }
     for (int i = 0; i < frame->hemisphere_count; i++) {
         const struct frame_hemisphere *h = &frame->hemispheres[i];
         set3(out, h->up, 0);
@@ -206,16 +196,6 @@ size_t glsl_products_bytes(const struct glsl_choices *c)
     return all ? all : 16;
 }
 
-void glsl_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3])
-{
-    bool converted = glsl_converts(frame, material);
-    frame_material_colors(material, kd, ks);
-    if (converted || (glsl_lights_maps(frame, material) && material->maps[LAM_MAP_METALLIC])) {
-        memcpy(kd, converted ? &material->ambient.r : &material->diffuse.r, 3 * sizeof *kd);
-        ks[0] = ks[1] = ks[2] = 1;
-    }
-}
-
 void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame, const lam_material *material,
                         float *out)
 {
@@ -228,21 +208,18 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
         out += size;
     }
     float kd[3], ks[3];
-    glsl_material_colors(frame, material, kd, ks);
+    frame_material_colors(frame, material, kd, ks);
     // A block has an array for each product; in a texture the products of a light are consecutive.
     size_t lights = (size_t)c->light_count, hemispheres = (size_t)c->hemisphere_count, at = 0;
     size_t step = block ? 4 : c->gl1 ? 12 : 8, next = block ? 4 * lights : 4;
-    for (int g = 0; g < c->group_count; g++)
-        for (int i = 0; i < frame->light_count; i++) {
-            const struct frame_light *light = &frame->lights[i];
-            if (light->kind != c->groups[g].kind || light->falloff != c->groups[g].falloff)
-                continue;
-            product(out + at, kd, light->diffuse);
-            product(out + at + next, ks, light->specular);
-            if (c->gl1)
-                product(out + at + 2 * next, &material->ambient.r, light->ambient);
-            at += step;
-        }
+    struct glsl_light_cursor cursor = {0, 0};
+    for (int i; (i = glsl_next_light(c, frame, &cursor)) >= 0; at += step) {
+        const struct frame_light *light = &frame->lights[i];
+        product(out + at, kd, light->diffuse);
+        product(out + at + next, ks, light->specular);
+        if (c->gl1)
+            product(out + at + 2 * next, &material->ambient.r, light->ambient);
+    }
     out += lights * (c->gl1 ? 12 : 8);
     for (size_t i = 0; i < hemispheres; i++) {
         float *sky = block ? out + 4 * i : out + 8 * i, *ground = block ? sky + 4 * hemispheres : sky + 4;

@@ -410,7 +410,7 @@ static bool reads_member(const struct source_span *s, struct span type, struct s
     return false;
 }
 
-static bool is_struct(const struct source_span *s) { return begins((struct span){s->start, s->end}, "STRUCT("); }
+static bool is_struct(const struct source_span *s) { return begins((struct span){s->start, s->end}, "struct "); }
 
 static bool erase_members(const struct source_span *spans, int count, const struct source_span *s)
 {
@@ -541,8 +541,11 @@ static bool erase_parameters(const struct source_span *spans, int count, const s
     struct span rest = {open + 1, close};
     for (int i = 0; rest.at < close; i++) {
         const char *comma = find_outside(rest, ",");
-        struct span item = {rest.at + strspn(rest.at, " \1"), comma ? comma : close}, name = {item.end, item.end};
+        struct span item = {rest.at + strspn(rest.at, " \1"), comma ? comma : close};
         rest.at = comma ? comma + 1 : close;
+        while (item.end > item.at && item.end[-1] == SPECIALIZE_ERASED)
+            item.end--;
+        struct span name = {item.end, item.end};
         while (name.at > item.at && in_name(name.at[-1]))
             name.at--;
         if (name.at == name.end || is(name, "void") || reads(function, close, name, false) ||

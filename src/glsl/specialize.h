@@ -24,7 +24,7 @@ struct source_span {
     bool reduced; // unread parameters and variables are removed too
 };
 
-// Overwrites unread text with SPECIALIZE_ERASED: members of structs (STRUCT(name), one member per line) that no span
+// Overwrites unread text with SPECIALIZE_ERASED: members of structs (one member per line) that no span
 // reads, and the lines that only set them; in reduced functions also unread parameters, the arguments for them, the
 // lines of the comment that begin with their names ("// `NAME`"), and unread variables. Returns whether anything was
 // erased; another call may then erase more.

@@ -217,7 +217,7 @@ FN num sheen_lobe(surface s, vec3 l, num roughness)
 // Returns the share of uniform light that the sheen reflects: the integral of S over all l, divided by pi.
 FN num sheen_albedo(num n_dot_v, num roughness)
 {
-    albedo_place p = albedo_place_of(n_dot_v, roughness);
+    albedo_cell p = albedo_cell_of(n_dot_v, roughness);
     num a = p.across;
     num upper = sheen_texel(p.first) * (1.0f - a) + sheen_texel(p.first + 1.0f) * a;
     num lower = sheen_texel(p.first + 32.0f) * (1.0f - a) + sheen_texel(p.first + 33.0f) * a;

@@ -77,8 +77,8 @@ FN lobe_sample lambert_lobe(surface s, vec3 l)
 // product would multiply an error in the length of n by four; this form does not depend on it.
 FN num phong_base(vec3 n, vec3 l, vec3 v)
 {
-    vec3 apart = sub3(mirror3(l, n), v);
-    return 1.0f - 0.5f * dot3(apart, apart);
+    vec3 difference = sub3(mirror3(l, n), v);
+    return 1.0f - 0.5f * dot3(difference, difference);
 }
 
 FN lobe_sample phong_lobe(surface s, vec3 l)
@@ -248,16 +248,16 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
 
 // A position in the tables of the light that GGX's microfacets return under uniform light: 32 roughnesses,
 // ROUGHNESS_MIN to 1, times 32 roots of n.v (scripts/albedo_tables.py).
-STRUCT(albedo_place)
+STRUCT(albedo_cell)
 {
     num first;  // the entry above and to the left
     num across; // fractions towards the next entries
     num down;
 };
 
-FN albedo_place albedo_place_of(num n_dot_v, num roughness)
+FN albedo_cell albedo_cell_of(num n_dot_v, num roughness)
 {
-    albedo_place p;
+    albedo_cell p;
     num along = 31.0f * square_root(saturate(n_dot_v));
     num down = (31.0f / (1.0f - ROUGHNESS_MIN)) * positive(min_of(roughness, num_of(1.0f)) - ROUGHNESS_MIN);
     num column = min_of(whole(along), num_of(30.0f));
@@ -272,7 +272,7 @@ FN albedo_place albedo_place_of(num n_dot_v, num roughness)
 // divided by pi. The rest hits other microfacets.
 FN num single_scattering(num n_dot_v, num roughness)
 {
-    albedo_place p = albedo_place_of(n_dot_v, roughness);
+    albedo_cell p = albedo_cell_of(n_dot_v, roughness);
     num a = p.across;
     num upper = albedo_texel(p.first) * (1.0f - a) + albedo_texel(p.first + 1.0f) * a;
     num lower = albedo_texel(p.first + 32.0f) * (1.0f - a) + albedo_texel(p.first + 33.0f) * a;
@@ -282,7 +282,7 @@ FN num single_scattering(num n_dot_v, num roughness)
 // Returns the same integral with Schlick's weight (1 - v.h)^5.
 FN num schlick_scattering(num n_dot_v, num roughness)
 {
-    albedo_place p = albedo_place_of(n_dot_v, roughness);
+    albedo_cell p = albedo_cell_of(n_dot_v, roughness);
     num a = p.across;
     num upper = bias_texel(p.first) * (1.0f - a) + bias_texel(p.first + 1.0f) * a;
     num lower = bias_texel(p.first + 32.0f) * (1.0f - a) + bias_texel(p.first + 33.0f) * a;

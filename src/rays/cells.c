@@ -39,12 +39,12 @@ struct large {
     struct grid grid;
     uint32_t chunk, chunks;  // triangles sorted together
     uint16_t *keys;          // the cell of each triangle
-    uint32_t *places;        // for each task and cell, the number of triangles, then the position of the next one
+    uint32_t *offsets;       // for each task and cell, the number of triangles, then the position of the next one
     struct primitive *cells; // cells that contain triangles
     uint32_t used_cells;
     struct box *boxes;          // for each task, the box of its triangles and the box of twice their centres
     struct list small, waiting; // ranges to be divided by one thread, and in grids of their own
-    struct buffer keys_memory, places_memory, cells_memory;
+    struct buffer keys_memory, offsets_memory, cells_memory;
 };
 
 // --- the grid
@@ -108,10 +108,10 @@ static void count_task(void *user, size_t index, int thread)
     struct large *l = user;
     const struct primitive *p = l->builder->primitives + l->range->first + index * l->chunk;
     uint16_t *keys = l->keys + index * l->chunk;
-    uint32_t *places = l->places + index * l->grid.cell_count;
+    uint32_t *offsets = l->offsets + index * l->grid.cell_count;
     for (uint32_t i = 0, count = chunk_count(l, index); i < count; i++) {
         keys[i] = (uint16_t)cell_of(&l->grid, &p[i]);
-        places[keys[i]]++;
+        offsets[keys[i]]++;
     }
 }
 
@@ -121,9 +121,9 @@ static void sort_task(void *user, size_t index, int thread)
     struct large *l = user;
     const struct primitive *p = l->builder->primitives + l->range->first + index * l->chunk;
     const uint16_t *keys = l->keys + index * l->chunk;
-    uint32_t *places = l->places + index * l->grid.cell_count;
+    uint32_t *offsets = l->offsets + index * l->grid.cell_count;
     for (uint32_t i = 0, count = chunk_count(l, index); i < count; i++)
-        l->builder->in_cells[places[keys[i]]++] = p[i];
+        l->builder->in_cells[offsets[keys[i]]++] = p[i];
 }
 
 static void cells_task(void *user, size_t index, int thread)
@@ -160,15 +160,15 @@ static bool sort_into_cells(struct large *l, struct range *r)
     }
     l->grid = grid_over(&r->middles, r->count);
     size_t cells = l->grid.cell_count;
-    size_t keys_bytes = r->count * sizeof *l->keys, places_bytes = l->chunks * cells * sizeof *l->places;
+    size_t keys_bytes = r->count * sizeof *l->keys, offsets_bytes = l->chunks * cells * sizeof *l->offsets;
     if (!buffer_reserve(&l->keys_memory, keys_bytes, b->loop.call, NULL) ||
-        !buffer_reserve(&l->places_memory, places_bytes, b->loop.call, NULL) ||
+        !buffer_reserve(&l->offsets_memory, offsets_bytes, b->loop.call, NULL) ||
         !buffer_reserve(&l->cells_memory, cells * sizeof *l->cells, b->loop.call, NULL)) {
         no_memory(&b->loop);
         return false;
     }
     l->keys = l->keys_memory.data;
-    l->places = memset(l->places_memory.data, 0, places_bytes);
+    l->offsets = memset(l->offsets_memory.data, 0, offsets_bytes);
     l->cells = l->cells_memory.data;
     pool_run(b->pool, l->chunks, count_task, l);
     uint32_t at = 0;
@@ -176,8 +176,8 @@ static bool sort_into_cells(struct large *l, struct range *r)
     for (size_t cell = 0; cell < cells; cell++) {
         uint32_t first = at;
         for (uint32_t chunk = 0; chunk < l->chunks; chunk++) {
-            uint32_t *place = &l->places[chunk * cells + cell], count = *place;
-            *place = at;
+            uint32_t *offset = &l->offsets[chunk * cells + cell], count = *offset;
+            *offset = at;
             at += count;
         }
         if (at > first)
@@ -303,7 +303,7 @@ bool ray_nodes_build(struct builder *b, lam_error *error)
             pool_run(b->pool, l.small.count, small_task, &l);
         }
     }
-    struct buffer *own[] = {&l.keys_memory, &l.places_memory, &l.cells_memory, &l.small.memory, &l.waiting.memory};
+    struct buffer *own[] = {&l.keys_memory, &l.offsets_memory, &l.cells_memory, &l.small.memory, &l.waiting.memory};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         buffer_release(own[i], b->loop.call);
     return should_continue(&b->loop) || loop_error(&b->loop, (size_t)b->frame->triangle_count * 4, error);

@@ -24,7 +24,7 @@
 
 // The rays of a bundle differ from one of them by at most this distance at their starts, and at their ends at full
 // length (at most 1), summed over coordinates.
-#define BUNDLE_APART 0.2f
+#define BUNDLE_SPREAD 0.2f
 
 struct ray_lanes {
     _Alignas(64) double origin[3][LANES], direction[3][LANES]; // t is measured in lengths of the direction
@@ -233,14 +233,14 @@ LANE_FN unsigned bundle_lanes(const struct box_rays *b, unsigned rest)
 {
     int first = __builtin_ctz(rest);
     unsigned same = rest;
-    num apart = num_of(0.0f), away = num_of(0.0f);
+    num spread = num_of(0.0f), away = num_of(0.0f);
     float length = b->end[first] < 1 ? b->end[first] : 1;
     for (int i = 0; i < 3; i++) {
         same &= b->down[i] >> first & 1 ? b->down[i] : ~b->down[i];
-        apart += absolute(num_load(b->direction[i]) - b->direction[i][first]);
+        spread += absolute(num_load(b->direction[i]) - b->direction[i][first]);
         away += absolute(num_load(b->low[i]) - b->low[i][first]);
     }
-    return same & mask_bits(apart * length + away <= BUNDLE_APART);
+    return same & mask_bits(spread * length + away <= BUNDLE_SPREAD);
 }
 
 LANE_FN void bundle_of(struct ray_bundle *bundle, const struct box_rays *b, unsigned lanes)

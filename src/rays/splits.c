@@ -136,9 +136,9 @@ static uint32_t divide_evenly(struct primitive *p, uint32_t count, int axis)
 {
     static int (*const along[3])(const void *, const void *) = {along_x, along_y, along_z};
     qsort(p, count, sizeof *p, along[axis]);
-    for (uint32_t apart = 0; apart <= count; apart++)
+    for (uint32_t distance = 0; distance <= count; distance++)
         for (int side = -1; side <= 1; side += 2) {
-            int64_t at = (int64_t)(count / 2) + side * (int64_t)apart;
+            int64_t at = (int64_t)(count / 2) + side * (int64_t)distance;
             if (at >= 1 && at < count &&
                 p[at - 1].low[axis] + p[at - 1].high[axis] < p[at].low[axis] + p[at].high[axis])
                 return (uint32_t)at;

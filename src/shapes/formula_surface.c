@@ -34,7 +34,7 @@ struct surface {
     int undefined_axis;
 };
 
-struct piece {
+struct patch {
     struct surface *surface;
     double from[2], to[2];
     double texture_from[2], texture_to[2];
@@ -66,20 +66,20 @@ static lam_vec3 one_sided(const struct surface *s, lam_vec3 own, lam_vec3 inner,
     double unit = s->size / (s->to[axis] - s->from[axis]);
     if (!v3_finite(inner))
         return v3_finite(own) ? own : v3(0, 0, 0);
-    double lengths = length_of(own) + length_of(inner), apart = length_of(v3_sub(own, inner));
-    return !v3_finite(own) || (apart > 1e-4 * lengths && lengths > 1e-5 * unit) ? inner : own;
+    double lengths = length_of(own) + length_of(inner), difference = length_of(v3_sub(own, inner));
+    return !v3_finite(own) || (difference > 1e-4 * lengths && lengths > 1e-5 * unit) ? inner : own;
 }
 
-static void piece_point(void *user, double u, double v, lam_surface_point *out)
+static void patch_point(void *user, double u, double v, lam_surface_point *out)
 {
-    const struct piece *piece = user;
-    struct surface *s = piece->surface;
+    const struct patch *patch = user;
+    struct surface *s = patch->surface;
     *out = evaluate(s, u, v);
     double at[2] = {u, v}, inner[2];
     bool end = false;
     for (int a = 0; a < 2; a++) {
         double h = ASIDE * (s->to[a] - s->from[a]);
-        bool first = at[a] <= piece->from[a], last = at[a] >= piece->to[a];
+        bool first = at[a] <= patch->from[a], last = at[a] >= patch->to[a];
         inner[a] = first ? at[a] + h : last ? at[a] - h : at[a];
         end |= first || last;
     }
@@ -353,15 +353,15 @@ static bool join(lam_mesh *mesh, const uint8_t *border, double size, struct aren
     return true;
 }
 
-static void place_texture(const struct piece *pieces, const lam_parametric *surfaces, int count, lam_mesh *mesh)
+static void place_texture(const struct patch *patches, const lam_parametric *surfaces, int count, lam_mesh *mesh)
 {
     float *at = (float *)(uintptr_t)mesh->texcoords;
     for (int k = 0; k < count; k++) {
         size_t n = (size_t)(surfaces[k].u_segments + 1) * (size_t)(surfaces[k].v_segments + 1);
         for (; n; n--, at += 2)
             for (int a = 0; a < 2; a++)
-                at[a] = (float)(pieces[k].texture_from[a] +
-                                (double)at[a] * (pieces[k].texture_to[a] - pieces[k].texture_from[a]));
+                at[a] = (float)(patches[k].texture_from[a] +
+                                (double)at[a] * (patches[k].texture_to[a] - patches[k].texture_from[a]));
     }
 }
 
@@ -381,28 +381,28 @@ static bool make(struct surface *s, struct arena *arena, struct arena *scratch, 
         closed[a] = counts[a] == 2 && is_closed(s, a);
     }
     size_t total = (size_t)(counts[0] - 1) * (size_t)(counts[1] - 1);
-    struct piece *pieces = arena_array(scratch, total, sizeof *pieces);
+    struct patch *patches = arena_array(scratch, total, sizeof *patches);
     lam_parametric *surfaces = arena_array(scratch, total, sizeof *surfaces);
-    if (!pieces || !surfaces || total > 1 << 28)
-        return call_memory_error(call, total * (sizeof *pieces + sizeof *surfaces), error);
+    if (!patches || !surfaces || total > 1 << 28)
+        return call_memory_error(call, total * (sizeof *patches + sizeof *surfaces), error);
     for (size_t k = 0; k < total; k++) {
         size_t index[2] = {k % (size_t)(counts[0] - 1), k / (size_t)(counts[0] - 1)};
         int steps[2];
-        pieces[k].surface = s;
+        patches[k].surface = s;
         for (int a = 0; a < 2; a++) {
             int first = cuts[a][index[a]], last = cuts[a][index[a] + 1], n = s->segments[a];
             steps[a] = last - first;
-            pieces[k].from[a] = step_of(s->from[a], s->to[a], first, n);
-            pieces[k].to[a] = step_of(s->from[a], s->to[a], last, n);
-            pieces[k].texture_from[a] = (double)first / n;
-            pieces[k].texture_to[a] = (double)last / n;
+            patches[k].from[a] = step_of(s->from[a], s->to[a], first, n);
+            patches[k].to[a] = step_of(s->from[a], s->to[a], last, n);
+            patches[k].texture_from[a] = (double)first / n;
+            patches[k].texture_to[a] = (double)last / n;
         }
-        surfaces[k] = (lam_parametric){.surface = piece_point,
-                                       .user = &pieces[k],
-                                       .u_min = pieces[k].from[0],
-                                       .u_max = pieces[k].to[0],
-                                       .v_min = pieces[k].from[1],
-                                       .v_max = pieces[k].to[1],
+        surfaces[k] = (lam_parametric){.surface = patch_point,
+                                       .user = &patches[k],
+                                       .u_min = patches[k].from[0],
+                                       .u_max = patches[k].to[0],
+                                       .v_min = patches[k].from[1],
+                                       .v_max = patches[k].to[1],
                                        .u_segments = steps[0],
                                        .v_segments = steps[1],
                                        .u_closed = closed[0],
@@ -414,7 +414,7 @@ static bool make(struct surface *s, struct arena *arena, struct arena *scratch, 
         return fail_undefined(s, error);
     if (!made)
         return false;
-    place_texture(pieces, surfaces, (int)total, mesh);
+    place_texture(patches, surfaces, (int)total, mesh);
     if (!join(mesh, border, s->size, scratch, error))
         return false;
     complete_normals(mesh);

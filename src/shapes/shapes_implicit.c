@@ -446,19 +446,19 @@ static bool march_all(struct march *m)
 
 static bool check(const lam_implicit *s, lam_error *error)
 {
-    const char *place = "implicit surface";
+    const char *kind = "implicit surface";
     if (!s->value || !s->gradient)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: the function `%s` is NULL", place, s->value ? "gradient" : "value");
+        return fail(error, LAM_BAD_ARGUMENT, "%s: the function `%s` is NULL", kind, s->value ? "gradient" : "value");
     if (!v3_finite(s->minimum) || !v3_finite(s->maximum))
-        return fail(error, LAM_BAD_ARGUMENT, "%s: a side of the box is not finite", place);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: a side of the box is not finite", kind);
     double low[3] = {s->minimum.x, s->minimum.y, s->minimum.z}, high[3] = {s->maximum.x, s->maximum.y, s->maximum.z};
     for (int a = 0; a < 3; a++)
         if (!(low[a] < high[a]) || !(high[a] - low[a] < 1e38))
             return fail(error, LAM_BAD_ARGUMENT,
-                        "%s: the box goes from %g to %g along %c, expected a length in 0 to 1e38", place, low[a],
+                        "%s: the box goes from %g to %g along %c, expected a length in 0 to 1e38", kind, low[a],
                         high[a], "xyz"[a]);
     if (s->cells != 0 && (s->cells < 2 || s->cells > 1024))
-        return fail(error, LAM_BAD_ARGUMENT, "%s: cells is %d, expected 2 to 1024, or 0", place, s->cells);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: cells is %d, expected 2 to 1024, or 0", kind, s->cells);
     return true;
 }
 

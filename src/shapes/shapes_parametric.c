@@ -410,19 +410,19 @@ static bool tessellate_one(struct tessellation *t, struct pool *pool, lam_error 
 
 static bool check(const lam_parametric *s, lam_error *error)
 {
-    const char *place = "parametric surface";
+    const char *kind = "parametric surface";
     if (!s->surface)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: the function `surface` is NULL", place);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: the function `surface` is NULL", kind);
     if (!math_finite(s->u_min) || !math_finite(s->u_max) || !(s->u_min < s->u_max))
         return fail(error, LAM_BAD_ARGUMENT, "%s: u goes from %g to %g, expected finite numbers with u_min < u_max",
-                    place, s->u_min, s->u_max);
+                    kind, s->u_min, s->u_max);
     if (!math_finite(s->v_min) || !math_finite(s->v_max) || !(s->v_min < s->v_max))
         return fail(error, LAM_BAD_ARGUMENT, "%s: v goes from %g to %g, expected finite numbers with v_min < v_max",
-                    place, s->v_min, s->v_max);
+                    kind, s->v_min, s->v_max);
     if (s->u_segments < 1 || s->u_segments > 16384)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: u_segments is %d, expected 1 to 16384", place, s->u_segments);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: u_segments is %d, expected 1 to 16384", kind, s->u_segments);
     if (s->v_segments < 1 || s->v_segments > 16384)
-        return fail(error, LAM_BAD_ARGUMENT, "%s: v_segments is %d, expected 1 to 16384", place, s->v_segments);
+        return fail(error, LAM_BAD_ARGUMENT, "%s: v_segments is %d, expected 1 to 16384", kind, s->v_segments);
     return true;
 }
 

@@ -178,7 +178,7 @@ static void test_branches(void **state)
 static void test_unread(void **state)
 {
     (void)state;
-    char of[] = "STRUCT(s)\n{\n    int used;\n    int chain;\n    int other; // .other\n};\n",
+    char of[] = "struct s\n{\n    int used;\n    int chain;\n    int other; // .other\n};\n",
          by[] = "int f(s a, t b)\n{\n    a.used = 1;\n    a.chain = a.other;\n    a.other = 2;\n    b.chain = 3;\n"
                 "    return a.used + b.chain;\n}\n";
     const struct source_span spans[] = {{of, of, of + strlen(of), false}, {by, by, by + strlen(by), false}};

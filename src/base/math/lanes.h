@@ -367,8 +367,8 @@ LANE_FN float min_lane(num x)
     four = _mm_min_ps(four, _mm_movehl_ps(four, four));
     return _mm_cvtss_f32(_mm_min_ss(four, _mm_movehdup_ps(four)));
 #else
-    for (int apart = 1; apart < LANES; apart *= 2)
-        x = min_of(x, lanes_at(x, lane_numbers() ^ apart));
+    for (int distance = 1; distance < LANES; distance *= 2)
+        x = min_of(x, lanes_at(x, lane_numbers() ^ distance));
     return lane(x, 0);
 #endif
 }

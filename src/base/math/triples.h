@@ -27,7 +27,7 @@ LANE_FN void store_triples(float *to, struct triples t)
 typedef float quad __attribute__((vector_size(16)));
 typedef float quad_memory __attribute__((vector_size(16), aligned(4), may_alias));
 // Loads the quads i, i + 4, i + 8 … into one vector.
-LANE_FN num quads_apart(const float *const at[LANES], int i)
+LANE_FN num split_quads(const float *const at[LANES], int i)
 {
 #define QUAD(n) ((quad) * (const quad_memory *)at[n])
 #if LANES == 4
@@ -58,7 +58,7 @@ LANE_FN num quads_apart(const float *const at[LANES], int i)
 #endif
 LANE_FN struct triples load_triples(const float *const at[LANES])
 {
-    num a = quads_apart(at, 0), b = quads_apart(at, 1), c = quads_apart(at, 2), d = quads_apart(at, 3);
+    num a = split_quads(at, 0), b = split_quads(at, 1), c = split_quads(at, 2), d = split_quads(at, 3);
     num xy_low = SHUFFLE(a, b, 0, 4, 1, 5), xy_high = SHUFFLE(c, d, 0, 4, 1, 5);
     num z_low = SHUFFLE(a, b, 2, 6, 3, 7), z_high = SHUFFLE(c, d, 2, 6, 3, 7);
     return (struct triples){SHUFFLE(xy_low, xy_high, 0, 1, 4, 5), SHUFFLE(xy_low, xy_high, 2, 3, 6, 7),

@@ -87,17 +87,17 @@ void behind_fill(struct behind *behind)
 }
 
 // Returns the texels around a position in texels, whose centres are at i + ½.
-static struct taps linear_taps(float place)
+static struct taps linear_taps(float position)
 {
-    float at = place - 0.5f;
+    float at = position - 0.5f;
     int first = (int)at - (at < 0);
     float t = at - (float)first;
     return (struct taps){first, 2, {1 - t, t}};
 }
 
-static struct taps spline_taps(float place)
+static struct taps spline_taps(float position)
 {
-    struct taps linear = linear_taps(place);
+    struct taps linear = linear_taps(position);
     float t = linear.weight[1], u = linear.weight[0], t2 = t * t, u2 = u * u;
     return (struct taps){linear.first - 1,
                          4,

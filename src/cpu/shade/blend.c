@@ -95,8 +95,8 @@ static uint64_t rank_of(float key, uint32_t id)
 
 // Joins the fragments of one clipped triangle's parts in a pixel. If two of them cover a sample, the nearer key is
 // used.
-static void join_pieces(const struct fragments *fragments, struct layer_rows *rows, struct blend_scratch *scratch,
-                        int samples)
+static void join_clipped_parts(const struct fragments *fragments, struct layer_rows *rows,
+                               struct blend_scratch *scratch, int samples)
 {
     for (int pixel = 0; pixel < TILE * TILE; pixel++) {
         uint32_t first = scratch->start[pixel], count = scratch->start[pixel + 1] - first;
@@ -303,7 +303,7 @@ void sort_layers(const struct sample_pattern *pattern, struct fragments *fragmen
     if (!rows->clipped && !rows->masked)
         return;
     if (rows->clipped)
-        join_pieces(fragments, rows, scratch, pattern->count);
+        join_clipped_parts(fragments, rows, scratch, pattern->count);
     drop_empty(pattern, fragments, rows);
     sort_by_pixel(fragments, scratch);
 }

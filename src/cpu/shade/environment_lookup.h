@@ -18,12 +18,12 @@ LANE_FN vec3 to_environment_axes(const struct frame *frame, vec3 w)
 // Does the same as cube_look, but gathers the four texels around each direction channel by channel.
 LANE_FN vec3 cube_gathered(const struct lam_environment *cube, vec3 direction)
 {
-    struct cube_place place = cube_place(direction.x, direction.y, direction.z, cube->size);
+    struct cube_position on_cube = cube_position(direction.x, direction.y, direction.z, cube->size);
     const float *texels = cube->texels, *below = texels + cube_row(cube);
-    inum column = int_of(place.s), row = int_of(place.t), side = inum_of(cube->size + 2);
-    num s = place.s - num_of_int(column), t = place.t - num_of_int(row), a[3], b[3], c[3], d[3], mixed[3];
+    inum column = int_of(on_cube.s), row = int_of(on_cube.t), side = inum_of(cube->size + 2);
+    num s = on_cube.s - num_of_int(column), t = on_cube.t - num_of_int(row), a[3], b[3], c[3], d[3], mixed[3];
     uint32_t at[LANES];
-    inum_store((int32_t *)at, wrap_add(wrap_mul(wrap_add(wrap_mul(place.face, side), row), side), column));
+    inum_store((int32_t *)at, wrap_add(wrap_mul(wrap_add(wrap_mul(on_cube.face, side), row), side), column));
     gather3(texels, at, 3, a);
     gather3(texels + 3, at, 3, b);
     gather3(below, at, 3, c);

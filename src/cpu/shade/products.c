@@ -19,35 +19,20 @@ static void product(float out[3], const float *a, const float *b)
         out[i] = a[i] * b[i];
 }
 
-// Returns the maps that shading uses. If colours of vertices or triangles are interpolated, these are the maps that
-// multiply such a colour.
-static unsigned maps_of(const lam_material *material, const struct frame *frame)
-{
-    unsigned maps = 0, drawn = ~(1u << LAM_MAP_DISPLACEMENT | 1u << LAM_MAP_REFLECTION);
-    if (frame->settings.shading != LAM_SHADING_PHONG)
-        drawn = 1u << LAM_MAP_DIFFUSE | 1u << LAM_MAP_OPACITY | 1u << LAM_MAP_EMISSION;
-    for (int i = 0; i < LAM_MAP_COUNT; i++)
-        if (material->maps[i] && (!map_layer((lam_map)i) || map_layer((lam_map)i) & frame_layers(frame, material)))
-            maps |= 1u << i;
-    return maps & drawn;
-}
-
 static void multiply_material(struct material_products *out, const lam_material *material, const struct frame *frame)
 {
     product(out->ambient, &material->ambient.r, frame->ambient);
     memcpy(out->emission, &material->emission, sizeof out->emission);
     memcpy(out->diffuse, &material->diffuse, sizeof out->diffuse);
     out->given = material;
-    out->maps = maps_of(material, frame);
-    out->converted =
-        out->maps && frame->settings.shading == LAM_SHADING_PHONG && frame_material_is_converted(frame, material);
+    out->maps = frame_maps(frame, material);
+    out->converted = frame_converts_at_points(frame, material);
     out->shininess = frame_shininess(frame, material);
     out->layers = frame_layers(frame, material);
     out->stretch[0] = (float)math_cos((double)material->anisotropy_rotation_rad);
     out->stretch[1] = (float)math_sin((double)material->anisotropy_rotation_rad);
     memcpy(out->reflectivity, &material->reflectivity, sizeof out->reflectivity);
-    out->mirrors = frame->environment && !material->physical &&
-                   (out->reflectivity[0] != 0 || out->reflectivity[1] != 0 || out->reflectivity[2] != 0);
+    out->mirrors = frame_reflects_environment(frame, material);
 }
 
 struct material_products *products_make(struct buffer *storage, const struct frame *frame, struct call_control *call,
@@ -72,11 +57,7 @@ struct material_products *products_make(struct buffer *storage, const struct fra
         struct light_products *list = (struct light_products *)at;
         at += lights * sizeof *list;
         float kd[3], ks[3];
-        frame_material_colors(material, kd, ks);
-        if (out->converted || (out->maps >> LAM_MAP_METALLIC & 1)) { // varying factors are multiplied at each point
-            memcpy(kd, out->converted ? &material->ambient.r : &material->diffuse.r, sizeof kd);
-            ks[0] = ks[1] = ks[2] = 1;
-        }
+        frame_material_colors(frame, material, kd, ks);
         for (size_t i = 0; i < lights; i++) {
             product(list[i].diffuse, kd, frame->lights[i].diffuse);
             product(list[i].specular, ks, frame->lights[i].specular);

@@ -230,9 +230,9 @@ static void collect_corners(void *user, size_t index, int thread)
         uint32_t listed = s->simd->list(s->mesh->indices + c, s->position_of, c, count, corners, ranks);
         for (uint32_t k = 0; k < listed; k++) {
             uint32_t *at = &l->counts[ranks[k]];
-            uint32_t place = alone ? (*at)++ : __atomic_fetch_add(at, 1, __ATOMIC_RELAXED);
-            if (place < CLOSED_MAX)
-                l->collected[ranks[k]][place] = corners[k];
+            uint32_t slot = alone ? (*at)++ : __atomic_fetch_add(at, 1, __ATOMIC_RELAXED);
+            if (slot < CLOSED_MAX)
+                l->collected[ranks[k]][slot] = corners[k];
         }
     }
 }

@@ -34,7 +34,7 @@ static const struct {
 };
 
 // A thread's scratch memory.
-struct piece_scratch {
+struct chunk_scratch {
     struct obj obj; // parses into these arrays
     uint8_t *text;
     void *arrays[ARRAYS];
@@ -53,10 +53,10 @@ struct stream {
     const struct file_parts *file;
     struct loop_status loop;
     int unsupported; // atomic; obj.c must read the file
-    struct piece_scratch *scratch;
+    struct chunk_scratch *scratch;
     uint8_t *arrays[ARRAYS];
     size_t reserved[ARRAYS];
-    size_t next_piece; // atomic; the next chunk to count. Only the thread of that chunk accesses the members below.
+    size_t next_chunk; // atomic; the next chunk to count. Only the thread of that chunk accesses the members below.
     struct obj_counts total;
     size_t charged;
     int layout; // 1 + texture coordinates + 2 · normals in the faces; 0 means no face so far
@@ -85,7 +85,7 @@ static size_t rows_max(enum array kind, size_t bytes) { return bytes / array_kin
 // --- one chunk
 
 // Reads the complete lines that begin in the chunk.
-static bool read_text(const struct stream *stream, struct piece_scratch *scratch, size_t index, struct obj_chunk *piece)
+static bool read_text(const struct stream *stream, struct chunk_scratch *scratch, size_t index, struct obj_chunk *chunk)
 {
     size_t size = stream->file->size, nominal = index * PIECE, from = index ? nominal - 1 : 0;
     size_t to = size - nominal < PIECE + TAIL ? size : nominal + PIECE + TAIL;
@@ -112,19 +112,19 @@ static bool read_text(const struct stream *stream, struct piece_scratch *scratch
     // The last line may continue in the next chunk.
     if (last - first >= 3 && (last[-2] == '\\' || last[-3] == '\\'))
         return false;
-    *piece = (struct obj_chunk){.begin = first, .end = last};
+    *chunk = (struct obj_chunk){.begin = first, .end = last};
     return true;
 }
 
-static bool parse(struct piece_scratch *scratch, struct obj_chunk *piece)
+static bool parse(struct chunk_scratch *scratch, struct obj_chunk *chunk)
 {
     struct obj *obj = &scratch->obj;
-    const struct obj_chunk unread = *piece;
-    obj->begin = piece->begin;
-    obj->end = piece->end;
+    const struct obj_chunk unread = *chunk;
+    obj->begin = chunk->begin;
+    obj->end = chunk->end;
     for (;;) {
-        *piece = unread;
-        piece->counts = (struct obj_counts){
+        *chunk = unread;
+        chunk->counts = (struct obj_counts){
             .positions = rows_max(POSITIONS, PIECE),
             .texcoords = rows_max(TEXCOORDS, PIECE),
             .normals = rows_max(NORMALS, PIECE),
@@ -134,15 +134,15 @@ static bool parse(struct piece_scratch *scratch, struct obj_chunk *piece)
         };
         obj->texcoord_indices = scratch->texcoords ? scratch->arrays[CORNER_TEXCOORDS] : NULL;
         obj->normal_indices = scratch->normals ? scratch->arrays[CORNER_NORMALS] : NULL;
-        if (!obj_parse_chunk(obj, piece, NULL))
+        if (!obj_parse_chunk(obj, chunk, NULL))
             return false;
-        if (!piece->texcoord_unknown && !piece->normal_unknown)
+        if (!chunk->texcoord_unknown && !chunk->normal_unknown)
             break;
-        scratch->texcoords |= piece->texcoord_unknown; // the thread's first faces use them: parse again
-        scratch->normals |= piece->normal_unknown;
+        scratch->texcoords |= chunk->texcoord_unknown; // the thread's first faces use them: parse again
+        scratch->normals |= chunk->normal_unknown;
     }
-    return !piece->colors && !piece->short_faces && !piece->nonfinite_numbers &&
-           !(scratch->texcoords && piece->texcoord_missing) && !(scratch->normals && piece->normal_missing);
+    return !chunk->colors && !chunk->short_faces && !chunk->nonfinite_numbers &&
+           !(scratch->texcoords && chunk->texcoord_missing) && !(scratch->normals && chunk->normal_missing);
 }
 
 // --- copying a chunk to the final arrays
@@ -163,7 +163,7 @@ static bool grow(struct arena *arena, void *array, size_t *capacity, size_t used
     return true;
 }
 
-static bool append_statements(struct stream *stream, const struct piece_scratch *scratch, uint64_t count,
+static bool append_statements(struct stream *stream, const struct chunk_scratch *scratch, uint64_t count,
                               uint32_t triangle)
 {
     struct arena *memory = &stream->obj->memory;
@@ -185,15 +185,15 @@ static bool append_statements(struct stream *stream, const struct piece_scratch 
 }
 
 // Adds the chunk to the totals, in the order of the chunks. *before receives the totals of the previous chunks.
-static bool count_piece(struct stream *stream, struct piece_scratch *scratch, size_t index,
-                        const struct obj_chunk *piece, struct obj_counts *before)
+static bool count_chunk(struct stream *stream, struct chunk_scratch *scratch, size_t index,
+                        const struct obj_chunk *chunk, struct obj_counts *before)
 {
-    while (__atomic_load_n(&stream->next_piece, __ATOMIC_ACQUIRE) != index) {
+    while (__atomic_load_n(&stream->next_chunk, __ATOMIC_ACQUIRE) != index) {
         if (!stream_continues(stream))
             return false;
         sched_yield();
     }
-    const struct obj_counts *counts = &piece->counts;
+    const struct obj_counts *counts = &chunk->counts;
     struct obj_counts *total = &stream->total;
     *before = *total;
     int layout = 1 + scratch->texcoords + 2 * scratch->normals;
@@ -220,14 +220,14 @@ static bool count_piece(struct stream *stream, struct piece_scratch *scratch, si
         return false;
     stream->charged += bytes;
     for (int i = 0; i < 3; i++) {
-        stream->low[i] = piece->low[i] < stream->low[i] ? piece->low[i] : stream->low[i];
-        stream->high[i] = piece->high[i] > stream->high[i] ? piece->high[i] : stream->high[i];
+        stream->low[i] = chunk->low[i] < stream->low[i] ? chunk->low[i] : stream->low[i];
+        stream->high[i] = chunk->high[i] > stream->high[i] ? chunk->high[i] : stream->high[i];
     }
-    __atomic_store_n(&stream->next_piece, index + 1, __ATOMIC_RELEASE);
+    __atomic_store_n(&stream->next_chunk, index + 1, __ATOMIC_RELEASE);
     return true;
 }
 
-static void copy_corners(const struct stream *stream, struct piece_scratch *scratch, enum array kind, uint64_t first,
+static void copy_corners(const struct stream *stream, struct chunk_scratch *scratch, enum array kind, uint64_t first,
                          uint64_t triangles)
 {
     const uint32_t *from = scratch->arrays[kind];
@@ -240,7 +240,7 @@ static void copy_corners(const struct stream *stream, struct piece_scratch *scra
     scratch->index_max[kind - CORNERS] = index_max;
 }
 
-static void copy_piece(const struct stream *stream, struct piece_scratch *scratch, const struct obj_counts *counts,
+static void copy_chunk(const struct stream *stream, struct chunk_scratch *scratch, const struct obj_counts *counts,
                        const struct obj_counts *before)
 {
     for (enum array kind = POSITIONS; kind <= NORMALS; kind++)
@@ -257,17 +257,17 @@ static void copy_piece(const struct stream *stream, struct piece_scratch *scratc
         to[i] = (struct mesh_polygon){(uint32_t)before->triangles + from[i].first_triangle, from[i].count};
 }
 
-static void load_piece(void *user, size_t index, int thread)
+static void load_chunk(void *user, size_t index, int thread)
 {
     struct stream *stream = user;
-    struct piece_scratch *scratch = &stream->scratch[thread];
-    struct obj_chunk piece;
+    struct chunk_scratch *scratch = &stream->scratch[thread];
+    struct obj_chunk chunk;
     struct obj_counts before;
     if (!stream_continues(stream))
         return;
-    if (read_text(stream, scratch, index, &piece) && parse(scratch, &piece) &&
-        count_piece(stream, scratch, index, &piece, &before))
-        copy_piece(stream, scratch, &piece.counts, &before);
+    if (read_text(stream, scratch, index, &chunk) && parse(scratch, &chunk) &&
+        count_chunk(stream, scratch, index, &chunk, &before))
+        copy_chunk(stream, scratch, &chunk.counts, &before);
     else
         __atomic_store_n(&stream->unsupported, 1, __ATOMIC_RELAXED);
 }
@@ -286,7 +286,7 @@ static bool alloc_scratch(struct stream *stream)
     if (!stream->scratch || !memory)
         return false;
     for (size_t t = 0; t < threads; t++) {
-        struct piece_scratch *scratch = &stream->scratch[t];
+        struct chunk_scratch *scratch = &stream->scratch[t];
         scratch->text = memory;
         memory += text;
         for (enum array kind = 0; kind < ARRAYS; kind++) {
@@ -407,7 +407,7 @@ static bool load(struct stream *stream)
         stream->low[i] = __FLT_MAX__;
         stream->high[i] = -__FLT_MAX__;
     }
-    pool_run(obj->source->pool, (stream->file->size + PIECE - 1) / PIECE, load_piece, stream);
+    pool_run(obj->source->pool, (stream->file->size + PIECE - 1) / PIECE, load_chunk, stream);
     if (!stream_continues(stream) || !indices_valid(stream) || !fits_floats(stream) || !pass_arrays(stream))
         return false;
     struct obj_chunk whole = {

@@ -28,11 +28,11 @@ static uint64_t test(const float *points, uint32_t count, const struct position_
     for (uint32_t i = 0; i < WORD; i += LANES) {
         inum hash = inum_load((const int32_t *)hashes + i);
 #if LANES == 1
-        inum place = (int32_t)((uint32_t)hash >> filter->shift);
+        inum slot = (int32_t)((uint32_t)hash >> filter->shift);
 #else
-        inum place = (inum)((unsigned_lanes)hash >> filter->shift);
+        inum slot = (inum)((unsigned_lanes)hash >> filter->shift);
 #endif
-        inum word = igather((const int32_t *)filter->words, place);
+        inum word = igather((const int32_t *)filter->words, slot);
         inum bit = word >> (hash & 31) & word >> (hash >> 5 & 31);
         has |= (uint64_t)mask_bits((bit & 1) == 1) << i;
     }

@@ -2,7 +2,7 @@
 
 uniform sampler2D shadow_tree; // nodes of the hierarchy, its triangles, and the place of each triangle by its number
 uniform mat4 shadow_matrix;    // eye space to the hierarchy's, where all triangles lie within -1...1
-uniform vec4 shadow_places;    // first texel of the triangles, and of the places; 1: the terminator is cured; rays to a light with a radius
+uniform vec4 shadow_offsets;    // first texel of the triangles, and of the places; 1: the terminator is cured; rays to a light with a radius
 uniform vec4 shadow_rounding;  // hierarchy.rounding: how far a corner may have been moved, along each axis; world units to the hierarchy's
 
 int lit_triangle = 0; // number in the frame of the triangle that the fragment shows, or that has the vertex
@@ -16,7 +16,7 @@ vec4 tree_texel(int i) { return texelFetch(shadow_tree, ivec2(i % 1024, i / 1024
 // The first texel of a triangle, by its number in the frame.
 int triangle_texel(int number)
 {
-    return int(shadow_places.x) + 6 * int(tree_texel(int(shadow_places.y) + number / 4)[number % 4]);
+    return int(shadow_offsets.x) + 6 * int(tree_texel(int(shadow_offsets.y) + number / 4)[number % 4]);
 }
 
 vec3 moved_by(vec3 p, vec3 corner, vec3 n, float weight)
@@ -62,7 +62,7 @@ void start_rays(vec3 p, int number, float side)
         b2 = b2 / total;
         ray_origin = a.xyz + (e1 * b1 + e2 * b2);
         ray_point = ray_origin;
-        if (b.w > 0.5 && shadow_places.z > 0.5) {
+        if (b.w > 0.5 && shadow_offsets.z > 0.5) {
             vec3 moved = moved_by(ray_origin, a.xyz, side * tree_texel(at + 3).xyz, 1.0 - b1 - b2)
                        + moved_by(ray_origin, b.xyz, side * tree_texel(at + 4).xyz, b1)
                        + moved_by(ray_origin, c.xyz, side * tree_texel(at + 5).xyz, b2);
@@ -252,7 +252,7 @@ LIGHT_SHARE passed_ray(vec3 d, float end)
     vec3 inverse = 1.0 / vec3(size.x < 1.0e-30 ? least.x : d.x, size.y < 1.0e-30 ? least.y : d.y,
                               size.z < 1.0e-30 ? least.z : d.z);
     float reach = 1.0e-6 * (1.0 + max(max(abs(ray_origin.x), abs(ray_origin.y)), abs(ray_origin.z)));
-    int first = int(shadow_places.x);
+    int first = int(shadow_offsets.x);
     while (true) {
         vec4 low = tree_texel(at);
         vec4 high = tree_texel(at + 1);
@@ -347,7 +347,7 @@ LIGHT_SHARE shadowed_light(vec4 place, light_source light, light_sample t, float
         return passed_ray(d, end);
     }
     vec3 across = directional ? place.xyz * place.w : least_axis(d) * (place.w * shadow_rounding.w);
-    int count = int(shadow_places.w);
+    int count = int(shadow_offsets.w);
     return passed_disc(d, across, end, count);
 }
 

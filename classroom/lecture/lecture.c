@@ -141,7 +141,7 @@ static void add_material(struct known_table *t, const struct glsl_facts *f)
                *tint ? ", " : "", tint);
 }
 
-void lecture_add(struct text *text, const struct glsl_facts *f)
+static void add_stage(struct text *text, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;
     struct known_table t = {.count = 0};
@@ -157,3 +157,5 @@ void lecture_add(struct text *text, const struct glsl_facts *f)
                f->has_cone && f->has_falloff ? " * " : "", f->has_falloff ? "attenuation" : "");
     known_specialize(text, text_lecture_glsl, &t);
 }
+
+const struct glsl_style lecture_style = {.check = lecture_check, .add_stage = add_stage, .change = mistake_apply};

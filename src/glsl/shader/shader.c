@@ -1,7 +1,4 @@
 // shader.c: implements lam_shader_make: generates a scene's shaders and the value of every uniform.
-//
-// The file is longer than 600 lines because it contains one function for each list of a shader's inputs, and one case
-// for each uniform.
 #include <lambent/shader.h>
 
 #include "arena.h"
@@ -101,13 +98,14 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, bool har
     bool mapped = false;
     for (int i = 0; i < frame->range_count; i++)
         mapped |= is_selected(frame, &frame->ranges[i], object) &&
-                  (glsl_reads_maps(frame, frame->materials[frame->ranges[i].front]) ||
-                   glsl_reads_maps(frame, frame->materials[frame->ranges[i].back]));
+                  (frame_maps(frame, frame->materials[frame->ranges[i].front]) ||
+                   frame_maps(frame, frame->materials[frame->ranges[i].back]));
     for (int i = 0; i < frame->range_count; i++) {
         const struct frame_draw_range *range = &frame->ranges[i];
         if (!is_selected(frame, range, object))
             continue;
-        struct glsl_choices own = glsl_choose(frame, range, stage);
+        struct glsl_choices own;
+        glsl_choose(&own, frame, range, stage);
         if (hardware_filter)
             glsl_use_hardware_filter(&own);
         for (int side = 0; side < 2 && mapped && !range->translucent; side++)
@@ -165,9 +163,9 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
         return false;
     struct glsl_choices *c = &m->choices;
     c->version = versions[params->glsl];
-    c->lecture = params->style == LAM_SHADER_STYLE_LECTURE;
+    c->style = params->style == LAM_SHADER_STYLE_LECTURE ? &lecture_style : NULL;
     c->mistake = mistake_find(params->mistake);
-    bool array = c->version == GLSL_120 || c->lecture;
+    bool array = c->version == GLSL_120 || c->style;
     c->storage = !params->lights && array ? GLSL_ARRAY : storages[params->lights];
     c->encoding = m->frame.settings.color == LAM_COLOR_RAW ? GLSL_STRAIGHT : GLSL_ENCODED;
     c->exposes = m->frame.exposure != 1;
@@ -189,142 +187,26 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
 
 // --- values
 
-static int put(float *out, const float *from, int count)
-{
-    memcpy(out, from, (size_t)count * sizeof *out);
-    return count;
-}
-
-// Writes a matrix, given by rows, in OpenGL's order, by columns.
-static int put_matrix(float *out, const float *rows, int stride, int size)
-{
-    for (int column = 0; column < size; column++)
-        for (int row = 0; row < size; row++)
-            out[size * column + row] = rows[stride * row + column];
-    return size * size;
-}
-
-// Writes the matrix from mesh positions to clip space; the frame's rows are in pixels, y down.
+// Writes the matrix from mesh positions to clip space, by columns; the frame's rows are in pixels, y down.
 static int put_projection(float out[16], const struct frame_draw *draw, int width, int height)
 {
-    float rows[16];
     for (int j = 0; j < 4; j++) {
         double w = (double)draw->pixel[3][j];
-        rows[j] = (float)(2 * (double)draw->pixel[0][j] / width - w);
-        rows[4 + j] = (float)(w - 2 * (double)draw->pixel[1][j] / height);
-        rows[8 + j] = draw->pixel[2][j];
-        rows[12 + j] = draw->pixel[3][j];
+        out[4 * j] = (float)(2 * (double)draw->pixel[0][j] / width - w);
+        out[4 * j + 1] = (float)(w - 2 * (double)draw->pixel[1][j] / height);
+        out[4 * j + 2] = draw->pixel[2][j];
+        out[4 * j + 3] = draw->pixel[3][j];
     }
-    return put_matrix(out, rows, 4, 4);
+    return 16;
 }
 
-static int put_member(float *out, const float *values, const struct glsl_row *member)
-{
-    return put(out, values + member->at, strcmp(member->type, "float") == 0 ? 1 : 4);
-}
-
-static int put_hemisphere(float *out, const struct frame_hemisphere *h, const struct glsl_row *member)
-{
-    const float values[12] = {h->up[0],     h->up[1],     h->up[2],     0, h->sky[0], h->sky[1], h->sky[2], 1,
-                              h->ground[0], h->ground[1], h->ground[2], 1};
-    return put_member(out, values, member);
-}
-
-static int put_product(float *out, const float *a, const float *b)
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = a[i] * b[i];
-    out[3] = 1;
-    return 4;
-}
-
-// Writes the value of a uniform's element `index`, or of a member of that element. `range` is NULL for uniforms of the
-// frame. Returns the number of floats.
 static int value_of(const struct build *m, const struct frame_draw_range *range, const struct glsl_row *row,
                     const struct glsl_row *member, int index, float out[16])
 {
-    const struct frame *frame = &m->frame;
-    static const struct frame_draw no_draw = {0}; // for uniforms of the frame, which use no draw
-    const struct frame_draw *draw = range ? &frame->draws[range->draw] : &no_draw;
-    int number = range ? (row->back ? range->back : range->front) : 0;
-    const lam_material *material = frame->materials[number];
-    bool of_light = row->semantic == GLSL_LIGHTS || row->semantic == GLSL_DIFFUSE_PRODUCT ||
-                    row->semantic == GLSL_SPECULAR_PRODUCT || row->semantic == GLSL_LIGHT_AMBIENT_PRODUCT;
-    struct glsl_light light = {0};
-    if (of_light)
-        light = glsl_light_of(&frame->lights[m->order[index]]);
-    float kd[3], ks[3];
-    glsl_material_colors(frame, material, kd, ks);
-    switch (row->semantic) {
-    case GLSL_MODEL_VIEW_PROJECTION:
-        return put_projection(out, draw, m->width, m->height);
-    case GLSL_MODEL_VIEW: {
-        float rows[16] = {[15] = 1};
-        memcpy(rows, draw->eye, sizeof draw->eye);
-        return put_matrix(out, rows, 4, 4);
-    }
-    case GLSL_NORMAL_MATRIX:
-        return put_matrix(out, &draw->normal[0][0], 3, 3);
-    case GLSL_ENVIRONMENT_MATRIX:
-        return put_matrix(out, &frame->to_environment[0][0], 3, 3);
-    case GLSL_AMBIENT_LIGHT:
-        put(out, frame->ambient, 3);
-        out[3] = 1;
-        return 4;
-    case GLSL_LIGHTS:
-        return put_member(out, light.position, member);
-    case GLSL_HEMISPHERES:
-        return put_hemisphere(out, &frame->hemispheres[index], member);
-    case GLSL_MATERIAL:
-    case GLSL_HEAD: {
-        float values[GLSL_MATERIAL_MAX];
-        glsl_material_values(frame, material, m->choices.products, m->choices.field_layers, values);
-        return put_member(out, values, row->semantic == GLSL_MATERIAL ? member : row);
-    }
-    case GLSL_DIFFUSE_PRODUCT:
-        return put_product(out, kd, light.diffuse);
-    case GLSL_SPECULAR_PRODUCT:
-        return put_product(out, ks, light.specular);
-    case GLSL_LIGHT_AMBIENT_PRODUCT:
-        return put_product(out, &material->ambient.r, light.ambient);
-    case GLSL_SKY_PRODUCT:
-        return put_product(out, &material->ambient.r, frame->hemispheres[index].sky);
-    case GLSL_GROUND_PRODUCT:
-        return put_product(out, &material->ambient.r, frame->hemispheres[index].ground);
-    case GLSL_FIRST_PRODUCT:
-        // NOLINTNEXTLINE(bugprone-integer-division): whole texels of 16 bytes
-        out[0] = (float)((size_t)number * glsl_products_bytes(&m->choices) / 16);
-        return 1;
-    case GLSL_OBJECT:
-        out[0] = (float)draw->object;
-        return 1;
-    case GLSL_PASSED:
-        out[0] = 1;
-        return 1;
-    case GLSL_EXPOSURE:
-        out[0] = frame->exposure;
-        return 1;
-    case GLSL_MAP_S:
-    case GLSL_MAP_T: {
-        float rows[2][4];
-        glsl_map_values(material->maps[row->map], draw->mesh, rows[0], rows[1]);
-        return put(out, rows[row->semantic == GLSL_MAP_T], 4);
-    }
-    case GLSL_ALPHA_CUTOFF:
-        out[0] = glsl_alpha_cutoff(&m->frame, material);
-        return 1;
-    case GLSL_MAPPED_EMISSION:
-        glsl_mapped_emission(&m->frame, range, row->back, out);
-        return 4;
-    case GLSL_MAP:
-    case GLSL_ENVIRONMENT:
-    case GLSL_ENVIRONMENT_LIGHT:
-    case GLSL_OCCLUSION:
-    case GLSL_LIGHT_LIST:
-    case GLSL_PRODUCT_LIST:
-        break;
-    }
-    return 0;
+    const struct glsl_uniform_source from = {&m->frame, range, m->order};
+    if (row->semantic == GLSL_MODEL_VIEW_PROJECTION)
+        return put_projection(out, &m->frame.draws[range->draw], m->width, m->height);
+    return glsl_uniform_value(&m->choices, &from, row, member, index, out);
 }
 
 // --- the public arrays
@@ -491,12 +373,9 @@ static bool order_lights(struct build *m)
 {
     const struct frame *frame = &m->frame;
     m->order = arena_array(&m->shader->arena, (size_t)frame->light_count + 1, sizeof *m->order);
-    int at = 0;
-    for (int g = 0; m->order && g < m->choices.group_count; g++)
-        for (int i = 0; i < frame->light_count; i++)
-            if (frame->lights[i].kind == m->choices.groups[g].kind &&
-                frame->lights[i].falloff == m->choices.groups[g].falloff)
-                m->order[at++] = i;
+    struct glsl_light_cursor cursor = {0, 0};
+    for (int i = 0; m->order && i < m->choices.light_count; i++)
+        m->order[i] = glsl_next_light(&m->choices, frame, &cursor);
     return m->order != NULL;
 }
 
@@ -530,7 +409,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     if (!order_lights(m))
         return fail(error, LAM_LIMIT, "out of memory");
     struct glsl_choices shaders = m->choices;
-    if (m->choices.lecture && m->facts.application) {
+    if (m->choices.style && m->facts.application) {
         if (!make_application(m, object, error))
             return false;
         shaders.mistake = 0; // the mistake is in the C function, which computes the light

@@ -160,7 +160,7 @@ static void add_draws(struct text *text, const struct frame *frame, const struct
         const struct frame_draw *draw = &frame->draws[ranges[i]->draw];
         const lam_material *material = frame->materials[ranges[i]->front];
         float kd[3], ks[3], shininess = frame_shininess(frame, material);
-        glsl_material_colors(frame, material, kd, ks);
+        frame_material_colors(frame, material, kd, ks);
         add_matrix(text, "    {.model_view =", &draw->eye[0][0], 4);
         add_matrix(text, "     .normal_matrix =", &draw->normal[0][0], 3);
         add_member(text, "     .ka = ", &material->ambient.r, 3);

@@ -6,11 +6,11 @@
 
 #include "glsl_known.h"
 
+// The style, for glsl_choices.style.
+extern const struct glsl_style lecture_style;
+
 // Returns whether the style supports these choices. Otherwise fails with LAM_UNSUPPORTED and the unsupported option.
 bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
-
-// Appends a stage after its version and its uniforms.
-void lecture_add(struct text *text, const struct glsl_facts *stage);
 
 // Makes the C source of the application stage: a function `light_vertex` that computes the colours of a vertex of one
 // of the draws `ranges`. order[i] is the index in the frame of the shader's light i; it contains the mistake

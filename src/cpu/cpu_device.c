@@ -288,7 +288,7 @@ lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
     if (!check_reserved("lam_cpu_params", params, error))
         return NULL;
     if (params->threads < 0 || params->threads > 1024) {
-        fail(error, LAM_BAD_ARGUMENT, "cpu: threads is %d, expected 1 to 1024, or 0 for one each processor",
+        fail(error, LAM_BAD_ARGUMENT, "cpu: threads is %d, expected 1 to 1024, or 0 for one per processor",
              params->threads);
         return NULL;
     }

@@ -102,7 +102,7 @@ static void resolve_into(const struct resolve_target *target, const struct cpu_f
             recording_kernels.record_pixel(cpu, thread, tile);
         return;
     }
-    if (output == LAM_OUTPUT_CLIPPED) { // resolved to floats first
+    if (output == LAM_OUTPUT_CLIPPED) { // the tile is resolved to floats first
         lam_image image = {
             .width = tile->width, .height = tile->height, .format = LAM_RGBA32F, .pixels = thread->sums.unclipped};
         struct resolve_target tile_target = {.frame = target->frame, .image = &image};
@@ -178,7 +178,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
         if (thread->samples.translucent_triangles) {
             thread->coverage_ns += now_ns() - start;
             blend_tile(cpu, thread, &tile);
-            if (output_is_value(cpu->raster.frame->settings.output)) // now in the visibility buffer
+            if (output_is_value(cpu->raster.frame->settings.output)) // the surfaces are now in the visibility buffer
                 thread->samples.translucent_triangles = 0;
             start = now_ns();
         }

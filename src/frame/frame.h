@@ -36,9 +36,9 @@ struct frame_draw {
     bool ground;
     bool clear; // light passes all triangles unchanged, such as colourless glass: rays omit them
     lam_cull cull;
-    // > 0: the mesh has no normals; the device computes the visible ones with this crease angle.
+    // If above 0, the mesh has no normals, and the device computes the visible ones with this crease angle.
     double crease_rad;
-    // As crease_rad, with a crease at every edge: each point uses its facet's normal, and nothing else reads it.
+    // Like crease_rad, but with a crease at every edge: each point uses its facet's normal, which nothing else reads.
     bool facets;
 };
 
@@ -67,7 +67,7 @@ struct frame_light {
     float occluded; // share of the light that ambient occlusion dims
     int light;      // the index in the scene; −1 for a light of the rig
     const lam_light *source;
-    // With shadows only.
+    // These members are set only with shadows.
     bool casts_shadows;
     double world_position[3]; // point, spot
     double world_axis[3];     // unit, direction of travel of the light
@@ -123,16 +123,16 @@ struct frame {
     float exposure;            // 2^stops, from the parameters and `brightened`
     double brightened;         // stops (lam_brighten)
     int point_triangles;       // triangles per point (frame_strokes.h)
-    double eye_to_world[3][4]; // only set with rays
+    double eye_to_world[3][4]; // set only if rays are traced
     bool draws_edges;          // `edges` is set
     struct frame_edges edges;
     bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer is LAM_VIEWER_INFINITE
     bool orthographic;
     float pixel_size;       // size of a pixel in eye units, at distance 1 or, if orthographic, everywhere
-    float occlusion_radius; // eye units; 0 if there is none at this radius
-    float cavity_radius;    // eye units; 0 if there is no cavity
+    float occlusion_radius; // radius of ambient occlusion in eye units; 0 disables it
+    float cavity_radius;    // radius of cavity shading in eye units; 0 disables it
     bool ridges;            // cavity shading lightens ridges
-    bool widens_highlights; // of physical materials (lam_specular_aa)
+    bool widens_highlights; // whether highlights of physical materials are widened (lam_specular_aa)
     bool translucent;       // whether any range is translucent
     bool passes_rays;       // whether any range has passes_rays
     bool masked;            // whether any range has a material of LAM_ALPHA_MASK
@@ -163,7 +163,7 @@ struct frame {
     // kind of model and its back by the other, and once more if unlit lines or points have emission. Each copy has the
     // kind that its model lights.
     const lam_material **materials;
-    int material_count, scene_material_count; // all materials; without those for backs
+    int material_count, scene_material_count; // number of all materials, and without the materials of backs
     lam_material *converted;                  // materials converted to the other kind
     int converted_count;
     lam_mesh *stroke_meshes; // one per draw of lines or points

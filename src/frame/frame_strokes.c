@@ -291,7 +291,8 @@ static void build_line(const struct builder *b, size_t item)
 {
     lam_vec3 p[2] = {eye_position(b, 2 * item), eye_position(b, 2 * item + 1)};
     struct segment_point ends[2] = {{2 * item, 2 * item + 1, 0}, {2 * item, 2 * item + 1, 1}};
-    double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z}; // > 0: in front of the near plane
+    double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z}; // above 0 if the end is in front of the near
+                                                                         // plane
     if (!(before[0] <= 0) && !(before[1] <= 0)) {
         store_nothing(b, item, ends[0]);
         return;
@@ -364,8 +365,8 @@ static lam_mesh mesh_of(const struct builder *b)
     size_t items = mesh_items(from);
     size_t triangles = b->corners - 2;
     uint32_t vertices = (uint32_t)(b->corners * items), *to = b->to.indices;
-    // A fan around the last corner. Both triangles of a line end at its second end, whose attributes flat shading uses,
-    // as OpenGL does for lines.
+    // The triangles form a fan around the last corner. Both triangles of a line end at its second end, whose attributes
+    // flat shading uses, as OpenGL does for lines.
     for (size_t i = 0; i < items; i++)
         for (size_t k = 0; k < triangles; k++) {
             uint32_t first = (uint32_t)(b->corners * i);

@@ -195,7 +195,8 @@ static bool set_up(struct gl_frame *f, lam_error *error)
     any.shadows = frame->settings.shadows;
     if (reads_light_buffers(&any) && !light_buffers_send(f, &any, error))
         return false;
-    for (int i = 0; i < frame->range_count; i++) { // before set_up_draw stores pointers into device->programs
+    for (int i = 0; i < frame->range_count; i++) { // all programs are made before set_up_draw stores pointers into
+                                                   // device->programs
         struct glsl_choices c;
         choices_of(f, &frame->ranges[i], &c);
         if (!program_for(f, &c, error) || !(call_should_continue(f->call) || call_error(f->call, error)))

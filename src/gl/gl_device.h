@@ -358,7 +358,7 @@ void textures_evict(struct gl_frame *f);
 void textures_free(struct gl_device *device);
 
 // --- gl_vertex_lighting.c
-// Returns the vertex array of a draw, with vertex colours from the CPU's shading. 0 on failure.
+// Returns the vertex array of a draw, with vertex colours from the CPU's shading. Returns 0 on failure.
 GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error);
 void vertex_lighting_free(struct gl_device *device);
 
@@ -376,7 +376,7 @@ bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct scree
 bool occlusion_send(struct gl_frame *f, lam_error *error);
 
 // --- gl_programs.c
-// Returns the program of the choices, compiled on first use. NULL on failure.
+// Returns the program of the choices, compiled on first use. Returns NULL on failure.
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
 // Set a uniform of a program unless it has this value already: an int, or 16, 9, 4 or one float.
 void program_set_int(struct gl_frame *f, struct gl_program *program, int uniform, GLint value);
@@ -393,8 +393,8 @@ bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
 // --- gl_surfaces.c Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
-// has `most` texels. Sets *same to whether the texels are those that were packed last, with the same hierarchy.
-// Fails with LAM_LIMIT.
+// has `most` texels. Sets *same to whether the texels and the hierarchy are the same as in the last packing. Fails with
+// LAM_LIMIT.
 bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
 // Writes the counted texels into zeroed memory.
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);
@@ -403,8 +403,8 @@ void surfaces_free(struct gl_device *device);
 // Returns the position of a triangle's record, by its number in the frame; 0 if it transmits no light.
 size_t surfaces_record(const struct gl_frame *f, uint32_t number);
 
-// --- gl_shadows.c Uploads the hierarchy of a frame with shadows, and the surfaces that transmit light. LAM_LIMIT: the
-// texture would be too large.
+// --- gl_shadows.c Uploads the hierarchy of a frame with shadows, and the surfaces that transmit light. Fails with
+// LAM_LIMIT if the texture would be too large.
 bool shadows_send(struct gl_frame *f, lam_error *error);
 // Sets the uniforms and textures for a program with shadows.
 void shadows_use(struct gl_frame *f, struct gl_program *program);

@@ -80,7 +80,8 @@ void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum ve
 {
     for (uint32_t i = 0; i < count; i++, out++) {
         uint32_t corner = first + i, triangle = corner / 3;
-        uint32_t attribute = form >= FORM_FLAT_FACE ? 3 * triangle + 2 : corner; // flat: of the last corner
+        uint32_t attribute = form >= FORM_FLAT_FACE ? 3 * triangle + 2 : corner; // flat shading uses the attributes of
+                                                                                 // the last corner
         bool shared = form == FORM_SHARED;
         uint32_t p = shared ? corner : element(NULL, mesh->indices, corner);
         copy(out->position, mesh->positions, 3, p);

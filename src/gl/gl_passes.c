@@ -174,8 +174,8 @@ static void copy_target(struct gl_frame *f, const struct gl_target *from, const 
     copy_texture(f, from->color, to, how, factor);
 }
 
-// Adds a target's colours times the tint to the sum; `last`: adds the opaque surfaces behind all layers, with the
-// alpha.
+// Adds a target's colours times the tint to the sum. With `last`, it adds the opaque surfaces behind all layers, and
+// the alpha.
 static void add_tinted(struct gl_frame *f, const struct gl_target *from, bool last)
 {
     const struct gl *gl = f->gl;

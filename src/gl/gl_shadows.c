@@ -47,7 +47,8 @@ static int depth_of(const struct hierarchy *h)
 
 static void pack_node(float *out, const struct ray_node *node)
 {
-    int count = children_of(node) ? children_of(node) : 1; // if nothing casts shadows, a box that no ray meets
+    int count = children_of(node) ? children_of(node) : 1; // if nothing casts shadows, the node is a box that no ray
+                                                           // meets
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {
             out[8 * i + k] = node->planes[0][k][i];

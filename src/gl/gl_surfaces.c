@@ -12,7 +12,7 @@
 
 enum {
     RECORD = 4,  // texels of a triangle: its sides, and the texture coordinates of its corners
-    COLORED = 7, // with the colours of its corners
+    COLORED = 7, // the same with the colours of its corners
     SIDE = 4,    // of a material
     MAP = 4,     // of a map
     MAPS = 4,    // maps that affect the transmitted light of a side
@@ -29,7 +29,7 @@ struct packed_pixels {
 // Everything is packed twice. The first pass only computes the size and the key. Pictures and meshes are identified by
 // their addresses, because a scene never changes arrays and keeps them as long as it exists.
 struct packer {
-    float *out; // NULL means only size and key are computed
+    float *out; // if it is NULL, only size and key are computed
     size_t first, used;
     uint64_t key;
     struct packed_pixels *pixels;

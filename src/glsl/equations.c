@@ -9,7 +9,7 @@
 
 // A definition (function, struct, table or #define) with its comment.
 struct definition {
-    char *lead, *start, *end; // comment and definition; lead == start: no comment
+    char *lead, *start, *end; // comment and definition; without a comment, lead == start
     const char *name;
     size_t name_length;
     int file;

@@ -153,7 +153,7 @@ struct glsl_light {
     // In eye space; w 1. In shaders with shadows w is the radius, negative if the light casts no shadows, and the
     // position of a directional light is the world axis of which its direction has the smallest component.
     float position[4];
-    // eye space, unit, direction of travel; w 0, or with `occlusion` the share that occlusion dims
+    // the unit direction of travel in eye space; w is 0, or with `occlusion` the share that occlusion dims
     float direction[4];
     float attenuation[4]; // constant, linear, quadratic, 1 / range (0 if there is none)
     float cone[4];        // cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner − cos outer)

@@ -111,7 +111,7 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
                 dnum depth = triangle->p[c][k] - of_k;
                 x[c] = (triangle->p[c][i] - of_i) + to_x * depth;
                 y[c] = (triangle->p[c][j] - of_j) + to_y * depth;
-                z[c] = depth; // scaled below, for the few rays that get this far
+                z[c] = depth; // scaled below, only for the few rays that need it
             }
         }
         w[0] = x[1] * y[2] - y[1] * x[2];
@@ -302,7 +302,7 @@ LANE_FN unsigned meets_child(const struct box_rays *b, const struct ray_bundle *
 
 // --- traversal
 
-// Decides which rays a triangle blocks. Returns the `lanes` that end there.
+// Decides which rays a triangle blocks. Returns the `lanes` whose rays are blocked.
 typedef unsigned ray_filter(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                             const struct ray_view *view, unsigned lanes);
 

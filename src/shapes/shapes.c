@@ -54,7 +54,7 @@ static void sphere_point(void *user, double u, double v, lam_surface_point *out)
     struct circle_point latitude = circle(2 * v - n->stacks, 4 * n->stacks);
     double c = latitude.c, s = latitude.s;
     out->p = v3_add(v3_scale(outward, c), up(s));
-    out->dp_du = v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles: the limit's direction
+    out->dp_du = v3_scale(sideways, (c > 0 ? c : 1) * (2 * PI / n->slices)); // at the poles, the limit of the direction
     out->dp_dv = v3_scale(v3_add(v3_scale(outward, -s), up(c)), PI / n->stacks);
 }
 
@@ -88,7 +88,7 @@ static void cone_side(void *user, double u, double v, lam_surface_point *out)
     lam_vec3 sideways, outward = around(n, u, &sideways);
     double radius = (n->stacks - v) / n->stacks;
     out->p = v3_add(v3_scale(outward, radius), up((2 * v - n->stacks) / n->stacks));
-    out->dp_du = v3_scale(sideways, 2 * PI / n->slices); // the limit's direction at the apex
+    out->dp_du = v3_scale(sideways, 2 * PI / n->slices); // the limit of the direction at the apex
     out->dp_dv = v3_scale(v3_sub(up(2), outward), 1 / n->stacks);
 }
 
@@ -342,7 +342,8 @@ static bool build_implicit(const struct shape_request *request, double (*value)(
     if (request->slices > 1024)
         return fail(request->error, LAM_BAD_ARGUMENT,
                     "shape: slices is %d, expected at most 1024 for an implicit surface", request->slices);
-    // Slightly larger than the surface: it is not clipped, and its symmetric points do not fall on the lattice.
+    // The box is slightly larger than the surface, so that it is not clipped and its symmetric points do not fall on
+    // the lattice.
     const double side = 1.03;
     lam_implicit one = {.value = value,
                         .gradient = gradient,
@@ -370,7 +371,7 @@ static const struct shape {
 } shapes[] = {
     {"sphere", "a sphere: slices around it, stacks from pole to pole", sphere_build},
     {"torus", "a ring: radius 0.7 to the middle of a tube of radius 0.3", torus_build},
-    {"plane", "a level square of side 2, facing up", plane_build},
+    {"plane", "a horizontal square of side 2, facing up", plane_build},
     {"cube", "a cube of side 2", cube_build},
     {"cylinder", "an upright cylinder of radius 1 and height 2, closed by two discs", cylinder_build},
     {"cone", "an upright cone of radius 1 and height 2, closed by a disc", cone_build},

@@ -10,7 +10,8 @@
 // The most vertices of a tessellated mesh; more fail with LAM_LIMIT.
 enum { SHAPE_VERTICES_MAX = 1 << 28 };
 
-// Arguments of the function that builds a shape as a mesh of radius 1. Segments of 0: the shape's default.
+// Arguments of the function that builds a shape as a mesh of radius 1. If a number of segments is 0, the shape's
+// default is used.
 struct shape_request {
     int slices, stacks;
     struct arena *arena;

@@ -9,7 +9,7 @@
 // Poles: a row, or the first or last column, whose points coincide is one vertex. Degenerate triangles there are
 // skipped. Each remaining triangle has its own corner at the pole, with the texture coordinate, tangent and normal of
 // the centre of its cell. If these normals agree, the pole is smooth and all corners get their mean; otherwise it is a
-// tip, as of a cone, and each corner keeps its normal.
+// tip, like the tip of a cone, and each corner keeps its normal.
 //
 // A zero derivative does not determine the tangent plane. It is replaced by the derivative at a point a ten-thousandth
 // of the domain further inside, which approximates the one-sided limit.

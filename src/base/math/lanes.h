@@ -27,8 +27,8 @@
 #include <wasm_simd128.h>
 #endif
 
-// Always inlined, so that lanes stay in registers; except in code that computes one pixel (src/cpu/kernels.c), for
-// which size matters more.
+// These functions are always inlined, so that lanes stay in registers, except in code that computes one pixel
+// (src/cpu/kernels.c), for which size matters more.
 #ifdef RECORDING
 #define LANE_FN static inline __attribute__((unused))
 #else
@@ -42,7 +42,7 @@ typedef int32_t mask; // 0 or 1
 #else
 typedef float num __attribute__((vector_size(LANES * 4)));
 typedef int32_t inum __attribute__((vector_size(LANES * 4)));
-typedef inum mask; // each lane 0 or −1
+typedef inum mask; // each lane is 0 or −1
 typedef uint32_t unsigned_lanes __attribute__((vector_size(LANES * 4)));
 // The same types for memory that is aligned to 4 bytes or more. Loads and stores use them.
 typedef float num_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
@@ -105,8 +105,12 @@ LANE_FN mask either(mask a, mask b) { return a | b; }
 LANE_FN mask negate(mask a) { return !a; }
 LANE_FN int any_lane(mask m) { return m != 0; }
 LANE_FN int all_lanes(mask m) { return m != 0; }
-LANE_FN unsigned mask_bits(mask m) { return m != 0; } // bit i: lane i
-LANE_FN inum int_of(num x) { return (int32_t)x; }     // towards zero; |x| < 2³¹, never NaN: clamp first
+LANE_FN unsigned mask_bits(mask m) { return m != 0; } // bit i is lane i
+LANE_FN inum int_of(num x)
+{
+    return (int32_t)x;
+} // rounds towards zero; |x| must be below 2³¹ and not NaN, so
+  // clamp first
 LANE_FN num num_of_int(inum i) { return (float)i; }
 LANE_FN inum wrap_add(inum a, inum b) { return (int32_t)((uint32_t)a + (uint32_t)b); } // modulo 2³²
 LANE_FN inum wrap_sub(inum a, inum b) { return (int32_t)((uint32_t)a - (uint32_t)b); }
@@ -212,9 +216,9 @@ LANE_FN inum imin_of(inum a, inum b) { return ipick(a < b, a, b); }
 LANE_FN inum imax_of(inum a, inum b) { return ipick(a > b, a, b); }
 // Returns |x| by clearing the sign bit; NaN stays NaN.
 LANE_FN num absolute(num x) { return num_of_bits(bits_of(x) & 0x7fffffff); }
-// Returns max(x, 0); NaN gives 0.
+// Returns max(x, 0), and 0 for NaN.
 LANE_FN num positive(num x) { return max_of(x, num_of(0.0f)); }
-// Clamps x to 0…1; NaN gives 0.
+// Clamps x to 0…1; NaN becomes 0.
 LANE_FN num saturate(num x) { return min_of(positive(x), num_of(1.0f)); }
 
 // Stores x in the lanes of m; memory in the other lanes is unchanged.
@@ -328,7 +332,7 @@ LANE_FN unsigned negative_bits(inum x)
 LANE_FN inum bits_up_to_lane(unsigned bits)
 {
     inum x = inum_of((int32_t)bits) & ((inum_of(2) << lane_numbers()) - 1);
-    x = x - (x >> 1 & 0x5555); // in pairs of bits, then in fours, eights, sixteens
+    x = x - (x >> 1 & 0x5555); // sums bits in pairs, then in groups of four, eight and sixteen
     x = (x & 0x3333) + (x >> 2 & 0x3333);
     x = (x + (x >> 4)) & 0x0f0f;
     return (x + (x >> 8)) & 0x1f;
@@ -354,7 +358,7 @@ LANE_FN num lanes_at(num x, inum at)
 #endif
 }
 
-// Returns the minimum of all lanes, without NaN.
+// Returns the minimum of all lanes, none of which may be NaN.
 LANE_FN float min_lane(num x)
 {
 #if (LANES == 16 && defined(__AVX512DQ__)) || (LANES == 8 && defined(__AVX__))
@@ -483,7 +487,7 @@ LANE_FN void igather3(const void *from, const uint32_t *at, int stride, inum out
 #if (LANES == 16 && defined(__AVX512VL__) && defined(__AVX512DQ__)) || (LANES == 8 && defined(__AVX2__))
     enum { QUADS = LANES / 4 };
     __m128i three = _mm_set_epi32(0, -1, -1, -1);
-    inum row[4]; // row[j]: lanes j, 4 + j …, four numbers for each, the fourth 0
+    inum row[4]; // row[j] contains lanes j, 4 + j …, with four numbers for each, the fourth of which is 0
     for (int j = 0; j < 4; j++) {
         __m128i v[QUADS];
         for (int q = 0; q < QUADS; q++)

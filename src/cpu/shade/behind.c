@@ -46,8 +46,8 @@ static const float *texel_at(const struct behind *behind, int level, int x, int 
     return behind->texels[level] + 4 * (row + (size_t)clamped(x, behind->width[level]));
 }
 
-// Returns the texels of a level that texel `i` of `count` of the next level covers, and their covered shares: two, or
-// three if the size is odd, the outer ones partly.
+// Returns the texels of a level that texel `i` of `count` of the next level covers, and their covered shares. There are
+// two texels, or three if the size is odd, of which the outer ones are covered partly.
 static struct taps covered_taps(int i, int count, int size)
 {
     if (size == 1)

@@ -82,7 +82,7 @@ static void sort_by_rank(struct layer *layers, uint32_t count)
     }
 }
 
-// Returns a rank by depth key, then by triangle number: of equal keys the lower number is nearer, as for opaque
+// Returns a rank by depth key, then by triangle number: if keys are equal, the lower number is nearer, as for opaque
 // triangles.
 static uint64_t rank_of(float key, uint32_t id)
 {

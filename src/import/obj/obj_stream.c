@@ -138,7 +138,8 @@ static bool parse(struct chunk_scratch *scratch, struct obj_chunk *chunk)
             return false;
         if (!chunk->texcoord_unknown && !chunk->normal_unknown)
             break;
-        scratch->texcoords |= chunk->texcoord_unknown; // the thread's first faces use them: parse again
+        scratch->texcoords |= chunk->texcoord_unknown; // the thread's first faces use them, so the chunk is parsed
+                                                       // again
         scratch->normals |= chunk->normal_unknown;
     }
     return !chunk->colors && !chunk->short_faces && !chunk->nonfinite_numbers &&

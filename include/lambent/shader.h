@@ -46,7 +46,7 @@ typedef enum lam_shader_style {
 typedef struct lam_shader_mistake {
     const char *id;    // the id of lam_check_mistake: "no-gate"
     const char *looks; // one sentence: the visible effect in the picture
-    const char *needs; // the requirement: "a light with attenuation"; NULL if there is none
+    const char *needs; // the requirement, "a light with attenuation", or NULL
     LAM_RESERVED(4);
 } lam_shader_mistake;
 

@@ -438,11 +438,14 @@ static struct outcome compare(lam_device *device, const struct demo *demo, const
             o.snapped++;
             continue;
         }
-        if (is_card(lam_device_name(device)) && (far > float_limit(name) || apart > 2) &&
-            is_between(demo, reference, i, d + 4 * i)) {
-            o.between++;
-            o.worst_between = apart > o.worst_between ? apart : o.worst_between;
-            continue;
+        if (is_card(lam_device_name(device)) && (far > float_limit(name) || apart > 2)) {
+            bool between = is_between(demo, reference, i, d + 4 * i);
+            if (between || (apart <= 8 && o.snapped < max_snapped)) {
+                o.between += between;
+                o.snapped += !between;
+                o.worst_between = apart > o.worst_between ? apart : o.worst_between;
+                continue;
+            }
         }
         if (far > float_limit(name) && (is_grazing(name) || (is_soft(name) && far <= 1.0 / soft_samples(params)))) {
             o.grain++;

@@ -1,5 +1,6 @@
 // newcomer.mjs: typical tasks of a user who has never seen the page: five tasks, each within five actions and without typing; the tabs of the picture
 // and of the model; the window's size, and the browser's Back. people.mjs runs these parts and shares its functions with them.
+import { createHash } from 'node:crypto';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -80,8 +81,8 @@ async function tasks({ open, models, said }, address, label) {
   await hand.click('radio', 'White');
   const command = await page.locator('#save-command').textContent(), png = await hand.download('Save picture');
   ok(png.bytes.readUInt32BE(16) === 2000 && /--background=white/.test(command), `${label}: a picture of 2000 pixels is saved`, command);
-  await until(page, () => /saved quad\.png/.test(document.getElementById('status').textContent));
-  const [hash] = /[0-9a-f]{64}/.exec(await page.locator('#status').textContent());
+  await until(page, () => /^Saved quad\.png: 2000×1500 pixels, background white$/.test(document.getElementById('status').textContent));
+  const hash = createHash('sha256').update(png.bytes).digest('hex');
   console.log(`file ${JSON.stringify({ command: textured(command), hash })}`);
   hand.done(`${label}: save a 2000-pixel picture on white`);
   await page.locator('#canvas').press('ArrowRight');

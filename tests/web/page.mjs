@@ -2,11 +2,12 @@
 // Protocol without numbers.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync } from 'node:fs';
-import { around, cameraText, cut, cutShare, orbit, pan, project, readCamera, shifted, zoom } from '../../web/page/camera.js';
+import { around, cameraText, cut, cutShare, onBall, orbit, pan, project, readCamera, shifted, zoom } from '../../web/page/camera.js';
 import { dirname, join } from 'node:path';
 import { open } from '../../web/lambent.js';
 import { aroundEquations, lightEquations, sumEquation } from '../../web/page/equations.js';
 import { lightText, lightWords, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/lights.js';
+import { companions, ranked, setsSize, withNeighbours } from '../../web/page/ranked_models.js';
 import '../../web/page/shader_strings.js';
 import { pseudo, stringKeys, text } from '../../web/page/strings.js';
 import { FORMULAS, State, command, fromFragment, quoted, toFragment, withModel } from '../../web/page/state.js';
@@ -82,6 +83,23 @@ ok(newLight('point', [], 0).startsWith('+point:') && newLight('spot', ['point'],
 const seen = project(camera, [5 * Math.tan(Math.PI / 12), 0, 0], 2);
 ok(near([seen.x, seen.y], [0.75, 0.5]) && project(camera, [0, 0, 9], 1).behind, 'a point where the picture shows it');
 
+// A point on a ball, by its position in the picture: on both sides, beside the ball, and with a parallel projection.
+for (const [view, x, isFar] of [[camera, 0.55, false], [camera, 0.55, true], [camera, 0.95, false], [{ ...camera, ortho: 1.5 }, 0.6, false]]) {
+  const point = onBall(view, unitBall, x, 0.45, 1, isFar), at = project(view, point, 1), isBeside = x > 0.9;
+  ok(Math.abs(Math.hypot(...point) - 1) < 1e-9 && (isBeside || (near([at.x, at.y], [x, 0.45]) && point[2] > 0 !== isFar)), `a point on a ball at ${x}${isFar ? ', on the far side' : ''}`);
+}
+
+// Opened files: the model that is shown first, and the files that belong to a model.
+const bytesOf = (text) => new TextEncoder().encode(text), tree = (files) => new Map(Object.entries(files).map(([path, text]) => [path, bytesOf(text)]));
+const folder = tree({ '/s/a_control.obj': 'v 0 0 0\n', '/s/b_plain.obj': 'v 0 0 0\n'.repeat(9), '/s/c_away.obj': `mtllib none.mtl\n${'v 0 0 0\n'.repeat(50)}`, '/s/s.mtl': 'newmtl a\nmap_Kd -s 1 1 1 s.png\n', '/s/s.png': '',
+  '/s/textured.obj': 'mtllib s.mtl\nv 0 0 0\n', '/s/package.json': '{}' });
+const order = ranked([...folder.keys()].filter((path) => /obj|json/.test(path)), folder);
+ok(same(order, ['/s/textured.obj', '/s/b_plain.obj', '/s/a_control.obj', '/s/c_away.obj', '/s/package.json']), `the textured model comes first, and then the largest: ${order.join(' ')}`);
+const given = tree({ '/f/b/T.png': '1', '/f/a/t.png': '2', '/f/a/u/v.png': '3' }), found = companions(['/x/a/t.png', '/x/none.png'], given);
+ok(same([...found], [['/x/a/t.png', '/f/a/t.png']]), 'a missing file is found by its name and its folders');
+ok(same([...withNeighbours(found, given).keys()], ['/x/a/t.png', '/x/a/u/v.png']), 'with the files beside it');
+ok(setsSize('/a.json', tree({ '/a.json': '{"image":{"size":[2,2]}}' })) && !setsSize('/a.json', tree({ '/a.json': '{' })) && !setsSize('/a.obj', folder), 'a scene file with a size');
+
 // Equations: the computed right side equals the program's number. For three numbers, they are red, green
 // and blue.
 const lambent = await open(readFileSync(join(dirname(process.argv[2]), 'wasm', 'web', 'lambent.wasm')));
@@ -143,7 +161,7 @@ const html = Object.fromEntries(sources)['index.html'], scripts = sources.filter
 const named = [...html.matchAll(/data-(?:text|label|title|placeholder)="(\w+)"/g), ...scripts.matchAll(/\b(?:text\(|button\(|key: )'(\w+)'/g)].map((match) => match[1]);
 const unknown = named.filter((key) => !stringKeys().includes(key)), unused = stringKeys().filter((key) => !new RegExp(`['"]${key}['"]`).test(scripts + html));
 ok(named.length > 30 && !unknown.length && !unused.length, `strings: the table has all, and no more${[...unknown, ...unused].map((key) => ' ' + key).join('')}`);
-ok(pseudo('saved {file}') === '⟦šávéd {file}~~~~⟧' && text('saved', { file: 'a.png' }) === 'saved a.png', 'strings: values and the pseudo-locale');
+ok(pseudo('saved {file}') === '⟦šávéd {file}~~~~⟧' && text('removeNamed', { light: 'a' }) === 'Remove a', 'strings: values and the pseudo-locale');
 const bare = html.replace(/<(title|h1 translate="no")>[^<]*/g, '').replace(/<[^>]*>/g, '').trim();
 ok(bare === '', `strings: the page itself has none${bare && ': ' + bare}`);
 

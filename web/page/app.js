@@ -13,7 +13,7 @@ import { insideWords } from './inside.js';
 import { giveFilesOf, openedPaths } from './opened.js';
 import { openWorker } from './start.js';
 import { START, State, fromFragment } from './state.js';
-import { localize } from './strings.js';
+import { localize, text } from './strings.js';
 
 localize(document); // the stage has its final size only after the page has its texts
 
@@ -63,10 +63,12 @@ export function emit(name) {
   for (const listener of listeners.get(name) ?? []) listener();
 }
 
-// The page keeps files in the root of a tree. Messages show their names without the leading '/', as the command line does.
+// The page keeps files in the root of a tree. Messages show their names without the leading '/', as the command line does. A missing file is one that
+// the user has not chosen yet.
 export function plainNames(sentence) {
   const paths = [state.model, ...openedPaths(), ...view.missing].filter((path) => path.startsWith('/'));
-  return sentence.replace(/(^|[\s'"(])\//g, (found, before, at) => (paths.some((path) => sentence.startsWith(path, at + before.length)) ? before : found));
+  const told = view.missing.length && !$('served') ? sentence.replace('cannot open: No such file or directory', text('notChosen')) : sentence;
+  return told.replace(/(^|[\s'"(])\//g, (found, before, at) => (paths.some((path) => told.startsWith(path, at + before.length)) ? before : found));
 }
 
 // Shows a message of the program or of the page, with buttons for possible actions, until the next picture.

@@ -2,7 +2,7 @@
 import { call, on, refuse, state, view } from './app.js';
 import { $, ours } from './dom.js';
 import { setOf } from './opened.js';
-import { command, commandWords, fromFragment, toFragment } from './state.js';
+import { State, command, commandWords, fromFragment, toFragment } from './state.js';
 import { text } from './strings.js';
 
 on('words', () => {
@@ -33,21 +33,25 @@ addEventListener('keydown', (event) => {
 
 export async function copy(copied, button) {
   const label = button.textContent;
+  let isCopied = false;
+  button.style.minWidth = `${button.offsetWidth}px`; // the buttons beside it stay in place
   try {
     await navigator.clipboard.writeText(copied);
     button.textContent = text('copied');
+    isCopied = true;
   } catch {
     getSelection().selectAllChildren($('command'));
     button.textContent = text('selected');
   }
   setTimeout(() => (button.textContent = label), 1500);
+  return isCopied;
 }
 $('copy-command').onclick = (event) => copy(command(state.words), event.target);
-export const linkOf = () => location.href.split('#')[0] + toFragment(state.words);
-$('copy-link').onclick = (event) => {
-  copy(linkOf(), event.target);
-  if (setOf(state.model)) $('status').textContent = text('linkCopied', { file: state.model.slice(1) });
-};
+const linkOf = () => location.href.split('#')[0] + toFragment(state.words);
+export async function copyLink(event) {
+  if (await copy(linkOf(), event.target)) $('status').textContent = setOf(state.model) ? text('linkCopied', { file: state.model.slice(1) }) : text('linkDone');
+}
+$('copy-link').onclick = copyLink;
 
 // Offers bytes as a file named after the model.
 export function download(bytes, ending, type) {
@@ -59,14 +63,19 @@ export function download(bytes, ending, type) {
   return link.download;
 }
 
+// Describes a saved PNG: its size and kind of pixels are in its first bytes.
+function savedLine(words, bytes, file) {
+  const head = new DataView(bytes.buffer, bytes.byteOffset), size = { width: head.getUint32(16), height: head.getUint32(20) }, hasAlpha = bytes[25] >= 4;
+  const color = new State(words).values('background').at(-1);
+  if (hasAlpha) return text('savedTransparent', { file, ...size });
+  return color ? text('savedColor', { file, ...size, color }) : text('savedOpaque', { file, ...size });
+}
+
 // Saves the picture of the given words, which may differ from those of the page.
 export async function saveNamed(words) {
   try {
     const bytes = await call('save', { words, ending: 'png' });
-    const digest = await crypto.subtle?.digest('SHA-256', bytes);
-    const hash = [...new Uint8Array(digest ?? [])].map((b) => b.toString(16).padStart(2, '0')).join('');
-    const file = download(bytes, '.png', 'image/png');
-    $('status').textContent = hash ? text('savedHash', { file, hash }) : text('saved', { file });
+    $('status').textContent = savedLine(words, bytes, download(bytes, '.png', 'image/png'));
   } catch (error) {
     refuse(error.message);
   }

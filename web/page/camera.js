@@ -113,6 +113,17 @@ export function project(camera, point, aspect) {
   return { x: 0.5 + dot(way, side) / (2 * half * aspect), y: 0.5 - dot(way, above) / (2 * half), depth, behind };
 }
 
+// The point of a ball's surface at a position in the picture, in fractions of its width and height: on the side towards the eye or on the far
+// side. Beside the ball, it is the nearest point of the surface.
+export function onBall(camera, { centre, radius }, x, y, aspect, isFar) {
+  const { side, above, back } = cameraAxes(camera), half = halfHeight(camera, 1);
+  const across = add(scale(side, 2 * (x - 0.5) * half * aspect), above, 2 * (0.5 - y) * half), isParallel = camera.ortho > 0;
+  const from = isParallel ? add(camera.eye, across) : camera.eye, way = unit(isParallel ? scale(back, -1) : sub(across, back));
+  const middle = dot(sub(centre, from), way), closest = sub(add(from, way, middle), centre), gap = radius * radius - dot(closest, closest);
+  if (gap <= 0) return add(centre, unit(closest), radius);
+  return add(add(centre, closest), way, Math.sqrt(gap) * (isFar ? 1 : -1));
+}
+
 // Moves a point in the picture plane, in fractions of the picture's height, and away from the eye by a fraction of its distance.
 export function shifted(camera, point, right, up, away = 0) {
   const { side, above, back } = cameraAxes(camera), depth = Math.max(-dot(sub(point, camera.eye), back), 0.02 * length(sub(camera.eye, camera.target)));

@@ -18,7 +18,7 @@ let resting = 0, sharp = null; // the task of the full picture that was started 
 
 // The words of a quick picture: one sample and fewer pixels.
 export function quickWords(words) {
-  const [, width, height = width] = /^(\d+)(?:x(\d+))?$/.exec(state.values('size').at(-1) ?? '1024') ?? [], few = words.filter((word) => !word.startsWith('--samples'));
+  const [, width, height = width] = /^(\d+)(?:x(\d+))?$/.exec(state.values('size').at(-1) ?? (view.size ? `${view.size.width}x${view.size.height}` : '1024')) ?? [], few = words.filter((word) => !word.startsWith('--samples'));
   const scale = pace.scale(width * height);
   const sized = scale < 1 ? [...few.filter((word) => !word.startsWith('--size')), `--size=${Math.round(width * scale)}x${Math.round(height * scale)}`] : few;
   return [...sized, '--samples=1'];

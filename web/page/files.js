@@ -5,11 +5,14 @@ import { $, button, element } from './dom.js';
 import { droppedFiles } from './dropped.js';
 import { FILES_BYTES } from './memory.js';
 import { addCompanions, addFiles, openedPaths, setOf } from './opened.js';
+import { companions, ranked, setsSize, withNeighbours } from './ranked_models.js';
 import { FORMULAS, START, withModel } from './state.js';
 import { text } from './strings.js';
 
 const isModel = (path) => view.endings.includes(path.replace(/^.*\./, '').toLowerCase());
 const baseOf = (path) => path.replace(/^.*\//, '').toLowerCase();
+let isAnswer = false; // the user has pressed a button that asks for missing files
+let rest = new Map(); // files of the last answer, which the model may still ask for
 const plain = (path) => path.replace(/^\//, '');
 
 function showModels() {
@@ -28,11 +31,12 @@ on('ready', showModels);
 
 // Options that refer to contents of a model.
 const OF_MODEL = /^--(camera|hide|animation|time|variant|scene)=|^--(back-)?material=.*@/;
+const OF_IMAGE = /^--(size|background|view|azimuth|elevation|zoom|fov|projection)=/;
 
-// Another model starts with its own view and materials, not with those of the first picture.
+// Another model starts with its own view and materials, not with those of the first picture. A scene file keeps its own size and background.
 function takeModel(name) {
-  const own = setOf(name) ? START : [];
-  state.set(withModel(state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word))), name));
+  const set = setOf(name), own = set ? START : [], isSized = set && setsSize(name, set.files);
+  state.set(withModel(state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word) && !(isSized && OF_IMAGE.test(word)))), name));
 }
 
 async function read(list) {
@@ -53,48 +57,51 @@ async function read(list) {
   return taken;
 }
 
-// Missing files of the model among the given files, stored under the paths where the model expects them.
-function companions(taken) {
-  const found = new Map();
-  for (const path of view.missing) {
-    const same = [...taken.keys()].find((other) => baseOf(other) === baseOf(path));
-    if (same) found.set(path, taken.get(same));
-  }
-  return found;
-}
-
 async function takeFiles(list) {
-  const taken = await read(list);
+  const isAsked = isAnswer, taken = await read(list);
+  isAnswer = false;
   if (!taken.size) return;
   const names = [...taken.keys()], awaited = state.model.startsWith('/') && !setOf(state.model) && !view.camera ? state.model : null;
-  const models = names.filter(isModel).sort((a, b) => a.split('/').length - b.split('/').length || (a < b ? -1 : 1));
-  const found = setOf(state.model) ? companions(taken) : new Map();
+  const models = ranked(names.filter(isModel), taken), found = setOf(state.model) ? companions(view.missing, taken) : new Map();
   if (!models.length && !found.size) return refuse(text('noModel', { files: names.map(plain).join(', '), endings: view.endings.map((ending) => '.' + ending).join(', ') }));
   // A folder that contains the model itself is opened as a whole.
   const again = models.find((path) => baseOf(path) === baseOf(state.model));
-  if (found.size && !(again && models.length)) addCompanions(state.model, found);
-  else addFiles(taken, state.model);
+  const completes = found.size && !again && (!models.length || isAsked || view.refusal || [...found.keys()].some(isModel));
+  if (completes) return complete(found, taken);
+  addFiles(taken, state.model);
+  rest = new Map();
   const [first] = models, wanted = again && (awaited || view.missing.length) ? again : first;
   if (!wanted || wanted === state.model) emit('words'); // new contents under the same name
   else if (awaited || wanted === again) state.set([wanted, ...state.words.slice(1)]); // keeps the options of a link, or of the same model
   else takeModel(wanted);
 }
 
-const openFiles = () => $('files').click(), openFolder = () => $('folder').click();
+// Adds missing files to the model. The others that were chosen with them are kept, since the model may ask for them next.
+function complete(found, taken) {
+  const { files } = setOf(state.model), placed = withNeighbours(found, taken);
+  addCompanions(state.model, [...placed].filter(([path]) => found.has(path) || !files.has(path)));
+  rest = new Map([...taken].filter(([path]) => ![...found.values()].includes(path)));
+  emit('words');
+}
+
+const openFiles = () => ((isAnswer = false), $('files').click()), openFolder = () => ((isAnswer = false), $('folder').click());
+const asking = (open) => () => (open(), (isAnswer = true));
 
 // Explains how to add missing files. After opening a link to a local model, explains how to open the model itself.
 on('missing', () => {
-  const buttons = [button('chooseFiles', openFiles), button('openFolder', openFolder)], [model] = state.words;
+  const known = setOf(state.model) ? companions(view.missing, rest) : new Map();
+  if (known.size) return setTimeout(() => complete(known, rest)); // after the present drawing
+  const choose = button('chooseFiles', asking(openFiles)), folder = button('openFolder', asking(openFolder)), [model] = state.words;
   const isGone = view.missing.includes(model), sentence = isGone ? text('linkWithout', { file: plain(model) })
-    : text('missingFiles', { files: view.missing.map(plain).join(', ') });
+    : text(view.missing.some((path) => /\.mtl$/i.test(path)) ? 'missingMaterials' : 'missingFiles', { files: view.missing.map(plain).join(', ') });
   $('missing').hidden = Boolean(view.refusal) || !view.missing.length || $('missing').dataset.seen === sentence;
   $('missing').firstChild.textContent = sentence;
-  $('missing').lastChild.replaceChildren(...buttons, button('missingSeen', () => {
+  $('missing').lastChild.replaceChildren(choose, folder, button('missingSeen', () => {
     $('missing').dataset.seen = sentence;
     $('missing').hidden = true;
   }));
-  if (view.refusal && isGone) refuse(sentence, button('openNamed', openFiles), buttons[1]);
-  else if (view.refusal) refuse(`${view.refusal}. ${sentence}`, button('chooseFiles', openFiles), button('openFolder', openFolder));
+  if (view.refusal && isGone) refuse(sentence, button('openNamed', openFiles), button('openFolder', openFolder));
+  else if (view.refusal) refuse(`${view.refusal}. ${sentence}`, button('chooseFiles', asking(openFiles)), button('openFolder', asking(openFolder)));
 });
 
 $('model').onchange = (event) => takeModel(event.target.value);
@@ -116,5 +123,6 @@ addEventListener('dragleave', (event) => {
 addEventListener('drop', async (event) => {
   event.preventDefault();
   $('drop').hidden = true;
+  isAnswer = false;
   takeFiles(await droppedFiles(event.dataTransfer));
 });

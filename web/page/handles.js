@@ -1,7 +1,7 @@
 // handles.js: handles for the lights in the picture: one for the position of each light of --light, one for the aim of a spot, one for its cone. A handle
 // is a button that can be dragged or moved by keys.
 import { beginGesture, endGesture, gestureKey, on, say, state, view } from './app.js';
-import { add, project, scale, shifted, sub, unit } from './camera.js';
+import { add, dot, onBall, project, scale, shifted, sub, unit } from './camera.js';
 import { $, element, svg } from './dom.js';
 import { coneEdge, lightText, movedTo, nameOf, parseLight, placeOf, withCone } from './lights.js';
 import { text } from './strings.js';
@@ -28,12 +28,29 @@ function moveHandle(i, part, right, up, away = 0) {
   rewrite(i, movedTo(light, part, to, view.camera, view.sphere));
 }
 
+// Moves a position or an aim to a point of the canvas, in CSS pixels. A point behind the eye comes to the front.
+function moveHandleTo(i, part, left, top) {
+  const light = parseLight(texts[i]), place = placeOf(light, view.camera, view.sphere), x = left / canvas.clientWidth, y = top / canvas.clientHeight;
+  if (!place) return;
+  const { camera, sphere } = view, aspect = canvas.width / canvas.height, ball = { centre: sphere.centre, radius: 1.2 * sphere.radius };
+  let from = place[part], to;
+  if (place.directional) to = onBall(camera, ball, x, y, aspect, dot(sub(from, sphere.centre), sub(camera.eye, sphere.centre)) < 0);
+  else {
+    if (project(camera, from, aspect).behind) from = scale(add(camera.eye, sphere.centre), 0.5);
+    const at = project(camera, from, aspect);
+    to = shifted(camera, from, (x - at.x) * aspect, at.y - y);
+  }
+  rewrite(i, movedTo(light, part, to, camera, sphere));
+}
+
 function makeHandle(i, part) {
   const handle = element('button', { type: 'button', className: `handle ${part}` });
-  let last = null;
+  let last = null, grip = null; // grip: from the handle's middle to the pointer, in CSS pixels
+  const gripOf = ({ clientX, clientY }) => ({ x: clientX - parseFloat(handle.style.left), y: clientY - parseFloat(handle.style.top) });
   handle.onpointerdown = (event) => {
     handle.setPointerCapture(event.pointerId);
     last = { x: event.clientX, y: event.clientY };
+    grip = gripOf(event);
     handle.focus();
     event.preventDefault();
   };
@@ -41,7 +58,9 @@ function makeHandle(i, part) {
     if (!last) return;
     const x = (event.clientX - last.x) / canvas.clientHeight, y = (last.y - event.clientY) / canvas.clientHeight;
     if (event.shiftKey) moveHandle(i, part, 0, 0, y);
-    else moveHandle(i, part, x, y);
+    else if (part === 'cone') moveHandle(i, part, x, y);
+    else moveHandleTo(i, part, event.clientX - grip.x, event.clientY - grip.y);
+    if (event.shiftKey) grip = gripOf(event);
     last = { x: event.clientX, y: event.clientY };
   };
   handle.onpointerup = handle.onpointercancel = () => {

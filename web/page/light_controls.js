@@ -30,6 +30,12 @@ function anglesOf(light) {
   return { around: Math.atan2(dot(way, right), dot(way, front)) * DEGREES, height: Math.asin(Math.max(-1, Math.min(1, dot(way, pole)))) * DEGREES };
 }
 
+// Whether a light is in the direction of a button, to 2 degrees.
+function isNear({ around, height }, [, at, above]) {
+  const [h, g] = [height / DEGREES, above / DEGREES];
+  return Math.sin(h) * Math.sin(g) + Math.cos(h) * Math.cos(g) * Math.cos((around - at) / DEGREES) > Math.cos(2 / DEGREES);
+}
+
 function placed(light, around, height) {
   const { front, right, pole } = axes(), far = Math.max(1.2 * view.sphere.radius, length(sub(placeOf(light, view.camera, view.sphere).position, view.sphere.centre)));
   const level = add(scale(front, Math.cos(around / DEGREES)), right, Math.sin(around / DEGREES));
@@ -83,21 +89,25 @@ export function lightControls() {
   const bright = slider(titled('lightBright'), text('lightBright'), [0, 4, 0.05], 1, (value) => change(withKey('intensity', value), gestureKey()));
   const color = new Picker(text('lightColor'), (value, key) => change(withKey('color', value), key));
   const places = PLACES.map(([key, at, above]) => button(key, () => change((light) => placed(light, at, above))));
+  const drowned = element('p', { className: 'hint drowned' });
   choice.onchange = () => {
     chosen = Number(choice.value);
     show();
   };
   function show() {
     const texts = view.camera && view.sphere ? state.values('light') : [], i = texts.length ? chosenIn(texts) : -1, movable = texts.flatMap((one, at) => (isMovable(one) ? [at] : []));
-    choice.hidden = movable.length < 2;
+    choice.disabled = movable.length < 2; // but always there, so that the buttons below it stay in place
     const key = movable.map((at) => nameOf(parseLight(texts[at]), at)).join('\n');
-    if (choice.dataset.names !== key) choice.replaceChildren(...movable.map((at) => new Option(nameOf(parseLight(texts[at]), at), at)));
+    if (choice.dataset.names !== key) choice.replaceChildren(...(movable.length ? movable.map((at) => new Option(nameOf(parseLight(texts[at]), at), at)) : [new Option(text('lightMain'))]));
     choice.dataset.names = key;
     choice.translate = false;
-    if (i < 0) return;
+    const surroundings = state.values('environment').at(-1);
+    drowned.textContent = i >= 0 && surroundings && state.values('material').some(isMetal) ? text('lightDrowned', { name: surroundings }) : '';
+    if (i < 0) return places.forEach((one) => one.setAttribute('aria-pressed', 'false'));
     choice.value = i;
     if (view.moving) return;
     const light = parseLight(texts[i]), angles = anglesOf(light);
+    places.forEach((one, at) => one.setAttribute('aria-pressed', String(isNear(angles, PLACES[at]))));
     showNumber(around, Math.round(angles.around) === -180 ? 180 : Math.round(angles.around));
     showNumber(height, Math.round(angles.height));
     showNumber(bright, light.keys.get('intensity') ?? 1);
@@ -106,6 +116,6 @@ export function lightControls() {
   on('words', show);
   on('picture', show);
   show();
-  return element('div', {}, choice, element('div', { className: 'buttons', attributes: { role: 'group', 'aria-label': text('lightPlaces') } }, ...places), around, height, bright,
+  return element('div', {}, choice, element('div', { className: 'buttons', attributes: { role: 'group', 'aria-label': text('lightPlaces') } }, ...places), drowned, around, height, bright,
     element('div', { className: 'slider' }, titled('lightColor'), color.input));
 }

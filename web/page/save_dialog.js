@@ -1,6 +1,6 @@
 // save_dialog.js: saves the picture with another size and background, and sends the model to others: a page with the model, a link, a scene file.
 import { call, refuse, state, view } from './app.js';
-import { copy, download, linkOf, saveNamed } from './bar.js';
+import { copyLink, download, saveNamed } from './bar.js';
 import { $, button, element, ours } from './dom.js';
 import { saveScene } from './scene.js';
 import { pageWithModel } from './packed_page.js';
@@ -65,7 +65,7 @@ export function openSaveDialog() {
     element('details', {}, element('summary', { textContent: text('command') }), line),
     element('div', { className: 'buttons' }, button('savePng', closing(() => saveNamed(savedWords())), { id: 'save-png' })),
     element('h2', { textContent: text('sendTitle') }), element('p', { className: 'hint', textContent: text(setOf(state.model) ? 'sendHintFiles' : 'sendHint') }),
-    element('div', { className: 'buttons' }, button('savePage', closing(savePage), { id: 'save-page' }), button('copyLink', (event) => copy(linkOf(), event.target), { id: 'save-link' }),
+    element('div', { className: 'buttons' }, button('savePage', closing(savePage), { id: 'save-page' }), button('copyLink', copyLink, { id: 'save-link' }),
       button('saveScene', closing(saveScene), { id: 'save-scene' })),
     element('div', { className: 'buttons end' }, close));
   show();

@@ -8,8 +8,8 @@ import { text } from './strings.js';
 
 const kept = element('canvas', { id: 'before', attributes: { 'aria-hidden': 'true' } }), context = kept.getContext('2d');
 const line = element('div', { id: 'divider', tabIndex: 0, attributes: { role: 'separator', 'aria-orientation': 'vertical', 'aria-label': text('divider'), 'aria-valuemin': 0, 'aria-valuemax': 100 } });
-const words = ours('code', '', { id: 'before-command' });
-const bar = element('div', { id: 'split-bar' }, element('span', { textContent: text('before') }), ' ', words, ' ',
+const title = element('span'), words = ours('code', '', { id: 'before-command' });
+const bar = element('div', { id: 'split-bar' }, title, ' ', words, ' ',
   button('keepNow', () => keep()), button('swap', () => swap()), button('endSplit', () => toggle()));
 let before = null, share = 50, busy = false, again = false;
 
@@ -50,8 +50,21 @@ function place(next) {
   line.setAttribute('aria-valuenow', Math.round(share));
 }
 
+// Compares with the present picture from now on.
 function keep() {
   before = state.words;
+  title.textContent = text('beforeNone');
+  draw();
+}
+
+const appearance = (of) => [...VIEW, 'camera', 'size'].reduce((rest, name) => new State(rest).withValues(name, []), of).join('\n');
+
+// Compares with the newest state of this model that looks different from the same camera.
+function begin() {
+  const last = state.past.findLast((one) => one[0] === state.model && appearance(one) !== appearance(state.words));
+  if (!last) return keep();
+  before = last;
+  title.textContent = text('before');
   draw();
 }
 
@@ -70,7 +83,7 @@ export function toggle() {
     $('stage').append(bar);
     fit();
     place(50);
-    keep();
+    begin();
     line.focus();
   } else {
     before = null;
@@ -97,5 +110,6 @@ line.onkeydown = (event) => {
   event.preventDefault();
 };
 
+addEventListener('keydown', (event) => event.key === 'Escape' && before && $('working').hidden && !document.querySelector('dialog[open]') && toggle());
 on('picture', () => before && draw());
 on('fit', () => before && place(share));

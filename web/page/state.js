@@ -69,6 +69,11 @@ export class State {
     this.#go(this.#future, this.#past);
   }
 
+  // The states before the present one, the newest last.
+  get past() {
+    return this.#past;
+  }
+
   get canUndo() {
     return this.#past.length > 0;
   }

@@ -1,0 +1,122 @@
+// feedback.mjs: how the page answers: files that belong together, controls that stay in place, the message after saving, before and now, and a light's
+// handle outside the picture. people.mjs runs these parts and shares its functions with them.
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { commandOf, drawn, fragment, ok, pixels, settled, until } from './driver.mjs';
+import { saved } from './input.mjs';
+
+const WORDS = ['sphere', '--size=96x96', '--background=white'];
+const boxOf = (page, name) => page.locator(name).boundingBox();
+const model = async (page, path) => {
+  await until(page, (name) => document.getElementById('model').value === name, path);
+  await settled(page, path);
+};
+
+// A saved scene file, and then the folder with its model: the scene stays, with its size.
+async function scenes({ open, origin, models }) {
+  const page = await open(origin + fragment(WORDS));
+  await drawn(page, 'scenes');
+  await page.locator('#folder').setInputFiles(join(models, 'textured'));
+  await model(page, '/textured/damaged.obj');
+  await page.locator('#model').selectOption('/textured/quad.obj');
+  await model(page, '/textured/quad.obj');
+  await page.evaluate((hash) => (location.hash = hash), fragment(['/textured/quad.obj', '--size=200x100', '--background=white', '--view=left']));
+  await settled(page, 'the scene');
+  const before = await pixels(page);
+  await page.locator('#export').click();
+  const { name, bytes } = await saved(page, () => page.locator('#save-scene').click());
+  writeFileSync(join(models, name), bytes);
+  await page.context().close();
+
+  const other = await open(origin);
+  await drawn(other, 'a scene alone');
+  await other.locator('#files').setInputFiles(join(models, name));
+  await until(other, () => !document.getElementById('message').hidden);
+  const sentence = await other.locator('#message-text').textContent();
+  ok(/textured\/quad\.obj: not chosen yet/.test(sentence), 'a scene without its model says that the model is not chosen yet', sentence);
+  await other.locator('#folder').setInputFiles(join(models, 'textured'));
+  await model(other, '/quad.json');
+  ok((await other.locator('#message').isHidden()) && (await other.locator('#missing').isHidden()), 'the folder completes the scene', await other.locator('#stage').innerText());
+  ok((await pixels(other)) === before && (await commandOf(other)) === 'lambent quad.json', 'the scene is the saved picture, with its size', await commandOf(other));
+  const { width, height } = await boxOf(other, '#canvas');
+  await other.locator('#canvas').press('ArrowRight');
+  await until(other, () => document.body.dataset.gesture === undefined);
+  const turned = await boxOf(other, '#canvas');
+  ok(turned.width === width && turned.height === height, 'a scene with its own size keeps its shape while it turns', JSON.stringify(turned));
+  await other.context().close();
+}
+
+// A material file and its textures, chosen at once, complete the model at once.
+async function companions({ open, origin, models }) {
+  const page = await open(origin + fragment(WORDS));
+  await drawn(page, 'companions');
+  await page.locator('#files').setInputFiles(join(models, 'textured/quad.obj'));
+  await until(page, () => !document.getElementById('missing').hidden);
+  const warnings = await page.locator('#warnings').textContent();
+  ok(/quad\.mtl: not chosen yet/.test(warnings) && !/No such file/.test(warnings), 'a file is not chosen yet', warnings);
+  await page.locator('#files').setInputFiles(['quad.mtl', 'quad.jpg', 'side.png'].map((name) => join(models, 'textured', name)));
+  await until(page, () => document.getElementById('missing').hidden && document.getElementById('warnings').textContent === '');
+  await settled(page, 'companions');
+  ok((await commandOf(page)).startsWith('lambent quad.obj'), 'materials and textures are taken at once', await commandOf(page));
+  await page.context().close();
+}
+
+// Controls stay under the pointer, and say what they did.
+async function places({ open, origin }) {
+  const page = await open(origin + fragment(['teapot', '--size=480x360', '--background=white']), { viewport: { width: 1280, height: 800 } });
+  await drawn(page, 'places');
+  const behind = page.getByRole('button', { name: 'Behind', exact: true });
+  await behind.scrollIntoViewIfNeeded();
+  const before = await behind.boundingBox(), canvas = await boxOf(page, '#canvas');
+  await behind.click();
+  await until(page, () => location.hash.includes('light'));
+  await settled(page, 'behind');
+  const after = await behind.boundingBox(), now = await boxOf(page, '#canvas');
+  ok(before.x === after.x && before.y === after.y, 'the button stays under the pointer', JSON.stringify([before, after]));
+  ok((await page.locator('[aria-pressed=true]', { hasText: /^(From the front|Left|Right|Above|Behind)$/ }).allTextContents()).join() === 'Behind', 'the chosen direction is marked');
+  ok(JSON.stringify(canvas) === JSON.stringify(now), 'a longer command line leaves the picture in place', JSON.stringify([canvas, now]));
+  await page.getByRole('button', { name: 'gold', exact: true }).click();
+  await settled(page, 'gold');
+  ok(/surroundings \(studio\) outshine this light/.test(await page.locator('.drowned').textContent()), 'the page says that the studio outshines the light');
+  const save = await boxOf(page, '#save');
+  await saved(page, () => page.locator('#save').click());
+  await until(page, () => /^Saved/.test(document.getElementById('status').textContent));
+  ok((await page.locator('#status').textContent()) === 'Saved teapot.png: 480×360 pixels, background white', 'the message names size and background', await page.locator('#status').textContent());
+  ok(JSON.stringify([save, now]) === JSON.stringify([await boxOf(page, '#save'), await boxOf(page, '#canvas')]), 'saving moves nothing');
+
+  // Before and now: the picture before the last change, until Escape.
+  const gold = await pixels(page);
+  await page.getByRole('button', { name: 'ruby', exact: true }).click();
+  await settled(page, 'ruby');
+  await page.locator('#canvas').press('ArrowRight');
+  await settled(page, 'ruby, turned');
+  await page.locator('#compare').click();
+  await until(page, () => document.getElementById('before')?.dataset.drawn);
+  const words = JSON.parse(await page.locator('#before').getAttribute('data-drawn'));
+  ok(words.some((word) => word.startsWith('--material=gold')) && words.some((word) => word.startsWith('--camera')) && (await pixels(page, 'before')) !== gold, 'before is the state before the last change, from the present side', words.join(' '));
+  await page.keyboard.press('Escape');
+  ok((await page.locator('#divider').count()) === 0 && (await page.locator('#compare').getAttribute('aria-pressed')) === 'false', 'Escape ends before and now');
+  await page.context().close();
+}
+
+// The handle of a light outside the picture follows the pointer.
+async function farLights({ open, origin }) {
+  for (const light of ['directional:direction=1/0/0.02', 'point:position=-9/2/0', 'point:position=0/3/30']) {
+    const page = await open(origin + fragment(['sphere', '--size=200x200', '--view=front', '--zoom=1.6', `--light=${light}`]));
+    await drawn(page, light);
+    const handle = page.locator('.handle.position');
+    await until(page, () => document.querySelector('.handle.position.out'));
+    const from = await handle.boundingBox(), canvas = await boxOf(page, '#canvas'), start = [from.x + from.width / 2, from.y + from.height / 2];
+    const to = [canvas.x + 0.6 * canvas.width, canvas.y + 0.4 * canvas.height];
+    await page.mouse.move(...start);
+    await page.mouse.down();
+    for (const part of [0.2, 0.6, 1]) await page.mouse.move(...start.map((x, i) => x + part * (to[i] - x)));
+    await page.mouse.up();
+    await settled(page, light);
+    const end = await handle.boundingBox(), away = Math.hypot(end.x + end.width / 2 - to[0], end.y + end.height / 2 - to[1]);
+    ok(away < 3, `a handle outside the picture follows the pointer: ${light}`, `${away} pixels away: ${await commandOf(page)}`);
+    await page.context().close();
+  }
+}
+
+export const feedbackParts = (shared) => ({ scenes: () => scenes(shared), companions: () => companions(shared), places: () => places(shared), farLights: () => farLights(shared) });

@@ -1,0 +1,73 @@
+// ranked_models.js: which of several opened models is shown first, and which opened files are the missing files of a model.
+
+const folderOf = (path) => path.replace(/[^/]*$/, '');
+const baseOf = (path) => path.replace(/^.*\//, '').toLowerCase();
+const endingOf = (path) => path.replace(/^.*\./, '').toLowerCase();
+
+// The path that a file means by a relative name.
+function pathFrom(folder, name) {
+  const parts = [];
+  for (const part of (folder + name.trim().replaceAll('\\', '/')).split('/')) part === '..' ? parts.pop() : part !== '.' && part && parts.push(part);
+  return '/' + parts.join('/');
+}
+
+const HEAD = 1 << 16, START_OF = 1 << 14; // in bytes: of the text that is searched for names
+const textOf = (bytes, most) => new TextDecoder().decode(bytes.subarray(0, most));
+
+// 3: the model's materials and textures are there, 2: its materials, 1: it names none, 0: it names files that are missing.
+function completeness(path, files) {
+  const folder = folderOf(path), has = (name) => files.has(pathFrom(folder, name));
+  if (endingOf(path) === 'obj') {
+    const library = /^mtllib[ \t]+(.+?)\s*$/m.exec(textOf(files.get(path), START_OF))?.[1];
+    if (!library) return 1;
+    if (!has(library)) return 0;
+    const maps = [...textOf(files.get(pathFrom(folder, library)), HEAD).matchAll(/^\s*map_\w+[ \t]+(?:.*[ \t])?(\S+)\s*$/gm)].map(([, name]) => name);
+    return maps.length && maps.every(has) ? 3 : maps.length ? 1 : 2;
+  }
+  if (endingOf(path) !== 'gltf') return endingOf(path) === 'glb' ? 3 : 1;
+  return [...textOf(files.get(path), HEAD).matchAll(/"uri"\s*:\s*"([^":]+)"/g)].every(([, name]) => has(decodeURI(name))) ? 3 : 0;
+}
+
+// Sorts the paths of models: scene files last, since other .json files are often none. Complete models come first, then those in outer folders, then
+// large ones.
+export function ranked(models, files) {
+  const rows = models.map((path) => ({ path, level: endingOf(path) === 'json' ? -1 : completeness(path, files), depth: path.split('/').length, size: files.get(path).length }));
+  return rows.sort((a, b) => b.level - a.level || a.depth - b.depth || b.size - a.size || (a.path < b.path ? -1 : 1)).map(({ path }) => path);
+}
+
+// The number of last parts that two paths share.
+function sharedParts(a, b) {
+  const [x, y] = [a, b].map((path) => path.toLowerCase().split('/').reverse());
+  const at = x.findIndex((part, i) => part !== y[i]);
+  return at < 0 ? x.length : at;
+}
+
+// The missing files among the given files: maps the path at which the model expects each one to its path there. Of several files with the same
+// name, the one whose folders agree is used.
+export function companions(missing, files) {
+  const found = new Map();
+  for (const path of missing) {
+    const [same] = [...files.keys()].filter((other) => baseOf(other) === baseOf(path)).sort((a, b) => sharedParts(b, path) - sharedParts(a, path));
+    if (same) found.set(path, same);
+  }
+  return found;
+}
+
+// The found files by the paths at which the model expects them, with the files beside them, which they may name in turn.
+export function withNeighbours(found, files) {
+  const placed = new Map();
+  for (const [path, same] of found)
+    for (const [other, bytes] of files) if (other.startsWith(folderOf(same))) placed.set(folderOf(path) + other.slice(folderOf(same).length), bytes);
+  for (const [path, same] of found) placed.set(path, files.get(same));
+  return placed;
+}
+
+// Whether a model is a scene file with a size of its own.
+export function setsSize(path, files) {
+  if (endingOf(path) !== 'json') return false;
+  try {
+    return Boolean(JSON.parse(new TextDecoder().decode(files.get(path))).image?.size);
+  } catch {
+    return false; // the program reports the error
+  }
+}

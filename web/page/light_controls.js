@@ -102,7 +102,7 @@ export function lightControls() {
     choice.dataset.names = key;
     choice.translate = false;
     const surroundings = state.values('environment').at(-1);
-    drowned.textContent = i >= 0 && surroundings && state.values('material').some(isMetal) ? text('lightDrowned', { name: surroundings }) : '';
+    drowned.textContent = i >= 0 && surroundings && surroundings !== 'none' && state.values('material').some(isMetal) ? text('lightDrowned', { name: surroundings }) : '';
     if (i < 0) return places.forEach((one) => one.setAttribute('aria-pressed', 'false'));
     choice.value = i;
     if (view.moving) return;

@@ -10,7 +10,7 @@ const kept = element('canvas', { id: 'before', attributes: { 'aria-hidden': 'tru
 const line = element('div', { id: 'divider', tabIndex: 0, attributes: { role: 'separator', 'aria-orientation': 'vertical', 'aria-label': text('divider'), 'aria-valuemin': 0, 'aria-valuemax': 100 } });
 const title = element('span'), words = ours('code', '', { id: 'before-command' });
 const bar = element('div', { id: 'split-bar' }, title, ' ', words, ' ',
-  button('keepNow', () => keep()), button('swap', () => swap()), button('endSplit', () => toggle()));
+  button('keepNow', () => keep('beforeKept')), button('swap', () => swap()), button('endSplit', () => toggle()));
 let before = null, share = 50, busy = false, again = false;
 
 // The kept words with the current view and size.
@@ -51,9 +51,9 @@ function place(next) {
 }
 
 // Compares with the present picture from now on.
-function keep() {
+function keep(sentence) {
   before = state.words;
-  title.textContent = text('beforeNone');
+  title.textContent = text(sentence);
   draw();
 }
 
@@ -62,7 +62,7 @@ const appearance = (of) => [...VIEW, 'camera', 'size'].reduce((rest, name) => ne
 // Compares with the newest state of this model that looks different from the same camera.
 function begin() {
   const last = state.past.findLast((one) => one[0] === state.model && appearance(one) !== appearance(state.words));
-  if (!last) return keep();
+  if (!last) return keep('beforeNone');
   before = last;
   title.textContent = text('before');
   draw();
@@ -72,6 +72,7 @@ function swap() {
   const now = state.words;
   const next = beforeWords();
   before = now;
+  title.textContent = text('beforeKept');
   state.set(next);
 }
 

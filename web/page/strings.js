@@ -181,8 +181,9 @@ const STRINGS = {
 
   compare: 'Before and now',
   divider: 'Line between before and now',
-  before: 'Left, before the last change:',
-  beforeNone: 'Nothing has changed yet. The next change appears on the right. Left:',
+  before: 'Left, before:',
+  beforeNone: 'Nothing has changed yet. Changes will appear on the right. Left:',
+  beforeKept: 'Left:',
   keepNow: 'Keep this one',
   swap: 'Swap',
   endSplit: 'End',

@@ -3,7 +3,7 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { commandOf, drawn, fragment, ok, pixels, settled, until } from './driver.mjs';
-import { saved } from './input.mjs';
+import { drop, isFirefoxPage, saved } from './input.mjs';
 
 const WORDS = ['sphere', '--size=96x96', '--background=white'];
 const boxOf = (page, name) => page.locator(name).boundingBox();
@@ -12,11 +12,14 @@ const model = async (page, path) => {
   await settled(page, path);
 };
 
+// WebDriver BiDi cannot choose a folder; there it is dropped.
+const openFolder = (page, path) => (isFirefoxPage(page) ? drop(page, path) : page.locator('#folder').setInputFiles(path));
+
 // A saved scene file, and then the folder with its model: the scene stays, with its size.
 async function scenes({ open, origin, models }) {
   const page = await open(origin + fragment(WORDS));
   await drawn(page, 'scenes');
-  await page.locator('#folder').setInputFiles(join(models, 'textured'));
+  await openFolder(page, join(models, 'textured'));
   await model(page, '/textured/damaged.obj');
   await page.locator('#model').selectOption('/textured/quad.obj');
   await model(page, '/textured/quad.obj');
@@ -34,7 +37,7 @@ async function scenes({ open, origin, models }) {
   await until(other, () => !document.getElementById('message').hidden);
   const sentence = await other.locator('#message-text').textContent();
   ok(/textured\/quad\.obj: not chosen yet/.test(sentence), 'a scene without its model says that the model is not chosen yet', sentence);
-  await other.locator('#folder').setInputFiles(join(models, 'textured'));
+  await openFolder(other, join(models, 'textured'));
   await model(other, '/quad.json');
   ok((await other.locator('#message').isHidden()) && (await other.locator('#missing').isHidden()), 'the folder completes the scene', await other.locator('#stage').innerText());
   ok((await pixels(other)) === before && (await commandOf(other)) === 'lambent quad.json', 'the scene is the saved picture, with its size', await commandOf(other));

@@ -3,7 +3,7 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { commandOf, drawn, fragment, ok, pixels, settled, until } from './driver.mjs';
-import { drop, isFirefoxPage, saved } from './input.mjs';
+import { choose, drop, isFirefoxPage, saved } from './input.mjs';
 
 const WORDS = ['sphere', '--size=96x96', '--background=white'];
 const boxOf = (page, name) => page.locator(name).boundingBox();
@@ -61,6 +61,19 @@ async function companions({ open, origin, models }) {
   await until(page, () => document.getElementById('missing').hidden && document.getElementById('warnings').textContent === '');
   await settled(page, 'companions');
   ok((await commandOf(page)).startsWith('lambent quad.obj'), 'materials and textures are taken at once', await commandOf(page));
+
+  // Missing files together with another model: they open that model, unless they were chosen by the button of the message.
+  await page.locator('#files').setInputFiles({ name: 'alone.obj', mimeType: 'text/plain', buffer: Buffer.from('mtllib quad.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl photo\nf 1/1 2/1 3/1\n') });
+  await until(page, () => document.getElementById('model').value === '/alone.obj' && !document.getElementById('missing').hidden);
+  const textured = ['quad.obj', 'quad.mtl', 'quad.jpg', 'side.png'].map((name) => join(models, 'textured', name));
+  await page.locator('#files').setInputFiles(textured);
+  await model(page, '/quad.obj');
+  await page.locator('#model').selectOption('/alone.obj');
+  await until(page, () => document.getElementById('model').value === '/alone.obj' && !document.getElementById('missing').hidden);
+  await choose(page, () => page.locator('#missing').getByRole('button', { name: 'Choose files…' }).click(), textured);
+  await until(page, () => document.getElementById('missing').hidden);
+  await settled(page, 'an answer');
+  ok((await commandOf(page)).startsWith('lambent alone.obj'), 'another model is opened, except in answer to the question for files', await commandOf(page));
   await page.context().close();
 }
 

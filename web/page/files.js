@@ -66,7 +66,7 @@ async function takeFiles(list) {
   if (!models.length && !found.size) return refuse(text('noModel', { files: names.map(plain).join(', '), endings: view.endings.map((ending) => '.' + ending).join(', ') }));
   // A folder that contains the model itself is opened as a whole.
   const again = models.find((path) => baseOf(path) === baseOf(state.model));
-  const completes = found.size && !again && (!models.length || isAsked || view.refusal || [...found.keys()].some(isModel));
+  const completes = found.size && !again && (!models.length || isAsked || [...found.keys()].some(isModel));
   if (completes) return complete(found, taken);
   addFiles(taken, state.model);
   rest = new Map();

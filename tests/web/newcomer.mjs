@@ -71,6 +71,7 @@ async function tasks({ open, models, said }, address, label) {
   await until(page, () => location.hash.includes('light'));
   await settled(page, 'behind');
   const [light] = /--light=\S+/.exec(await commandOf(page)) ?? [''];
+  await until(page, () => document.querySelector('.handle')); // its script is fetched after the picture
   ok(await page.locator('.handle').first().isVisible(), `${label}: the light has a handle`, light);
   ok((await page.locator('#panel-quick').getByRole('slider', { name: 'Around' }).inputValue()) === '180', `${label}: the light is behind the model`, light);
   await said(page, textured(await commandOf(page)));

@@ -86,34 +86,34 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
 // Makes the default rig. The key light is near: 3.2 times half the box's diagonal from the centre, in front and to the left,
 // so that the light varies across a flat face. Its strength ranges from 1.3 on the side of the model that faces it to
 // 0.75 on the other side. The rim light comes from above and behind. Tops are brightest, left sides darker and right
-// sides darkest, so that the three visible faces of a cube differ at each azimuth. At the corner of the box that is nearest
-// to the key light, a point reflects ka or kd times at most
+// sides darkest, so that the three visible faces of a cube differ at each azimuth. At the
+// corner of the box that is nearest to the key light, a point reflects ka or kd times at most
 //
-//  0.85·1.33 (key) + 0.15 (sky, there) = 1.28
+//  0.66·1.33 (key) + 0.19 (sky, there) = 1.07
 //
-// Only the key light casts shadows (--shadows, --ground), and they are soft. The other lights represent large surfaces,
-// whose shadows are the ambient occlusion.
+// Only the key light casts shadows (--shadows, --ground),
+// and they are soft. The other lights represent large surfaces, whose shadows are the ambient occlusion.
 static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);
     lights[0].name = "key";
     lights[0].frame = LAM_FRAME_VIEW;
-    lights[0].position = v3(-1.15, 1.6, 2.5);
+    lights[0].position = v3(-1.23, 1.29, 2.66);
     lights[0].attenuation = (lam_attenuation){0.527f, 0, 0.0462f}; // 1 at the centre
-    lights[0].diffuse = (lam_rgb){0.85f, 0.85f, 0.85f};
+    lights[0].diffuse = (lam_rgb){0.66f, 0.66f, 0.66f};
     lights[0].specular = (lam_rgb){0.9f, 0.9f, 0.9f};
-    lights[0].occluded = 0.9f;
+    lights[0].occluded = 0.6f;
     lights[0].radius = 0.4f;
-    lights[1] = camera_light("fill", v3(0.95, 0.25, -0.28), 0.05f, 0.10f);
+    lights[1] = camera_light("fill", v3(0.95, 0.25, -0.28), 0.06f, 0.10f);
     lights[1].occluded = 1;
     lights[1].no_shadows = true;
-    lights[2] = camera_light("rim", v3(-0.53, 0.66, -0.55), 0.47f, 0.30f);
-    lights[2].occluded = 0.9f;
+    lights[2] = camera_light("rim", v3(-0.53, 0.66, -0.55), 0.46f, 0.30f);
+    lights[2].occluded = 0.6f;
     lights[2].no_shadows = true;
     lights[3] = lam_light_default(LAM_LIGHT_HEMISPHERE);
     lights[3].name = "sky";
-    lights[3].sky = (lam_rgb){0.155f, 0.155f, 0.155f};
-    lights[3].ground = (lam_rgb){0.05f, 0.05f, 0.05f};
+    lights[3].sky = (lam_rgb){0.195f, 0.195f, 0.195f};
+    lights[3].ground = (lam_rgb){0.066f, 0.066f, 0.066f};
     return 4;
 }
 

@@ -68,9 +68,9 @@ bool scene_is_terrain(const struct lam_scene *scene)
 int rig_light_from_side(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0].position = v3(-2.7, 0.8, 1.2);
-    lights[0].diffuse = (lam_rgb){1.1f, 1.1f, 1.1f};
-    lights[1].diffuse = (lam_rgb){0.14f, 0.14f, 0.14f};
+    lights[0].diffuse = (lam_rgb){0.9f, 0.9f, 0.9f};
+    lights[1].diffuse = (lam_rgb){0.18f, 0.18f, 0.18f};
     lights[2] = lights[3];
-    lights[2].sky = (lam_rgb){0.11f, 0.11f, 0.11f};
+    lights[2].sky = (lam_rgb){0.14f, 0.14f, 0.14f};
     return 3;
 }

@@ -67,21 +67,19 @@ static const struct {
     {"mirror-studio", .floats = 2e-3},
     // Ambient occlusion is computed from differences of distances, and amplifies their rounding errors: a sample at an
     // edge is on one surface or the other.
-    {"cylinder", .floats = 1e-3},
-    {"stretched", .floats = 1e-3},
-    {"planes", .floats = 4e-3},
+    {"planes", .floats = 2e-3},
     {"translucent", .floats = 8e-3},
-    {"lines", .floats = 3e-2},
+    {"lines", .floats = 2e-2},
     {"teapot", .floats = 1e-3},
     {"metaballs", .floats = 1e-3},
     // The cavity has a radius of few pixels, and amplifies these errors more.
     {"gyroid", .floats = 2e-3},
     {"ground-checker", .floats = 5e-3},
-    {"samples-1", .floats = 4e-3},
-    {"samples-2", .floats = 4e-3},
-    {"samples-4", .floats = 4e-3},
-    {"samples-8", .floats = 4e-3},
-    {"samples-16", .floats = 4e-3},
+    {"samples-1", .floats = 2e-3},
+    {"samples-2", .floats = 2e-3},
+    {"samples-4", .floats = 2e-3},
+    {"samples-8", .floats = 2e-3},
+    {"samples-16", .floats = 2e-3},
     {"environment-light", .floats = 5e-3},
     {"shadows-soft", .floats = 5e-4, .soft = true},
     {"ground-shadow", .floats = 1e-3, .soft = true},
@@ -397,7 +395,7 @@ static bool is_good(const struct outcome *o, lam_device *device, const char *nam
     bool card = is_card(lam_device_name(device));
     return o->over_2_outside == 0 && (card || o->snapped <= max_snapped) && o->worst_between <= 8 &&
            (double)o->between <= 3e-3 * (double)o->pixels &&
-           (double)o->grain <= (card ? 1e-3 : 3e-4) * (double)o->pixels &&
+           (double)o->grain <= (card ? 1e-3 : 2e-4) * (double)o->pixels &&
            (double)o->over_1 <= (card ? 0.002 : 0.001) * (double)o->pixels &&
            o->worst_float <= (card ? 5 : 1) * float_limit(name);
 }

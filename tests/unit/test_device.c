@@ -169,7 +169,8 @@ static void test_progress(void **state)
 {
     (void)state;
     struct demo demo = make_demo("teapot");
-    lam_device *device = make_device(1); // reports come from the calling thread: with others it may draw few tiles itself
+    lam_device *device =
+        make_device(1); // reports come from the calling thread: with others it may draw few tiles itself
     lam_image image = make_image(512, 512);
     struct progress_seen seen = {0};
     lam_control control = {.progress = see_progress, .user = &seen};

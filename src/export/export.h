@@ -38,7 +38,7 @@ struct exporting {
     lam_mesh flat[EXPORT_KINDS];
     struct text text;          // the model's file
     struct call_control *call; // NULL if there is none
-    bool stopped;              // the call must end, and the result is incomplete
+    bool stopped;              // the call must stop, and the result is incomplete
     lam_error *error;
 };
 
@@ -83,7 +83,7 @@ void export_memory_free(struct exporting *e, void *memory, size_t bytes);
 bool export_asks(struct exporting *e);
 static inline bool export_continues(struct exporting *e, size_t item) { return item % 65536 || export_asks(e); }
 
-// Return false, with the error, if a loop was left early, or the text is incomplete.
+// Return false and fill the error if a loop ended early or the text is incomplete.
 bool export_is_whole(struct exporting *e);
 bool export_text_is_whole(struct exporting *e, const struct text *text);
 

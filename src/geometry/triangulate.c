@@ -194,7 +194,7 @@ static uint64_t spread(uint32_t x)
 
 static uint64_t morton(const struct corner *c) { return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1; }
 
-// Sorts corner indices by Morton code: a stable radix sort by bytes of the code. Returns false if the call must end.
+// Sorts corner indices by Morton code: a stable radix sort by bytes of the code. Returns false if the call must stop.
 static bool sort_points(const struct corner *corners, uint32_t *points, uint32_t *extra, uint32_t count,
                         struct call_control *call)
 {
@@ -389,7 +389,7 @@ static void cut(struct clip *clip, uint32_t i)
     }
 }
 
-// Cuts off the corners one by one. Returns false if the call must end.
+// Cuts off the corners one by one. Returns false if the call must stop.
 static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *call, uint32_t *triples)
 {
     uint32_t left = count;

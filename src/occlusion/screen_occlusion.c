@@ -96,7 +96,8 @@ static void fill_beside(const struct screen_occlusion *o, float *plane, int y, f
         row[x] = value;
 }
 
-// Outside the cells, filters read arbitrary numbers with weight 0 and no surface.
+// Filters also read beside the cells. This function stores 0 there, and marks the depth as containing no surface, which
+// gives the values the weight 0.
 static void fill_rows_beside(const struct screen_occlusion *o, int first, int end)
 {
     for (int y = first; y < end; y++) {

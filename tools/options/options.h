@@ -98,7 +98,7 @@ struct choice {
     const char *summary; // NULL if the name is clear, or is an alias of the previous name
 };
 
-// The syntax of a value that is not one of the option's words.
+// The syntax of a value that is not one of the option's keywords.
 enum value_kind {
     VALUE_ANY,
     VALUE_FILE,

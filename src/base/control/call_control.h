@@ -24,7 +24,7 @@ struct call_control {
 // Starts a call. `control` may be NULL.
 void call_start(struct call_control *call, const lam_control *control);
 
-// Returns false if the call must end: it was cancelled, it exceeded its time, or its control sets a field that this
+// Returns false if the call must stop: it was cancelled, it exceeded its time, or its control sets a field that this
 // version does not know. It is cheap enough to call every few thousand items (about 25 ns), from any thread. `call` may
 // be NULL.
 bool call_should_continue(struct call_control *call);

@@ -13,7 +13,7 @@
 
 enum { PIECE = 1 << 20 };
 
-// Returns false and sets errno on failure; ECANCELED means that the call must end.
+// Returns false and sets errno on failure; ECANCELED means that the call must stop.
 static bool write_all(int file, const uint8_t *at, size_t left, struct call_control *call)
 {
     while (left) {

@@ -1,5 +1,6 @@
-// mistakes.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most occur in lectures and tutorials
-// (docs/mistakes.md). `lambent check` explains each under the same id (classroom/check/diagnose/faults/fault_table.c).
+// mistakes.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most occur in lectures and
+// tutorials (docs/mistakes.md). `lambent check` explains each under the same id
+// (classroom/check/diagnose/faults/fault_table.c).
 #include <lambent/shader.h>
 
 #include "fail.h"

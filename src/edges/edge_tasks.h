@@ -20,8 +20,8 @@ struct edge_measure {
 enum { EDGES_PER_TASK = 2048 };
 
 // The weight of a feature edge (edge_specks.c): its length in the picture, in parts of a pixel. A crease beside a face
-// that is narrower than a pixel, or beside a sliver, counts less, in proportion. An edge that continues outside the picture has the largest
-// weight.
+// that is narrower than a pixel, or beside a sliver, counts less, in proportion. An edge that continues outside the
+// picture has the largest weight.
 enum {
     EDGE_WEIGHT_PIXEL = 1024, // the unit
     EDGE_WEIGHT_MAX = 0xfffd,

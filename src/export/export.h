@@ -94,7 +94,7 @@ bool export_flatten(struct exporting *e);
 void export_number(struct text *text,
                    double x); // with all digits of a float, or of a double if it is not exactly a float
 void export_word(struct text *text, uint32_t value); // little-endian
-void export_float(struct text *text, double x);      // likewise
+void export_float(struct text *text, double x);      // little-endian
 void export_floats(struct text *text, lam_vec3 p);
 void export_line(struct text *text, const char *word, const double *numbers, int count);
 lam_vec3 export_turned(const struct exporting *e, lam_vec3 p);

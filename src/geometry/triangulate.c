@@ -3,7 +3,7 @@
 // Ear clipping (Meisters 1975): a corner is an ear if it is convex and its triangle contains no other corner. Cutting
 // an ear changes only its two neighbours, so each corner is tested about three times. Only corners that are not convex
 // can be inside an ear; they are kept in a tree of boxes over their Morton order, so that a test takes about √count
-// steps even for long thin ears, whatever the distribution of the corners is.
+// steps even for long thin ears, regardless of the distribution of the corners.
 //
 // Decisions are exact: the corners are projected along the largest axis of the polygon's normal and snapped to
 // integers, with 2^30 steps along the longer side (finer than a float), so that a cross product fits into 64 bits.

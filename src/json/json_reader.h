@@ -13,7 +13,7 @@
 struct json_reader {
     const char *file; // the file's name for messages
     lam_error
-        *error; // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if there is a text
+        *error; // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if `text` is set
     const char *text; // the file's text, of `size` bytes; if NULL, errors name no line
     size_t size;
 };

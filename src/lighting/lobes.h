@@ -327,8 +327,9 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 
 // --- C only: the GLSL text ends here (src/glsl/embed.py).
 
-// The numbers of a material that lobes read. They have the same names in lam_material, its table of fields and shaders. A number
-// that only lobes read has the columns of its lam_field here; src/scene/fields/material_fields.c makes its row of them.
+// The numbers of a material that lobes read. They have the same names in lam_material, its table of fields and shaders.
+// A number that only lobes read has the columns of its lam_field here; src/scene/fields/material_fields.c makes its row
+// of them.
 // clang-format off
 #define LOBE_PARAMETERS(X) \
     X(shininess) \

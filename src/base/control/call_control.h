@@ -10,7 +10,8 @@ struct call_control {
     uint64_t memory_used; // accessed atomically
     int over_memory;      // set when the memory budget has refused a request
     int over_expansion;   // set when the budget derived from the file sizes has refused a request
-    // The latest request that a budget refused: the bytes in use, the bytes requested and the limit. Accessed atomically.
+    // The latest request that a budget refused: the bytes in use, the bytes requested and the limit. Accessed
+    // atomically.
     uint64_t refused_used, refused_bytes, refused_limit;
     // The number of bytes in all files read so far, accessed atomically. 0 means that no files were read, and that no
     // limit is derived from them.

@@ -6,7 +6,8 @@
 //
 //
 // As in lanes.h, only + − × ÷ and comparisons are used, each correctly rounded, so every width gives the same bits.
-// (Vectors twice as wide as the registers would not have to be divided, but compilers split their comparisons into scalar ones.)
+// (Vectors twice as wide as the registers would not have to be divided, but compilers split their comparisons into
+// scalar ones.)
 #ifndef DOUBLE_LANES_H
 #define DOUBLE_LANES_H
 

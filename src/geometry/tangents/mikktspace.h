@@ -4,8 +4,8 @@
 // to it:
 //
 //
-// 1. Corners with the same position, normal and texture coordinates are welded, whatever their indices are.
-// 2. A triangle has the direction ∂p/∂s and an orientation, the sign of its area in the texture. A triangle without
+// 1. Corners with the same position, normal and texture coordinates are welded, regardless of their indices. 2. A
+// triangle has the direction ∂p/∂s and an orientation, the sign of its area in the texture. A triangle without
 //    them (its texture coordinates span no area) adds to no sum and joins its neighbours' groups.
 // 3. Around a welded corner, the triangles that are connected by shared edges and have the same orientation form a
 //    group.

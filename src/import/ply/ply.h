@@ -1,6 +1,5 @@
 // ply.h: internals of the PLY importer.
 //
-//
 //  ply.c            reads the elements in order and builds the mesh
 //  ply_header.c     the header: elements and their properties
 //  ply_binary.c     rows of an element of a binary file, as a ply_table

@@ -178,7 +178,8 @@ int interpretations_list(const struct run *r, struct interpretation out[MAX_INTE
     return count;
 }
 
-// Returns whether a fault concerns neither colours and strengths, which the factors include, nor alpha, which does not matter.
+// Returns whether a fault concerns neither colours and strengths, which the factors include, nor alpha, which does not
+// matter.
 static bool is_geometric(const struct fault *row)
 {
     static const enum fault_bit others[] = {BIT_KD_KS_SWAPPED,

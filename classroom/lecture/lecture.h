@@ -21,7 +21,8 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
 
 // --- parts of the text that GLSL and C share (lecture.c)
 
-// Adds the flags of both texts: the flags of every shader (known_facts), and the conditions of the lecture style's lines.
+// Adds the flags of both texts: the flags of every shader (known_facts), and the conditions of the lecture style's
+// lines.
 void lecture_add_flags(struct known_table *table, const struct glsl_facts *facts);
 // Appends the vector from the point to light i: `against` for directional lights, `towards` for the others.
 void lecture_add_way(struct text *text, const struct glsl_choices *choices, const char *against, const char *towards);

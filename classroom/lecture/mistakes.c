@@ -1,5 +1,6 @@
-// mistakes.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most occur in lectures and tutorials
-// (docs/mistakes.md). `lambent check` explains each under the same id (classroom/check/diagnose/faults/fault_table.c).
+// mistakes.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most occur in lectures and
+// tutorials (docs/mistakes.md). `lambent check` explains each under the same id
+// (classroom/check/diagnose/faults/fault_table.c).
 #include <lambent/shader.h>
 
 #include "fail.h"
@@ -65,7 +66,7 @@ static const struct mistake mistakes[] = {
      {{NORMAL, "normal"}}},
     {"normal-object-space", NULL, NULL, {{C_NORMAL, "vector(normal)"}}},
     {"normal-clip-space",
-     "Light and highlight are in the wrong position, and slide over the object when the camera moves.",
+     "The lighting and the highlights are in the wrong position, and slide over the object when the camera moves.",
      NULL,
      {{NORMAL, "mat3(model_view_projection) * normal"}}},
     {"normal-as-point",
@@ -139,7 +140,7 @@ static const struct mistake mistakes[] = {
     {"half-not-unit", "The highlight is blown out, and many times too large.", BLINN, {{"normalize(L + V)", "L + V"}}},
     {"half-not-unit", NULL, NULL, {{C_HALF, "add(L, V)"}}},
     {"half-is-mean",
-     "The highlight is dim or missing, most visibly if the directions to light and eye differ greatly.",
+     "The highlight is dim or missing, most visibly if the directions to the light and to the eye differ greatly.",
      BLINN,
      {{"normalize(L + V)", "(L + V) / 2.0"}}},
     {"half-is-mean", NULL, NULL, {{C_HALF, "scale(0.5, add(L, V))"}}},

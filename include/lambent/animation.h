@@ -26,8 +26,8 @@ typedef struct lam_animation_params {
 LAM_API const char *lam_animation_format(const char *path);
 
 // Begins an animation of pictures of width × height pixels in one of these formats. `params` may be NULL; it is copied.
-// The caller frees the animation. Returns NULL on failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (another format; WebP
-// without libwebp or libwebpmux), LAM_LIMIT.
+// The caller frees the animation. Returns NULL on failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (another format; WebP if
+// libwebp or libwebpmux is missing), LAM_LIMIT.
 LAM_API lam_animation *lam_animation_make(const char *format, int width, int height, const lam_animation_params *params,
                                           lam_error *error);
 

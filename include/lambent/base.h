@@ -154,7 +154,8 @@ typedef struct lam_rgb {
     float r, g, b;
 } lam_rgb;
 
-// A colour with its alpha: 0 is clear, 1 opaque. The colour is not premultiplied unless its description states otherwise.
+// A colour with its alpha: 0 is clear, 1 opaque. The colour is not premultiplied unless its description states
+// otherwise.
 typedef struct lam_rgba {
     float r, g, b, a;
 } lam_rgba;

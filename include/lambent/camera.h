@@ -122,8 +122,8 @@ LAM_API lam_camera lam_orbit_camera(const lam_orbit *orbit);
 // height to the right and π dy / height up. Numbers that are not finite are ignored, here and below.
 LAM_API void lam_orbit_turn(lam_orbit *orbit, double right_rad, double up_rad);
 
-// Moves eye and target in the plane of the picture, in heights of the picture at the target's distance: a drag by dx, dy pixels is
-// −dx / height to the right and dy / height up.
+// Moves eye and target in the plane of the picture, in heights of the picture at the target's distance: a drag by dx,
+// dy pixels is −dx / height to the right and dy / height up.
 LAM_API void lam_orbit_pan(lam_orbit *orbit, double right, double up);
 
 // Shows the target `factor` times as large, > 0: moves the eye closer, or narrows the view of an orthographic camera.
@@ -136,7 +136,8 @@ LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 //   up=x/y/z      default: the scene's up axis
 //   fovy=degrees  default: 30; or ortho=height, half the height of an orthographic view in model units
 //   near=d,far=d  default: fitted to the scene
-// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. Fails with LAM_BAD_ARGUMENT; the error states what was found and what was expected.
+// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. Fails with
+// LAM_BAD_ARGUMENT; the error states what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
 // Returns the keys of lam_camera_parse, from 0, or NULL if the index is out of range.

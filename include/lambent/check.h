@@ -132,7 +132,7 @@ typedef struct lam_check_program {
     int input_count;                       // of `inputs`
     bool refused_vertex, refused_fragment; // which of the shaders do not compile
     char vertex_log[4096];                 // the compiler's messages; ""
-    char fragment_log[4096];               // likewise
+    char fragment_log[4096];               // the same for the fragment shader
     char link_log[4096];                   // the linker's messages
     LAM_RESERVED(4);
 } lam_check_program;

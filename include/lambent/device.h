@@ -137,7 +137,7 @@ typedef enum lam_output {
     // materials as they are here; LAM_REFLECTION_GGX converts classic ones. 8-bit code: sRGB-encoded.
     LAM_OUTPUT_BASE_COLOR,
     LAM_OUTPUT_ROUGHNESS, // of lit physical materials, as given; otherwise 0
-    LAM_OUTPUT_METALLIC,  // likewise
+    LAM_OUTPUT_METALLIC,  // the same for the metallic share
     LAM_OUTPUT_OCCLUSION, // factor of the occlusion map; 1: no map
     // Level of detail of the diffuse map, or else of the material's first map; 0: no map. A level below 0 means
     // magnification; without a footprint it is -50. 8-bit code: level / 10.
@@ -318,8 +318,8 @@ typedef struct lam_draw_params {
     // Shadow rays start on the flat triangles. By default they start on the curved surface defined by the vertex
     // normals; otherwise the terminator of a coarse smooth mesh shows its triangles.
     bool flat_terminator;
-    // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 112. Above 48, points in full light or
-    // full shadow get 48 rays.
+    // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 112. Above 48, points in full
+    // light or full shadow get 48 rays.
     int shadow_samples;
     lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
     // The largest distance at which surfaces occlude, relative to half the diagonal of the scene's box, in (0, 10]. 0:

@@ -143,8 +143,8 @@ typedef struct lam_explained_point {
     lam_rgb emission, ambient, diffuse, specular, reflection;
     lam_rgb sum;    // emission + ambient + diffuse + specular + reflection
     lam_rgb result; // the sum; clamped to 0…1 with gl1, flat and Gouraud
-    // The split sum of a physical material under an environment; otherwise, and with `reference`, all zero. It adds to the
-    // diffuse and to the specular term
+    // The split sum of a physical material under an environment; otherwise, and with `reference`, all zero. It adds to
+    // the diffuse and to the specular term
     //    kd ⊙ irradiance (1 − (0.04 scale + bias))        prefiltered ⊙ (f0 scale + bias)
     // with the mix of dielectric and metal and the multiple scattering of the lights' Fresnel factor.
     float environment_roughness;

@@ -21,8 +21,8 @@ typedef struct lam_export_params {
     const lam_camera *camera;
     // A preview picture to store in the file (8 bits; only GLB: asset.thumbnail of the draft of glTF 2.1). NULL: none.
     const lam_image *thumbnail;
-    // Limits of memory and time, and the flag that cancels the export; memory includes the files. Files that the scene was read from limit the
-    // memory too (expansion_limit). NULL: no limits.
+    // Limits of memory and time, and the flag that cancels the export; memory includes the files. Files that the scene
+    // was read from limit the memory too (expansion_limit). NULL: no limits.
     const lam_control *control;
     LAM_RESERVED(4);
 } lam_export_params;

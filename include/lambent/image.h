@@ -90,10 +90,10 @@ LAM_API bool lam_bytes_save(const lam_bytes *bytes, const char *path, lam_error 
 LAM_API bool lam_bytes_save_durably(const lam_bytes *bytes, const char *path, lam_error *error);
 
 // Encodes a picture. `format` is "png", "ppm", "jpg" ("jpeg") or "webp" (from 8-bit formats), "pfm" (from floats; RGB,
-// linear, bottom row first) or "exr" (from floats; 32 bits). "webp" and "exr" fail with LAM_UNSUPPORTED without libwebp
-// and OpenEXR. The same picture always gives the same bytes; for "jpg", "webp" and "exr" they depend on the version of
-// the library. WebP allows at most 16383 pixels on a side (LAM_LIMIT). `params` may be NULL. Errors: LAM_BAD_ARGUMENT
-// (an 8-bit picture for a float format, or the reverse), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
+// linear, bottom row first) or "exr" (from floats; 32 bits). "webp" and "exr" fail with LAM_UNSUPPORTED if libwebp or
+// OpenEXR is missing. The same picture always gives the same bytes; for "jpg", "webp" and "exr" they depend on the
+// version of the library. WebP allows at most 16383 pixels on a side (LAM_LIMIT). `params` may be NULL. Errors:
+// LAM_BAD_ARGUMENT (an 8-bit picture for a float format, or the reverse), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
 LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params, lam_bytes *out,
                               lam_error *error);
 
@@ -129,9 +129,9 @@ LAM_API const char *lam_image_format_name(int format);
 LAM_API const char *lam_image_format_alias(int format);
 LAM_API const char *lam_image_format_written(int format);
 
-// Reads a picture. PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED without libwebp), BMP, TGA and binary
-// PPM become LAM_RGBA8: 16 bits are cut to 8, grey and palettes become RGB. PFM, EXR (scanlines; the first part) and
-// Radiance (.hdr) become LAM_RGBA32F. Alpha is 1 if the file has none. The content determines the format; for a TGA
+// Reads a picture. PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED if libwebp is missing), BMP, TGA and
+// binary PPM become LAM_RGBA8: 16 bits are cut to 8, grey and palettes become RGB. PFM, EXR (scanlines; the first part)
+// and Radiance (.hdr) become LAM_RGBA32F. Alpha is 1 if the file has none. The content determines the format; for a TGA
 // with an invalid header, the extension does. `path` is a regular file, or "-" for standard input. The call ignores the
 // previous contents of `image` and does not free them; on failure it zeroes the struct. `control` may be NULL; its
 // memory limit counts the file and the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535,
@@ -145,8 +145,9 @@ LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color
                                    lam_error *error);
 
 // Returns whether the file at `path` states that Lambent wrote it: PNG by the text "Software: lambent", PPM by the
-// comment "# lambent" in its second line, JPEG by the comment "lambent". Returns false for PFM and WebP, which cannot store such a comment, and for a file that does not exist, is not regular or is not readable. Only the beginning of the
-// file is read.
+// comment "# lambent" in its second line, JPEG by the comment "lambent". Returns false for PFM and WebP, which cannot
+// store such a comment, and for a file that does not exist, is not regular or is not readable. Only the beginning of
+// the file is read.
 LAM_API bool lam_image_is_from_lambent(const char *path);
 
 // The difference of two pictures of the same size and format, over red, green, blue and alpha (1 in formats without

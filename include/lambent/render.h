@@ -59,9 +59,9 @@ LAM_API bool lam_render(const char *model, const lam_render_params *params, lam_
 // black although its surfaces are not black. `params` contains the exposure that suits the lights (lam_exposure_fit).
 // The call then sets the environment "studio", sets params->exposure to LAM_STUDIO_FILL_EXPOSURE, scales the lights so
 // that they stay as bright in the picture, or dimmer if more than a quarter of the lit pixels would be brighter than
-// their surface, and adds a warning to the scene. *light_scale is the factor of the lights, or 0 if nothing was changed.
-// The call changes nothing if the scene has an environment, if the reflection model ignores environments, and for
-// outputs other than the picture. It draws two pictures of at most 96 pixels. Errors as lam_draw.
+// their surface, and adds a warning to the scene. *light_scale is the factor of the lights, or 0 if nothing was
+// changed. The call changes nothing if the scene has an environment, if the reflection model ignores environments, and
+// for outputs other than the picture. It draws two pictures of at most 96 pixels. Errors as lam_draw.
 LAM_API bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *camera, lam_draw_params *params,
                              int width, int height, const lam_control *control, double *light_scale, lam_error *error);
 

@@ -37,7 +37,7 @@ typedef struct lam_light_text_params {
     LAM_RESERVED(8);
 } lam_light_text_params;
 
-// Adds a light to a scene as a text says, such as "spot:position=-2r/3r/2r,cutoff=20,color=#ffeecc":
+// Adds a light to a scene as described by text such as "spot:position=-2r/3r/2r,cutoff=20,color=#ffeecc":
 //  ambient, hemisphere, point, directional or spot, then after ':' the keys of scene files (lam_light_field), and
 //  target=x/y/z           the point that it shines at; for a spot without a direction, the centre of the scene
 //  position=x/y/z/w       w = 0: a directional light from there

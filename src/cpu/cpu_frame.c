@@ -219,8 +219,8 @@ static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, l
     return light_bounds_make(&memory->light_bounds, &memory->lights, frame, cpu->shade.materials, cpu->call, error);
 }
 
-// Lists memory that nothing uses while occlusion is computed: the transformed vertices, if fragments are stored, and the
-// picture, which is not drawn yet.
+// Lists memory that nothing uses while occlusion is computed: the transformed vertices, if fragments are stored, and
+// the picture, which is not drawn yet.
 static int lend_memory(const struct cpu_frame *cpu, const struct frame_memory *memory, struct scratch_memory lent[2])
 {
     const lam_image *image = cpu->target.image;

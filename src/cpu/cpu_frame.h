@@ -1,7 +1,6 @@
 // cpu_frame.h: one frame of the CPU device, and the state of a thread. Only the functions that call the steps see it; a
 // step receives the parts that it reads and writes (kernels.h).
 //
-//
 //  vertices   positions → pixel x, y and depth key of shared vertices     vertex_transform.inc
 //  triangles  index triples, or positions → tile bins                     bin_triangles.inc, corners.inc, clip.c
 //  tiles      bins → depth key and triangle number of every sample        cover*.inc, occlusion.inc

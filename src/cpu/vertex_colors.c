@@ -1,4 +1,4 @@
-// vertex_colors.c: allocates only the memory for lighting vertices.
+// vertex_colors.c: lights the vertices of a frame, and allocates only the memory that this needs.
 #include "vertex_colors.h"
 
 #include "isa.h"

@@ -15,7 +15,7 @@ struct vertex_run {
     uint32_t range, first, count;
     bool back, shared;
     // The light that a diffuse map does not multiply is stored separately, without the emission if an emission map
-    // multiplies that.
+    // multiplies the emission.
     bool separate_texture_terms, has_emission_map;
 };
 

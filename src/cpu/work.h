@@ -1,5 +1,5 @@
-// work.h: counts the work of a frame that grows with the layers, lights and opaque surfaces over a pixel, so that a
-// small file cannot cause hours of drawing, and stops it if the call must end.
+// work.h: counts the part of a frame's work that grows with the layers, lights and opaque surfaces over a pixel, so
+// that a small file cannot cause hours of drawing. It also stops the frame if the call must stop.
 #ifndef WORK_H
 #define WORK_H
 

@@ -21,7 +21,8 @@ struct cover_job {
     struct edge_memory *memory;
     const struct frame *frame;
     struct loop_status loop;
-    // The strokes that may touch each band of rows. Band b begins at ends[b − 1], or 0 for the first, and ends at ends[b].
+    // The strokes that may touch each band of rows. Band b begins at ends[b − 1], or 0 for the first, and ends at
+    // ends[b].
     const struct edge_stroke **strokes;
     size_t ends[BANDS_MAX];
 };

@@ -36,12 +36,13 @@ struct edge_counts {
     uint64_t drawn, rays;
 };
 
-// Finds the lines of a frame with draws_edges, and their coverage of its pixels. `hierarchy` belongs to the frame.
-// `lanes` is the maximum for the rays.
+// Finds the lines of a frame whose draws_edges is set, and how much of each pixel they cover. `hierarchy` belongs to
+// the frame. `lanes` is the maximum for the rays.
 bool edges_find(struct edge_memory *memory, const struct frame *frame, const struct hierarchy *hierarchy, int lanes,
                 struct pool *pool, struct call_control *call, struct edge_counts *counts, lam_error *error);
 
-// Blends the lines over the picture of the same frame, of any format, in linear light, the wireframe first.
+// Blends the lines over the picture of the same frame in linear light, the wireframe first. The picture may have any
+// format.
 void edges_blend(const struct edge_memory *memory, const struct frame *frame, lam_image *image, struct pool *pool);
 
 void edges_free(struct edge_memory *memory);

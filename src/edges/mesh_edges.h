@@ -23,8 +23,8 @@ struct mesh_edge {
 static inline uint32_t edge_end(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
 // Lists the edges of a mesh in `edges`, which has space for three per triangle, and returns their number. Corners at
-// the same position are the same corner, whatever their indices are. Triangles with two equal corners have no edges.
-// Sets *failed and fills `error` if memory runs out or the call must end.
+// the same position are the same corner, regardless of their indices. Triangles with two equal corners have no edges.
+// Sets *failed and fills `error` if memory runs out or the call must stop.
 uint32_t mesh_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct call_control *call, bool *failed,
                     lam_error *error);
 

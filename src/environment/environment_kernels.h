@@ -31,8 +31,8 @@ struct environment_kernels {
     // sums of other cells (may be NULL).
     void (*prefilter_row)(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t);
-    // Computes such a row from all texels of a small copy. If `alpha` is below 0, the row contains the irradiance.
-    // Otherwise it contains GGX's lobe with alpha = roughness².
+    // Computes row t of a face of `out` from all texels of a small copy. If `alpha` is below 0, the row contains the
+    // irradiance. Otherwise it contains GGX's lobe with alpha = roughness².
     void (*cube_sums_row)(const struct cube_sums *sums, double alpha, struct lam_environment *out, int face, int t);
 };
 

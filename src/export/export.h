@@ -38,7 +38,7 @@ struct exporting {
     lam_mesh flat[EXPORT_KINDS];
     struct text text;          // the model's file
     struct call_control *call; // NULL if there is none
-    bool stopped;              // the call must end, and the result is incomplete
+    bool stopped;              // the call must stop, and the result is incomplete
     lam_error *error;
 };
 
@@ -83,7 +83,7 @@ void export_memory_free(struct exporting *e, void *memory, size_t bytes);
 bool export_asks(struct exporting *e);
 static inline bool export_continues(struct exporting *e, size_t item) { return item % 65536 || export_asks(e); }
 
-// Return false, with the error, if a loop was left early, or the text is incomplete.
+// Return false and fill the error if a loop ended early or the text is incomplete.
 bool export_is_whole(struct exporting *e);
 bool export_text_is_whole(struct exporting *e, const struct text *text);
 
@@ -94,7 +94,7 @@ bool export_flatten(struct exporting *e);
 void export_number(struct text *text,
                    double x); // with all digits of a float, or of a double if it is not exactly a float
 void export_word(struct text *text, uint32_t value); // little-endian
-void export_float(struct text *text, double x);      // likewise
+void export_float(struct text *text, double x);      // little-endian
 void export_floats(struct text *text, lam_vec3 p);
 void export_line(struct text *text, const char *word, const double *numbers, int count);
 lam_vec3 export_turned(const struct exporting *e, lam_vec3 p);

@@ -117,8 +117,8 @@ void export_lose_objects(struct exporting *e, const char *reason)
 
 // --- files
 
-// OBJ and MTL files name the files beside them without quotes: a name may not begin with a blank or like an option, nor contain a backslash, a
-// control character, or bytes that are not UTF-8. Such letters become _.
+// OBJ and MTL files name the files beside them without quotes: a name may not begin with a blank or like an option, nor
+// contain a backslash, a control character, or bytes that are not UTF-8. Such letters become _.
 static void make_nameable(char *stem)
 {
     if (*stem == ' ' || *stem == '-')

@@ -148,8 +148,8 @@ static bool is_opaque(const lam_material *m)
 
 static void put_alpha(struct glb *glb, json_t *object, const lam_material *m, bool classic)
 {
-    // Any classic material may use alpha blending. Viewers sort such surfaces in glTF files, so the file declares blending only
-    // if it is needed.
+    // Any classic material may use alpha blending. Viewers sort such surfaces in glTF files, so the file declares
+    // blending only if it is needed.
     bool blends = m->alpha_mode == LAM_ALPHA_BLEND && !(classic && is_opaque(m));
     if (blends || m->alpha_mode == LAM_ALPHA_MASK)
         glb_set(glb, object, "alphaMode", json_string(blends ? "BLEND" : "MASK"));

@@ -111,7 +111,8 @@ static size_t object_length(const char *name)
     return slash && slash[1] ? (size_t)(slash - name) : 0;
 }
 
-// Writes the name of a part after the part named `before` (may be NULL), such that the reader joins it again.
+// Writes the name of a part. If the part follows one named `before` (may be NULL), chooses the name so that a reader
+// joins the two names into the same object again.
 static void put_part_name(struct text *text, const char *name, const char *before)
 {
     size_t length = object_length(name);

@@ -305,8 +305,8 @@ static bool uses_physical(const struct frame *frame)
     return frame->settings.reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->settings.reflection);
 }
 
-// Sets the environment and the matrix from directions in eye space to the environment's axes: eye space to world space, the scene's up axis
-// to +Y (as the fitted camera), then the inverse of the environment's rotation.
+// Sets the environment and the matrix from directions in eye space to the environment's axes: eye space to world space,
+// the scene's up axis to +Y (as the fitted camera), then the inverse of the environment's rotation.
 static bool build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, lam_error *error)
 {
     bool lamp = wants_shadows(&frame->settings);

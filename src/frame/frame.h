@@ -307,8 +307,8 @@ static inline bool output_is_vector(lam_output output)
            output == LAM_OUTPUT_N_H;
 }
 
-// Builds the frame, and reuses its storage from the previous call. Errors: LAM_BAD_ARGUMENT (camera or parameters out of
-// range), LAM_LIMIT (memory, too many triangles).
+// Builds the frame, and reuses its storage from the previous call. Errors: LAM_BAD_ARGUMENT (camera or parameters out
+// of range), LAM_LIMIT (memory, too many triangles).
 bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
                  int width, int height, struct call_control *call, lam_error *error);
 void frame_free(struct frame *frame);

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The other end is in the upper half; the lower half is a number of the caller, such as the corner at which the edge
-// starts.
+// The upper half is the other end. The lower half is a number that the caller chooses, such as the corner at which the
+// edge starts.
 static inline uint64_t edge_key(uint32_t other_end, uint32_t number) { return (uint64_t)other_end << 32 | number; }
 
 static inline int compare_edge_keys(const void *a, const void *b)

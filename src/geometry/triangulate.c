@@ -3,7 +3,7 @@
 // Ear clipping (Meisters 1975): a corner is an ear if it is convex and its triangle contains no other corner. Cutting
 // an ear changes only its two neighbours, so each corner is tested about three times. Only corners that are not convex
 // can be inside an ear; they are kept in a tree of boxes over their Morton order, so that a test takes about √count
-// steps even for long thin ears, whatever the distribution of the corners is.
+// steps even for long thin ears, regardless of the distribution of the corners.
 //
 // Decisions are exact: the corners are projected along the largest axis of the polygon's normal and snapped to
 // integers, with 2^30 steps along the longer side (finer than a float), so that a cross product fits into 64 bits.
@@ -194,7 +194,7 @@ static uint64_t spread(uint32_t x)
 
 static uint64_t morton(const struct corner *c) { return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1; }
 
-// Sorts corner indices by Morton code: a stable radix sort by bytes of the code. Returns false if the call must end.
+// Sorts corner indices by Morton code: a stable radix sort by bytes of the code. Returns false if the call must stop.
 static bool sort_points(const struct corner *corners, uint32_t *points, uint32_t *extra, uint32_t count,
                         struct call_control *call)
 {
@@ -389,7 +389,7 @@ static void cut(struct clip *clip, uint32_t i)
     }
 }
 
-// Cuts off the corners one by one. Returns false if the call must end.
+// Cuts off the corners one by one. Returns false if the call must stop.
 static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *call, uint32_t *triples)
 {
     uint32_t left = count;

@@ -28,7 +28,7 @@ void triangulator_stop(struct triangulator *scratch);
 
 // Splits the polygon whose corner i is at positions[3·corners[i] …] (finite numbers), count ≥ 3, and writes count − 2
 // triples of corner numbers (0 … count − 1, valid for every attribute) to `triples`, wound like the polygon. Returns
-// false if memory runs out or the call must end (call_should_continue says which). It never fails for up to four
+// false if memory runs out or the call must stop (call_should_continue says which). It never fails for up to four
 // corners.
 bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
                  uint32_t *triples);

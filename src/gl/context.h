@@ -20,8 +20,8 @@ struct gl_platform {
 };
 enum { GL_PLATFORMS_MAX = 64 };
 
-// Lists the displays, hardware before software: the devices that EGL enumerates or, if there are none, Mesa's surfaceless
-// platform and the default display. Returns their number, at most GL_PLATFORMS_MAX.
+// Lists the displays, hardware before software: the devices that EGL enumerates or, if there are none, Mesa's
+// surfaceless platform and the default display. Returns their number, at most GL_PLATFORMS_MAX.
 int gl_platforms(const struct egl *egl, struct gl_platform *platforms);
 
 // Debug messages of the driver.
@@ -57,16 +57,16 @@ struct gl_previous_context {
 bool gl_context_open(struct gl_context *context, const struct egl *egl, const struct gl_platform *platform,
                      enum gl_profile profile, bool debug, lam_error *error);
 
-// Makes a context on the device that `device` names (lam_gl_params.device), or with NULL on the first usable device. The
-// struct must not move while the context collects messages.
+// Makes a context on the device that `device` names (lam_gl_params.device), or with NULL on the first usable device.
+// The struct must not move while the context collects messages.
 bool gl_context_make(struct gl_context *context, const char *library, const char *device, enum gl_profile profile,
                      bool debug, lam_error *error);
 
 // Wraps the caller's current context.
 bool gl_context_adopt(struct gl_context *context, lam_gl_get_proc *get, void *user, bool debug, lam_error *error);
 
-// Makes the context current on this thread; gl_context_leave restores the previous one. Both do nothing for the caller's
-// own context.
+// Makes the context current on this thread; gl_context_leave restores the previous one. Both do nothing for the
+// caller's own context.
 bool gl_context_enter(struct gl_context *context, struct gl_previous_context *previous, lam_error *error);
 void gl_context_leave(struct gl_context *context, const struct gl_previous_context *previous);
 

@@ -117,8 +117,8 @@ static bool same_materials(const struct frame_draw_range *a, const struct frame_
     return a->front == b->front && a->back == b->back && a->translucent == b->translucent;
 }
 
-// Appends the draw calls of one draw to f->draw_calls: one for all ranges with the same materials. If the ranges of a call
-// are not consecutive, fills device->runs and returns the number of runs, otherwise 0; −1 on failure.
+// Appends the draw calls of one draw to f->draw_calls: one for all ranges with the same materials. If the ranges of a
+// call are not consecutive, fills device->runs and returns the number of runs, otherwise 0; −1 on failure.
 static int add_draw_calls(struct gl_frame *f, const struct frame_draw_range *list, int count, lam_error *error)
 {
     const struct frame_draw *draw = &f->frame->draws[list->draw];

@@ -98,7 +98,7 @@ enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_
 
 // Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
 struct gl_vertex_lighting {
-    uint64_t key; // of all inputs of the colours in the buffer (gl_key_add); 0: none
+    uint64_t key; // hash of all inputs of the colours in the buffer (gl_key_add); 0: none
     // Referenced, because the key contains its address.
     struct lam_environment *environment;
     GLuint colors, array;
@@ -156,7 +156,7 @@ struct gl_light_buffer {
     bool texture;
     size_t size;        // bytes in use
     size_t capacity;    // bytes of a buffer, rows of a texture
-    uint64_t key;       // of the contents (gl_key_add)
+    uint64_t key;       // hash of the contents (gl_key_add)
     struct buffer next; // the contents of this frame
 };
 
@@ -189,8 +189,8 @@ struct gl_current_state {
 
 // The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
 struct gl_surfaces {
-    uint64_t key, next_key; // of all inputs of the texels in the texture, and for the current frame; 0: none
-    // of the current frame: the first record of each range; the positions of the textures
+    uint64_t key, next_key; // hashes of all inputs of the texels: of those in the texture, and for this frame; 0: none
+    // for the current frame: the first record of each range, and the positions of the textures
     struct buffer records, pixels;
 };
 
@@ -203,7 +203,7 @@ struct gl_device {
     bool hardware_filter; // lam_gl_params
     GLint block_size_max, block_alignment, texture_size_max;
     GLint unit_count;    // number of texture units of the fragment shader that are used, up to UNIT_COUNT
-    bool has_norm16;     // textures of 16 bits for 0…1
+    bool has_norm16;     // textures with 16-bit numbers for 0…1
     GLenum float_format; // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver supports no more
 
     struct gl_mesh *meshes;
@@ -347,7 +347,8 @@ void mesh_describe(struct gl_frame *f, const struct gl_mesh *mesh, GLuint array,
 // Returns the number of floats per vertex in the buffer.
 size_t mesh_vertex_floats(const lam_mesh *mesh);
 
-// --- gl_textures.c Uploads the textures that a program reads for a range. Until the frame ends, textures_use finds
+// --- gl_textures.c
+// Uploads the textures that a program reads for a range. Until the frame ends, textures_use finds
 // them there.
 bool textures_upload(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range,
                      lam_error *error);
@@ -392,7 +393,8 @@ bool environment_send(struct gl_frame *f, lam_error *error);
 bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
-// --- gl_surfaces.c Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
+// --- gl_surfaces.c
+// Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
 // has `most` texels. Sets *same to whether the texels and the hierarchy are the same as in the last packing. Fails with
 // LAM_LIMIT.
 bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
@@ -403,7 +405,8 @@ void surfaces_free(struct gl_device *device);
 // Returns the position of a triangle's record, by its number in the frame; 0 if it transmits no light.
 size_t surfaces_record(const struct gl_frame *f, uint32_t number);
 
-// --- gl_shadows.c Uploads the hierarchy of a frame with shadows, and the surfaces that transmit light. Fails with
+// --- gl_shadows.c
+// Uploads the hierarchy of a frame with shadows, and the surfaces that transmit light. Fails with
 // LAM_LIMIT if the texture would be too large.
 bool shadows_send(struct gl_frame *f, lam_error *error);
 // Sets the uniforms and textures for a program with shadows.
@@ -415,7 +418,8 @@ bool targets_make(struct gl_frame *f, int width, int height, bool layered, bool 
 bool targets_find_format(struct gl_device *device, lam_error *error);
 void targets_free(struct gl_device *device);
 
-// --- gl_passes.c Draws the part. The framebuffer with the result stays bound.
+// --- gl_passes.c
+// Draws the part. The framebuffer with the result stays bound.
 bool passes_draw(struct gl_frame *f, lam_error *error);
 
 // --- gl_readback.c

@@ -50,7 +50,8 @@ static void unit(float v[3])
         v[i] *= inverse;
 }
 
-// Computes the unit vector of (p1 − p0) × (p2 − p0). The edges are normalized first, because their product could underflow.
+// Computes the unit vector of (p1 − p0) × (p2 − p0). The edges are normalized first, because their product could
+// underflow.
 static void face_normal(const lam_mesh *mesh, uint32_t triangle, float out[3])
 {
     float edge[2][3];

@@ -194,7 +194,8 @@ static void add_tinted(struct gl_frame *f, const struct gl_target *from, bool la
 
 // --- passes
 
-// Peels the translucent surfaces, nearest first, and composites the layers over each other and over the opaque surfaces.
+// Peels the translucent surfaces, nearest first, and composites the layers over each other and over the opaque
+// surfaces.
 static bool draw_layers(struct gl_frame *f, lam_error *error)
 {
     const struct gl *gl = f->gl;

@@ -2,8 +2,8 @@
 //
 // Shaders read single texels and filter them (texture.glsl). Numbers in 0…1 are stored in 16 bits, with an error of
 // 2⁻¹⁷; others are stored as floats, and so are all numbers if an OpenGL ES driver lacks such a format. With
-// lam_gl_params.hardware_filter, 8-bit texels are not converted (colours remain sRGB-encoded), and sampler objects set wrapping
-// and filtering.
+// lam_gl_params.hardware_filter, 8-bit texels are not converted (colours remain sRGB-encoded), and sampler objects set
+// wrapping and filtering.
 #include "gl_device.h"
 
 #include "fail.h"

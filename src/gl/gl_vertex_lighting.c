@@ -1,5 +1,5 @@
-// gl_vertex_lighting.c: the stage `application`: the CPU lights the vertices (vertex_colors.h), and the front and back colours are
-// uploaded as attributes. A draw is lit again only if an input of its colours has changed.
+// gl_vertex_lighting.c: the stage `application`: the CPU lights the vertices (vertex_colors.h), and the front and back
+// colours are uploaded as attributes. A draw is lit again only if an input of its colours has changed.
 #include "gl_device.h"
 
 #include "fail.h"

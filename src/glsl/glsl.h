@@ -107,9 +107,9 @@ struct glsl_choices {
     int hemisphere_count;
 };
 
-// Sets the choices for a range of a frame, in zeroed memory that memcmp may compare. The caller sets version, storage, encoding and products. `environment` is
-// GLSL_FACES, or none if neither material is reflective. LAM_STAGE_AUTO means the vertex stage with Gouraud shading,
-// otherwise the fragment stage.
+// Sets the choices for a range of a frame, in zeroed memory that memcmp may compare. The caller sets version, storage,
+// encoding and products. `environment` is GLSL_FACES, or none if neither material is reflective. LAM_STAGE_AUTO means
+// the vertex stage with Gouraud shading, otherwise the fragment stage.
 void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
                  lam_stage stage);
 
@@ -132,7 +132,8 @@ struct glsl_text {
 struct glsl_facts;
 struct text;
 struct glsl_style {
-    // Returns whether the style supports these choices. Otherwise fails with LAM_UNSUPPORTED and the unsupported option.
+    // Returns whether the style supports these choices. Otherwise fails with LAM_UNSUPPORTED and the unsupported
+    // option.
     bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
     // Appends a stage after its version and its uniforms.
     void (*add_stage)(struct text *text, const struct glsl_facts *stage);

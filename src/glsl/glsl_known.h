@@ -17,7 +17,7 @@ struct known_table {
 void known_flag(struct known_table *table, const char *name, bool holds);
 void known_text(struct known_table *table, const char *name, const char *text);
 void known_number(struct known_table *table, const char *name, int number);
-// Adds a text that the caller writes.
+// Adds an empty text for a name, and returns it; the caller then writes it.
 struct text *known_made(struct known_table *table, const char *name);
 // Appends a source, specialised by the table, and frees the table.
 void known_specialize(struct text *text, const char *source, struct known_table *table);

@@ -1,4 +1,5 @@
-// glsl_maps.c: the maps of a shader: the choices about them, the maps that it reads, and the words of maps.glsl, which computes their values.
+// glsl_maps.c: the maps of a shader: the choices about them, the maps that it reads, and the words of maps.glsl, which
+// computes their values.
 #include "fail.h"
 #include "glsl_rows.h"
 #include "maps.inc"

@@ -87,7 +87,7 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
     X(needs_vertex_color) /* the fragment shader does */ \
     /* of the material */ \
     X(highlights) /* the reflection model has a highlight */ \
-    X(microfacet) /* Fresnel's factor colours it */ \
+    X(microfacet) /* the Fresnel factor colours it */ \
     X(layered) /* layers lie over the surface */ \
     X(has_clearcoat) X(has_anisotropy) \
     X(widens_roughness) /* by the variance of normals */ \

@@ -22,7 +22,8 @@ struct codec {
     // One line for lists about the stored numbers. NULL means this format is only read, and `write` is NULL too.
     const char *written;
     lam_pixel_format pixels;
-    // Its files have no signature, so it is tried after all others, by the file extension.
+    // Whether files of this format have no signature. The format is then tried after all others, and recognised by the
+    // file extension.
     bool unmarked;
 
     // Encodes a picture of valid size and pixel format into memory from malloc. `params` is never NULL; `pool` may be
@@ -33,7 +34,8 @@ struct codec {
     // Returns whether a file that starts with these bytes has this format.
     bool (*probe)(const uint8_t *bytes, size_t size);
 
-    // Decodes a file into `image`, which is empty and remains empty on failure. picture_make allocates the pixels; rows are decoded one at a time while picture_continues returns true.
+    // Decodes a file into `image`, which is empty and remains empty on failure. picture_make allocates the pixels; rows
+    // are decoded one at a time while picture_continues returns true.
     bool (*read)(const struct picture_file *file, lam_image *image, lam_error *error);
 
     // Decodes without loss of precision. With more than 8 bits per channel, `image` becomes LAM_RGBA32F with the file's

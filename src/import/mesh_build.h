@@ -4,8 +4,8 @@
 
 #include "importer.h"
 
-// A face with more than three corners. Its `count` corners are stored from corner 3 * first_triangle, in the range of its
-// triangles, until mesh_triangulate splits it.
+// A face with more than three corners. Its `count` corners are stored from corner 3 * first_triangle, in the range of
+// its triangles, until mesh_triangulate splits it.
 struct mesh_polygon {
     uint32_t first_triangle, count;
 };

@@ -12,8 +12,8 @@
 
 struct json_reader {
     const char *file; // the file's name for messages
-    lam_error
-        *error; // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if there is a text
+    // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if `text` is set
+    lam_error *error;
     const char *text; // the file's text, of `size` bytes; if NULL, errors name no line
     size_t size;
 };

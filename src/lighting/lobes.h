@@ -327,8 +327,9 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 
 // --- C only: the GLSL text ends here (src/glsl/embed.py).
 
-// The numbers of a material that lobes read. They have the same names in lam_material, its table of fields and shaders. A number
-// that only lobes read has the columns of its lam_field here; src/scene/fields/material_fields.c makes its row of them.
+// The numbers of a material that lobes read. They have the same names in lam_material, its table of fields and shaders.
+// A number that only lobes read has the columns of its lam_field here; src/scene/fields/material_fields.c makes its row
+// of them.
 // clang-format off
 #define LOBE_PARAMETERS(X) \
     X(shininess) \
@@ -348,7 +349,7 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 //     the enumerator without LAM_REFLECTION_
 //     the call: `s` is the surface, `l` the direction to the light, `m` the material's lobe_parameters
 //     properties: LOBE_HIGHLIGHT   S is not 0: the lobe returns the base of a power
-//                 LOBE_MICROFACET  the base is S itself, and Fresnel's factor colours it (fresnel_of)
+//                 LOBE_MICROFACET  the base is S itself, and the Fresnel factor colours it (fresnel_of)
 //                 LOBE_TANGENT     it reads the surface's tangent
 //                 LOBE_BACKLIT     light from behind (n.l < 0) counts
 //                 LOBE_BACKLIT_FIBRE   it counts where the material is a fibre

@@ -90,7 +90,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     // The importer that matches the name reports the clearest error.
     if (by_content && by_content == by_ending)
         return by_content;
-    // Recognise other kinds of files by their content, whatever their name is.
+    // Recognise other kinds of files by their content, regardless of their name.
     const struct unsupported_format *foreign = unsupported_format_of(file->data, file->size);
     if (!foreign && !by_ending)
         foreign = unsupported_format_named(ending);

@@ -27,7 +27,8 @@ static void empty_chunk(void *user, size_t index, int thread)
         emptying->at[i] = SCREEN_EMPTY;
 }
 
-// Finds memory for the planes of cells in the lent blocks. Returns how many planes did not fit; their pointers are NULL.
+// Finds memory for the planes of cells in the lent blocks. Returns how many planes did not fit; their pointers are
+// NULL.
 static int place_planes(float *planes[CELL_PLANES], int count, size_t bytes, struct scratch_memory *lent,
                         int lent_count)
 {
@@ -96,7 +97,8 @@ static void fill_beside(const struct screen_occlusion *o, float *plane, int y, f
         row[x] = value;
 }
 
-// Outside the cells, filters read arbitrary numbers with weight 0 and no surface.
+// Filters also read beside the cells. This function stores 0 there, and marks the depth as containing no surface, which
+// gives the values the weight 0.
 static void fill_rows_beside(const struct screen_occlusion *o, int first, int end)
 {
     for (int y = first; y < end; y++) {

@@ -79,8 +79,8 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
     return seen && (dx * dx + dy * dy) + dz * dz < end * end ? depth : SCREEN_EMPTY;
 }
 
-// Initialises a picture's rows in `storage` without any surface, using the threads of `pool` (may be NULL). `lent` lists
-// blocks of memory that nothing else uses during screen_occlusion_find; they store the rows of cells that fit.
+// Initialises a picture's rows in `storage` without any surface, using the threads of `pool` (may be NULL). `lent`
+// lists blocks of memory that nothing else uses during screen_occlusion_find; they store the rows of cells that fit.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory *lent,
                             int lent_count, struct buffer *storage, struct pool *pool, struct call_control *call,
                             lam_error *error);
@@ -96,7 +96,7 @@ struct occlusion_kernels {
     void (*pixel_rows)(const struct screen_occlusion *occlusion, int first, int end);
 };
 
-// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL). If the call must end, it stops with
+// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL). If the call must stop, it stops with
 // incomplete results.
 void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occlusion_kernels *kernels,
                            struct pool *pool, struct call_control *call);

@@ -39,8 +39,8 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Returns the ratio of a pixel's luminance to its surface's luminance that a quarter of the lit pixels exceed, or 0 if none
-// is lit. The pixels of `lit` are overwritten.
+// Returns the ratio of a pixel's luminance to its surface's luminance that a quarter of the lit pixels exceed, or 0 if
+// none is lit. The pixels of `lit` are overwritten.
 static double lit_ratio(const lam_image *lit, const lam_image *surfaces)
 {
     float *ratios = lit->pixels;

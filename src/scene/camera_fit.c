@@ -75,8 +75,8 @@ static lam_camera fit_orthographic(const struct fitting *fitting, const struct v
 //
 //  k = (x_R − x_L) / (2ez − z_R − z_L)
 //
-// The first step therefore ends at the root or to its left, and further steps only increase k. When k no longer increases, the root is
-// found. The position of the scene does not affect the numbers.
+// The first step therefore ends at the root or to its left, and further steps only increase k. When k no longer
+// increases, the root is found. The position of the scene does not affect the numbers.
 static void centre_axis(const struct view_points *points, bool horizontal, double ez, struct view_extents *extents)
 {
     double k = horizontal ? extents->kx : extents->ky;
@@ -102,8 +102,8 @@ static void centre_axis(const struct view_points *points, bool horizontal, doubl
 //
 //  ex = (R − L)/2,   ez = (R + L)/(2k)
 //
-// The result is exact and takes one pass over the points. The axis with the larger ez determines the distance. The other
-// axis is centred with the smaller k at which it would touch the frame at this ez.
+// The result is exact and takes one pass over the points. The axis with the larger ez determines the distance. The
+// other axis is centred with the smaller k at which it would touch the frame at this ez.
 static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;

@@ -63,8 +63,8 @@ bool scene_is_terrain(const struct lam_scene *scene)
     return facing > FACING * all && facing < LEVEL * all;
 }
 
-// Places the studio's lights as cartographers shade relief: the key light grazes the surface from the left, and there is
-// no light from behind, which would light all slopes alike. Slopes that face right get the fill light.
+// Places the studio's lights as cartographers shade relief: the key light grazes the surface from the left, and there
+// is no light from behind, which would light all slopes alike. Slopes that face right get the fill light.
 int rig_light_from_side(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0].position = v3(-2.7, 0.8, 1.2);

@@ -25,7 +25,7 @@ struct implicit {
     struct call_control *call;
     int value_cost, gradient_cost; // cost of one evaluation, in operations such as a sum
     int operations;                // operations since the last check of the call's limits
-    bool ended;                    // the call must end: f is NaN from now on, which means outside
+    bool ended;                    // the call must stop: f is NaN from now on, which means outside
     double from[3], to[3];
     bool given[3]; // whether the range of an axis was given
 };

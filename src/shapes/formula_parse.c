@@ -1,7 +1,6 @@
 // formula_parse.c: parses the text of a formula, "a = 2; x = …; y = …; z = …" or "a = 2; x^2 + … - a", by recursive
 // descent.
 //
-//
 //  text      = [ statement ] { (";" | newline) [ statement ] }
 //  statement = name "=" sum | sum [ "=" sum ]               the latter once, last, and only for an implicit surface
 //  sum       = product { ("+" | "-") product }
@@ -10,7 +9,6 @@
 //  factor    = number factor-without-a-number | power       2pi is 2·pi, with the precedence of a product
 //  power     = primary [ "^" { "-" | "+" } power ]          from the right: 2^3^2 is 2^9, -2^2 is -4
 //  primary   = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
-//
 //
 // After "/" and "^", a number with a factor after it is an error, because 1/2pi is ambiguous.
 #include "formula.h"

@@ -33,7 +33,7 @@ bool word_field(const lam_field *field, const char *value, lam_color_mode mode, 
 // Sets a field to numbers from word_field.
 void word_set_field(const lam_field *field, void *object, const double numbers[4]);
 
-// Parses a number of the key `key` from `min` to `max`; a `max` of 1e29 or more means no limit.
+// Parses the number of the key `key`, which must be within `min` and `max`; a `max` of 1e29 or more means no limit.
 bool word_number_of(const char *key, const char *value, double min, double max, double *number, lam_error *error);
 
 #endif

@@ -96,7 +96,7 @@ static void compare(const struct points *p, const struct modes *m, int i)
     }
 }
 
-// Environment light: the split sum and Fresnel's factor, with the light between microfacets.
+// Environment light: the split sum and the Fresnel factor, with the light between microfacets.
 static void test_environment_light(void **state)
 {
     (void)state;

@@ -69,7 +69,7 @@ enum output {
 };
 
 // The environment's light on a metallic-roughness material: IN_TINT is the base colour, IN_SKY the irradiance ÷ π,
-// IN_GROUND the prefiltered light, and a light at IN_POSITION gives Fresnel's factor.
+// IN_GROUND the prefiltered light, and a light at IN_POSITION gives the Fresnel factor.
 enum environment_output {
     OUT_FRESNEL,         // with the light between microfacets
     OUT_SPLIT_SUM = 3,   // likewise

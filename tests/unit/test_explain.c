@@ -160,7 +160,7 @@ static bool is_plain(const lam_explained_fragment *f)
 static void check_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p,
                         const lam_environment *environment)
 {
-    // Other tests (textures, split-sum) cover the effect of maps and Fresnel's factor on the products of a point; the
+    // Other tests (textures, split-sum) cover the effect of maps and the Fresnel factor on the products of a point; the
     // sum of the terms holds for every material.
     bool plain = is_plain(f);
     if (plain)

@@ -24,8 +24,8 @@ void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 // tabs, or one that changes the direction of the text after it. Returns 0 for any other character.
 size_t text_hidden(const char *text);
 
-// Prints a file's name, in one line: "\\" for a backslash, "\n" for a line end, "\r" for a carriage return, and "?" for a character
-// that is not seen.
+// Prints a file's name, in one line: "\\" for a backslash, "\n" for a line end, "\r" for a carriage return, and "?" for
+// an invisible character.
 void print_name(FILE *out, const char *name);
 
 // Fills an error with a printf-like sentence and returns false.

@@ -287,7 +287,7 @@ static void join(const char *const *words, int count, char line[512])
         snprintf(line + strlen(line), 512 - strlen(line), "%s%s", i ? " " : "", words[i]);
 }
 
-// Draws a text in one line, or in two lines if it would be too small to read. Breaks it after a comma or a word.
+// Draws text on one line, or on two lines if it would be too small to read on one. Breaks it after a comma or a word.
 static void draw_words(struct compare *c, struct point baseline, double width, const char *line)
 {
     double u = c->page.unit, size = 15 * u, needed = text_width(&c->drawing, size, line);

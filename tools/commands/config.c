@@ -1,4 +1,4 @@
-// config.c: the command `config`: prints the settings in force and the file that they come from.
+// config.c: the command `config`: prints the effective settings and the file from which they were read.
 #include "command.h"
 
 #include <stdio.h>

@@ -96,7 +96,8 @@ static bool is_letter(char given, char written)
            (written == '_' && ((signed char)given <= ' ' || given == '-' || given == '\\' || given == 0x7f));
 }
 
-// Returns whether the path may be a file beside an OBJ file, "part.mtl" or "part-0.png". The numbers are known after the model is read.
+// Returns whether the path may be a file beside an OBJ file, "part.mtl" or "part-0.png". The numbers are known after
+// the model is read.
 static bool is_beside(const struct convert *c, const char *path)
 {
     size_t stem = strlen(c->output) - strlen(ending(c->output)) - 1;

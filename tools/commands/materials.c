@@ -26,8 +26,8 @@ static double decimal(float x)
     return strtod(text, NULL);
 }
 
-// Returns true for columns of the list: fields that differ from their default in some classic material. Colours are
-// printed without alpha.
+// Returns true if the list shows this field as a column, that is, if at least one classic material changes it from its
+// default. Colours are printed without alpha.
 static bool is_column(const lam_field *field, lam_color_mode color)
 {
     bool differs = false;

@@ -10,8 +10,8 @@ enum { HELP_WIDTH = 100, HELP_COLUMN = 29, HELP_EXAMPLE_COLUMN = 41 };
 // omitted.
 void help_text(const char *text, int indent, int width);
 
-// Prints a row: Prints `left`, and then the text from `column` on, wrapped at `width` columns. The text begins on the
-// next line if `left` is too long.
+// Prints a row: `left`, then the text from `column` on, wrapped at `width` columns. The text begins on the next line if
+// `left` is too long.
 void help_row(const char *left, int column, int width, const char *text);
 
 // Prints an option's row: its summary and default, for `command` if it has its own. With `details`, prints all

@@ -9,8 +9,8 @@
 
 #include "exit_codes.h"
 
-// Escapes a text for roff: '-' becomes \- (otherwise another dash may be shown), '`code`' is bold, and no line
-// begins with a control character.
+// Escapes text for roff: '-' becomes \- (otherwise another dash may be shown), '`code`' is bold, and no line begins
+// with a control character.
 static void roff(const char *text)
 {
     bool code = false;

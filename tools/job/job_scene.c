@@ -267,7 +267,7 @@ static bool is_shown(const lam_draw_params *draw)
     return draw->shading == LAM_SHADING_PHONG && !other;
 }
 
-// Its tint is only correct over white, and only some drawing methods show it.
+// The tint of glass is only correct over white, and only some drawing methods show it.
 void job_note_glass(struct job *job, const lam_draw_params *draw)
 {
     for (int i = 0; !is_shown(draw) && i < lam_scene_material_count(job->scene); i++)

@@ -208,7 +208,7 @@ static bool set_field(lam_light *light, const struct sweep *sweep, double value)
     return true;
 }
 
-// Sets a number of the light. Returns false if the light does not have it.
+// Sets a numeric property of the light. Returns false if the light does not have this property.
 static bool set_number(const struct job *job, const struct sweep *sweep, double value, lam_vec3 centre,
                        lam_light *light)
 {

@@ -23,7 +23,8 @@ void job_answer_unit(struct job_answers *answers, const struct batch_unit *unit)
 void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, const char *outcome,
                       const lam_error *error);
 
-// Record that the reader of the answers has gone, and return that reason: errno, or 0.
+// job_answers_fail records that no reader receives the answers any more, with an errno as the reason.
+// job_answers_failure returns the recorded errno, or 0.
 void job_answers_fail(struct job_answers *answers, int reason);
 int job_answers_failure(const struct job_answers *answers);
 

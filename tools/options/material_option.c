@@ -64,7 +64,7 @@ void material_option_mirror(struct material_option *option)
 
 lam_material material_option_apply(const struct material_option *option, lam_material material)
 {
-    if (option->named) // a metal's name has become keys (material_option_mirror)
+    if (option->named) // material_option_mirror has already replaced a metal's name with its keys
         material = lam_material_default();
     // cannot fail, since the parser has checked the text
     lam_material_parse(option->text, option->mode, &material, NULL);

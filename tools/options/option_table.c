@@ -676,17 +676,17 @@ struct option option_table[OPTIONS_MAX] = {
      "Animate a number: light.azimuth=0..360, roughness=0..1; repeatable.",
      "KEY is an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, `ambient`, "
      "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. It may also be a key of `--material` (`roughness`, `kd`, "
-     "`roughness@NAME`) or a number of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's name or "
-     "its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first light that "
-     "has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in degrees), "
-     "`intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light comes, in "
-     "the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. `time` is the time in a "
-     "glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can give more stops: "
-     "`light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole turn, the last frame is "
-     "one step before the end, so that the loop is seamless. You can combine several sweeps, also with `--turntable`. "
-     "Lambent fits the camera once, to the first frame. For `azimuth` and `elevation`, the distance of the camera is "
-     "constant. For `time`, the camera fits the bounding boxes of all frames. Only `zoom` and `fov` change the camera "
-     "between frames.",
+     "`roughness@NAME`) or a numeric property of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's "
+     "name or its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first "
+     "light that has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in "
+     "degrees), `intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light "
+     "comes, in the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. `time` is the "
+     "time in a glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can give more "
+     "stops: `light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole turn, the last "
+     "frame is one step before the end, so that the loop is seamless. You can combine several sweeps, also with "
+     "`--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and `elevation`, the distance of "
+     "the camera is constant. For `time`, the camera fits the bounding boxes of all frames. Only `zoom` and `fov` "
+     "change the camera between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
     {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames in a sweep.",
@@ -864,7 +864,7 @@ struct option option_table[OPTIONS_MAX] = {
      "A line can include the bytes of a model. Base64 needs four bytes for every three bytes of the model. The models "
      "of waiting jobs use at most twice this limit.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
-    {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write a page of all pictures, failures first.",
+    {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write an HTML page that shows all pictures, failures first.",
      "Lambent writes the thumbnails to the folder FILE-files next to the page. Apart from these, the page needs no "
      "other files and no network.",
      .kind = VALUE_FILE, .store = store_text, .others = "contact-sheet html gallery page", FIELD(batch.report_page),
@@ -943,14 +943,15 @@ struct option option_table[OPTIONS_MAX] = {
      "visible in the scene.",
      .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(sheet.across)},
 
-    {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or degrees.", NULL,
-     .store = store_number, FIELD(plot.to), .min = 1e-6, .max = 1e9},
+    {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or an angle in degrees.",
+     NULL, .store = store_number, FIELD(plot.to), .min = 1e-6, .max = 1e9},
 
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
      "Without this option, Lambent generates a correct vertex shader, which recognises varyings by name and type "
      "(`docs/check.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
-    {"contract", 0, GROUP_CHECK, "NAME", "auto", "The names that the shaders use: a contract's name, or its file.",
+    {"contract", 0, GROUP_CHECK, "NAME", "auto",
+     "The contract that defines the shaders' variable names: a built-in contract's name, or a contract file.",
      "`auto` recognises a built-in contract by its names. If no contract fits, Lambent infers the role of each input "
      "from its use. `auto` never selects `chile` or `glsl120`; to use one of these contracts, give its name. `--list` "
      "prints the contracts. To use your own contract, write it in JSON (`docs/check/contract-file.md`).",
@@ -967,16 +968,16 @@ struct option option_table[OPTIONS_MAX] = {
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
     {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit the processor time of a shader.",
-     "The limit applies to all scenes together. Lambent adds the processor time of all threads, so other programs on "
-     "the machine do not affect it. The elapsed time may be up to 20 times as long.",
+     "The limit applies to all scenes together. Lambent adds up the processor time of all threads, so other programs "
+     "on the machine do not affect the result. The elapsed time may be up to 20 times as long.",
      .store = store_number, FIELD(check.stop_after_s), .min = 0.1, .max = 1e6},
     {"search-limit", 0, GROUP_CHECK, "PICTURES", "10000", "Stop the search after drawing this many pictures.",
      "If the search finds no set of mistakes that explains the picture, the report states how many sets Lambent tried "
      "and whether the search stopped at this limit.",
      .store = store_integer, .others = "effort budget tries", FIELD(check.search_limit), .min = 1, .max = 1000000000},
     {"class", 0, GROUP_CHECK, "FOLDER", NULL, "Check every submission in a folder.",
-     "A submission is a sub-folder with one fragment shader, at most one vertex shader and any other files. Outside "
-     "sub-folders, a submission is a fragment shader and the vertex shader of the same name. With `-o FOLDER/`, "
+     "A submission is a sub-folder with one fragment shader, at most one vertex shader and any other files. In the top "
+     "folder, each fragment shader forms one submission with the vertex shader of the same name. With `-o FOLDER/`, "
      "Lambent writes a page for the whole class, `index.html`, and a sheet for each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
     {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader, with its points and mistakes.", NULL,

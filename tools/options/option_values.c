@@ -46,7 +46,7 @@ const char *option_words_list(const struct option *option, char text[OPTION_WORD
     return text;
 }
 
-// Finds the value of one of the option's words.
+// Finds the value that corresponds to one of the option's keywords.
 static bool read_word(const struct option *option, const char *value, int *found, lam_error *error)
 {
     struct suggestion nearest = suggest_start(value);

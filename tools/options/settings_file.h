@@ -1,5 +1,5 @@
-// settings_file.h: reads lambent.json, the user's own defaults for pictures, which contains keys of scene files. The
-// file is in the user's configuration folder.
+// settings_file.h: reads lambent.json, which stores the user's defaults for pictures as keys of scene files. The file
+// is in the user's configuration folder.
 #ifndef SETTINGS_FILE_H
 #define SETTINGS_FILE_H
 

@@ -9,10 +9,10 @@ enum sweep_kind {
     SWEEP_OPTION,   // an option of the table
     SWEEP_MATERIAL, // a key of --material
     SWEEP_ROTATE,   // an angle of --rotate
-    SWEEP_LIGHT,    // a number of a light
+    SWEEP_LIGHT,    // a numeric property of a light
 };
 
-// The numbers of a light in addition to its fields.
+// The numeric properties of a light in addition to its fields.
 enum sweep_light { SWEEP_LIGHT_FIELD, SWEEP_LIGHT_AZIMUTH, SWEEP_LIGHT_ELEVATION, SWEEP_LIGHT_INTENSITY };
 
 enum { SWEEP_STOPS_MAX = 16, SWEEP_NAME_MAX = 80 };

@@ -12,8 +12,8 @@ void interrupt_start(void);
 const lam_cancel *interrupt_flag(void);
 bool interrupted(void);
 
-// Writes pending output and ends the program with the received signal, so that the parent process sees the cause. For example, a shell reports
-// 130 for Ctrl-C and stops its loop.
+// Writes pending output and ends the program with the received signal, so that the parent process sees the cause. For
+// example, a shell reports 130 for Ctrl-C and stops its loop.
 void interrupt_finish(void) __attribute__((noreturn));
 
 // Must be called in a new process. Kills the process when the thread that started it ends. `parent` is the process of

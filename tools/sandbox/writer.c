@@ -140,7 +140,7 @@ static bool save(enum action action, const char *path, const lam_bytes *bytes, e
     return ok;
 }
 
-// Receives contents that are not wanted, so that the other side gets to the answer.
+// Receives contents that are not wanted, so that the other side can read the answer.
 static bool skip(int from, uint64_t size)
 {
     char part[16 << 10];

@@ -51,7 +51,7 @@ void writer_end(void);
 // file. Any thread may call it. `durable` is as in lam_save_params. Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
 
-// A file of a set. `right` is checked without a writer; otherwise its rule decides.
+// A file of a set. Without a writer, `right` is checked; otherwise the writer's own rule decides.
 struct writer_file {
     const char *path;
     lam_bytes bytes;

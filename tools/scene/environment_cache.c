@@ -64,7 +64,8 @@ void environment_cache_free(struct environment_cache *cache)
     free(cache);
 }
 
-// Returns false if a file cannot be found or the text is not a list of files. Reading the environment reports the cause.
+// Returns false if a file cannot be found or the text is not a list of files. Reading the environment reports the
+// cause.
 static bool identify(const char *text, struct identity *identity)
 {
     const char *paths[LAM_FACE_COUNT] = {text};

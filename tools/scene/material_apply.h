@@ -9,7 +9,8 @@ bool material_option_set(const struct material_option *option, bool back, const 
                          lam_error *error);
 
 // Hides the objects with this name; if there are none, the parts; if there are none either, the surfaces with a
-// material of this name (--hide). If the model has no such name, adds a warning if it `may_lack` one, and fails otherwise.
+// material of this name (--hide). If the model has no such name, adds a warning if it `may_lack` one, and fails
+// otherwise.
 bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, lam_error *error);
 
 #endif

@@ -44,11 +44,11 @@ bool draw_line(struct drawing *drawing, const struct point *points, int count, d
 bool draw_dot(struct drawing *drawing, struct point middle, double radius, uint32_t color, lam_error *error);
 void draw_text(struct drawing *drawing, struct point baseline, double size, enum align align, uint32_t color,
                const char *text);
-// Draws a centred text rotated by 90 degrees, to be read upwards. The baseline is vertical.
+// Draws centred text rotated by 90 degrees, to be read upwards. The baseline is vertical.
 bool draw_text_upwards(struct drawing *drawing, struct point baseline, double size, uint32_t color, const char *text,
                        lam_error *error);
 
-// Returns the width of a text. It is exact for PNG and an estimate for SVG, where the viewer selects the font.
+// Returns the width of text. It is exact for PNG and an estimate for SVG, where the viewer selects the font.
 double text_width(const struct drawing *drawing, double size, const char *text);
 
 // Draws a picture (LAM_RGBA8) onto the page, clipped at the page's edges. An SVG embeds it as a PNG with the label as

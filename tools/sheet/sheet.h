@@ -37,8 +37,8 @@ struct sheet {
 // Returns true if --across can vary the option.
 bool sheet_varies(const struct option *option);
 
-// Selects the sheet that the options request. Stores the words of each --across in `store`; the caller frees them after the
-// sheet.
+// Selects the sheet that the options request. Stores the words of each --across in `store`; the caller frees them after
+// the sheet.
 bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MAX], lam_error *error);
 
 #endif

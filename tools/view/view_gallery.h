@@ -1,4 +1,5 @@
-// view_gallery.h: makes the gallery of a folder: a page whose script (gallery.js) requests the pictures that are visible.
+// view_gallery.h: makes the gallery of a folder: a page whose script (gallery.js) requests the pictures that are
+// visible.
 #ifndef VIEW_GALLERY_H
 #define VIEW_GALLERY_H
 

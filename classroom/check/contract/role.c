@@ -45,7 +45,7 @@ const struct role roles[] = {
      "map of roughness (green) and metalness (blue)"},
     {SEMANTIC_METALLIC_MAP, "metallic_map", UNIFORM, TYPE_SAMPLER, "map of metalness: grey"},
     {SEMANTIC_ROUGHNESS_MAP, "roughness_map", UNIFORM, TYPE_SAMPLER, "map of roughness: grey"},
-    {SEMANTIC_NORMAL_MAP, "normal_map", UNIFORM, TYPE_SAMPLER, "map of normals: 0...1 means -1...1"},
+    {SEMANTIC_NORMAL_MAP, "normal_map", UNIFORM, TYPE_SAMPLER, "map of normals; decode 0...1 to -1...1"},
     {SEMANTIC_OCCLUSION_MAP, "occlusion_map", UNIFORM, TYPE_SAMPLER,
      "map of occlusion, which multiplies the ambient term: grey"},
     {SEMANTIC_EMISSION_MAP, "emission_map", UNIFORM, TYPE_SAMPLER, "map of the emitted light"},

@@ -52,7 +52,7 @@ static lam_rgb total_ambient(const struct reference_scene *s)
     return sum;
 }
 
-// Returns the matrix from world space.
+// Returns the matrix that transforms world space to a light frame's space.
 static lam_mat4 matrix_to(lam_light_frame frame, const struct reference_matrices *m)
 {
     lam_mat4 out = lam_mat4_identity();

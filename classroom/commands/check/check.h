@@ -81,7 +81,7 @@ struct check_points {
     // none.
     double terms[3];
 };
-// Returns a text such as "passes: its pictures match the reference".
+// Returns text such as "passes: its pictures match the reference".
 const char *check_verdict_text(lam_check_verdict verdict);
 struct check_points check_points_of(const lam_check_report *report);
 

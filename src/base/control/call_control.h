@@ -10,7 +10,8 @@ struct call_control {
     uint64_t memory_used; // accessed atomically
     int over_memory;      // set when the memory budget has refused a request
     int over_expansion;   // set when the budget derived from the file sizes has refused a request
-    // The latest request that a budget refused: the bytes in use, the bytes requested and the limit. Accessed atomically.
+    // The latest request that a budget refused: the bytes in use, the bytes requested and the limit. Accessed
+    // atomically.
     uint64_t refused_used, refused_bytes, refused_limit;
     // The number of bytes in all files read so far, accessed atomically. 0 means that no files were read, and that no
     // limit is derived from them.
@@ -24,7 +25,7 @@ struct call_control {
 // Starts a call. `control` may be NULL.
 void call_start(struct call_control *call, const lam_control *control);
 
-// Returns false if the call must end: it was cancelled, it exceeded its time, or its control sets a field that this
+// Returns false if the call must stop: it was cancelled, it exceeded its time, or its control sets a field that this
 // version does not know. It is cheap enough to call every few thousand items (about 25 ns), from any thread. `call` may
 // be NULL.
 bool call_should_continue(struct call_control *call);

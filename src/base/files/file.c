@@ -155,7 +155,7 @@ static bool read_sized(int file, const char *path, size_t size, bool fresh, stru
     return ok;
 }
 
-// Waits until a stream is readable or a writer opens the pipe. Returns false if the call must end.
+// Waits until a stream is readable or a writer opens the pipe. Returns false if the call must stop.
 static bool wait_readable(int file, struct call_control *call)
 {
     while (call_should_continue(call)) {

@@ -64,7 +64,8 @@ void file_release(struct file_bytes *bytes);
 // still owns them.
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
-// Writes a file completely or not at all, and leaves no temporary file, even if a signal ends the process during the call (file_write.c). It keeps the read and write permissions of an existing file but removes execute permission. A
+// Writes a file completely or not at all, and leaves no temporary file, even if a signal ends the process during the
+// call (file_write.c). It keeps the read and write permissions of an existing file but removes execute permission. A
 // symbolic link is kept, and its target is replaced. A path that is not a regular file (/dev/stdout, a pipe) is written
 // directly. With `durable`, the file and its folder are on disk when the call returns, so that a power failure leaves
 // the old file or the new one. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the errors of `call`: LAM_CANCELLED,

@@ -85,7 +85,7 @@ struct writing {
     struct call_control *call;
 };
 
-// Returns false and sets errno on failure. ECANCELED means that the call must end, EINTR that a fatal signal is
+// Returns false and sets errno on failure. ECANCELED means that the call must stop, EINTR that a fatal signal is
 // pending. `before` contains the previously blocked signals; if it is NULL, signals are not blocked here.
 static bool write_all(int file, const struct writing *w, const sigset_t *before)
 {

@@ -1,12 +1,11 @@
 // double_lanes.h: vectors of doubles that correspond to the floats of lanes.h.
 //
-//
 //  dnum   DLANES doubles in one register, half as many as the floats of a num; DPARTS dnums cover LANES
 //  dmask  DLANES truth values, from comparisons
 //
-//
 // As in lanes.h, only + − × ÷ and comparisons are used, each correctly rounded, so every width gives the same bits.
-// (Vectors twice as wide as the registers would not have to be divided, but compilers split their comparisons into scalar ones.)
+// (Vectors twice as wide as the registers would not have to be divided, but compilers split their comparisons into
+// scalar ones.)
 #ifndef DOUBLE_LANES_H
 #define DOUBLE_LANES_H
 

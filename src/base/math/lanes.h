@@ -1,8 +1,6 @@
 // lanes.h: SIMD values of LANES numbers. Define LANES as 1, 4, 8 or 16 before including it.
 //
-//
 //  num    LANES floats          inum   LANES 32-bit integers          mask   LANES truth values, from comparisons
-//
 //
 // With LANES 1 a num is a float and the same source is ordinary C. Otherwise it is a GCC/Clang vector type, which
 // compiles for any instruction set (several registers are used if it is wider than one). Every width therefore runs

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 
 // Opens a library by its file name ("libfreetype.so.6"). Returns NULL if it is not installed; *reason (may be NULL) is
-// then the loader's error message. With `resident`, it stays loaded until the process ends, which drivers that start threads
-// need.
+// then the loader's error message. With `resident`, it stays loaded until the process ends, which drivers that start
+// threads need.
 void *library_open(const char *name, bool resident, const char **reason);
 // Opens a shared object that is installed with this library or program, "lambent-draco.so", in the subfolder lambent of
 // the library folder, or in the build folder. It stays loaded until the process ends. Returns NULL if it, or a library

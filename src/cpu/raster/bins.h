@@ -14,7 +14,7 @@ enum {
     BIN_BLOCK_BACK_FACES = 64,
     SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit 32 bits
 };
-#define CLIPPED 0x80000000u // bit of a number in a bin: a clipped triangle
+#define CLIPPED 0x80000000u // flag in a bin entry: the triangle was clipped
 
 struct bin_block {
     struct bin_block *next;
@@ -61,7 +61,7 @@ struct snapped {
     int32_t x[3], y[3];
 };
 
-// Returns twice the signed area. With y down, a positive area is clockwise on the screen.
+// Returns twice the signed area. If y points down, a triangle with a positive area is clockwise on the screen.
 static inline int64_t snapped_area(const struct snapped *c)
 {
     return (int64_t)(c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) - (int64_t)(c->x[2] - c->x[0]) * (c->y[1] - c->y[0]);

@@ -2,13 +2,11 @@
 //
 // One layer over another:
 //
-//
 //  color = src·a + dst·(1 − a)
 //  alpha = a + A·(1 − a)
 //
-//
-// The layers are summed from the nearest to the farthest, each weighted by the fraction of light that the previous layers let through.
-// The remaining fraction is the weight of the opaque surface or the background.
+// The layers are summed from the nearest to the farthest, each weighted by the fraction of light that the previous
+// layers let through. The remaining fraction is the weight of the opaque surface or the background.
 #include "blend.h"
 
 #include "behind.h"

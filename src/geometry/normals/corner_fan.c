@@ -111,8 +111,8 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct fan_corner *c)
     c->normal[1] = spans ? y * scale : 0;
     c->normal[2] = spans ? z * scale : 0;
     // |a × b| and a·b are the sine and cosine of the angle times the same lengths. The weight is below 1e78, and above
-    // 1e-90 if it is not 0, so neither a sum of weighted normals nor its square overflows or underflows, whatever the
-    // unit is.
+    // 1e-90 if it is not 0, so neither a sum of weighted normals nor its square overflows or underflows, regardless of
+    // the unit.
     c->weight = spans ? length * angle_of(length, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) : 0;
 }
 

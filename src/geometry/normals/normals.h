@@ -8,14 +8,14 @@
 
 #include <lambent/mesh.h>
 
-// Computes smooth normals (conventions 18). Corners at the same position (bit-equal after −0 → 0, whatever their index)
-// are welded. Around a position, two triangles are joined if they share an edge, their face normals differ by at most
-// the crease angle and, if groups are given, they have the same smoothing group, which is not 0. A corner's normal is
-// the sum over its joined fan of unit face normals, each weighted by the triangle's area × the angle at the corner, in
-// triangle order. (With the angle alone, the slivers of CAD files, whose normals are mostly rounding errors, would have
-// as much weight as the faces beside them, and surfaces would show streaks.) A triangle without area adds nothing, and
-// its corners get their neighbours' normal, or else zero. Neighbours whose common edge has the same direction in both
-// (inconsistent winding) are never joined.
+// Computes smooth normals (conventions 18). Corners at the same position (bit-equal after −0 → 0, regardless of their
+// indices) are welded. Around a position, two triangles are joined if they share an edge, their face normals differ by
+// at most the crease angle and, if groups are given, they have the same smoothing group, which is not 0. A corner's
+// normal is the sum over its joined fan of unit face normals, each weighted by the triangle's area × the angle at the
+// corner, in triangle order. (With the angle alone, the slivers of CAD files, whose normals are mostly rounding errors,
+// would have as much weight as the faces beside them, and surfaces would show streaks.) A triangle without area adds
+// nothing, and its corners get their neighbours' normal, or else zero. Neighbours whose common edge has the same
+// direction in both (inconsistent winding) are never joined.
 //
 // A vertex is closed if three to eight corners use its index and each edge that starts there, comparing its ends by
 // position, belongs to exactly two of their triangles, in opposite directions. The corners of a closed vertex are not

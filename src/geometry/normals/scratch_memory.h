@@ -15,7 +15,8 @@ struct scratch_memory {
 // thread may call it.
 void *scratch_take(struct scratch_memory *scratch, struct arena *arena, size_t count, size_t size);
 
-// Borrows the end of the scratch memory until scratch_return. Returns NULL if it is too small. No other thread may allocate from it during that time.
+// Borrows the end of the scratch memory until scratch_return. Returns NULL if it is too small. No other thread may
+// allocate from it during that time.
 void *scratch_borrow(struct scratch_memory *scratch, size_t bytes);
 void scratch_return(struct scratch_memory *scratch);
 

@@ -37,8 +37,8 @@ struct normals_work {
     struct call_control *call;
 };
 
-// Makes the normals of one mesh, whose triangle t has the number first + t in the set, by the rule in normals.h. The set
-// is finished (rank_bitset_finish). Errors: LAM_LIMIT, LAM_CANCELLED.
+// Makes the normals of one mesh, whose triangle t has the number first + t in the set, by the rule in normals.h. The
+// set is finished (rank_bitset_finish). Errors: LAM_LIMIT, LAM_CANCELLED.
 bool make_visible_normals(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
                           struct visible_normals *visible, const struct normals_work *work, lam_error *error);
 

@@ -3,8 +3,7 @@
 // From M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited" (2008), and glTF 2.0, section 3.7.2.1, which refers
 // to it:
 //
-//
-// 1. Corners with the same position, normal and texture coordinates are welded, whatever their indices are.
+// 1. Corners with the same position, normal and texture coordinates are welded, regardless of their indices.
 // 2. A triangle has the direction ∂p/∂s and an orientation, the sign of its area in the texture. A triangle without
 //    them (its texture coordinates span no area) adds to no sum and joins its neighbours' groups.
 // 3. Around a welded corner, the triangles that are connected by shared edges and have the same orientation form a
@@ -13,7 +12,6 @@
 //    weighted by the triangle's angle at the corner, in the plane perpendicular to the normal. (The angular threshold
 //    is 180°: it splits no group.)
 // 5. A triangle with two equal positions joins no group and no edges.
-//
 //
 // A corner that no group reaches gets the tangent of the first equal corner that has a group. If there is none, or if a
 // group's sum is zero, it gets the tangent of meshes without texture coordinates, a direction around the y axis;

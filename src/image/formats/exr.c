@@ -288,7 +288,7 @@ static exr_result_t find_chunks(const struct core *core, exr_context_t file, int
     return result;
 }
 
-// Reads the chunks. Sets *stopped if the call must end.
+// Reads the chunks. Sets *stopped if the call must stop.
 static exr_result_t read_chunks(const struct core *core, exr_context_t file, int top, struct call_control *call,
                                 lam_image *image, bool *stopped)
 {

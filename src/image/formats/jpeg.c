@@ -22,7 +22,7 @@ struct reader {
     char message[JMSG_LENGTH_MAX];
     const struct picture_file *file;
     bool rgb;           // decodes to LAM_RGB8 instead of LAM_RGBA8, except for CMYK files
-    bool stopped;       // the call must end
+    bool stopped;       // the call must stop
     bool out_of_memory; // in libjpeg
     size_t charged;     // bytes for libjpeg's coefficients
 };
@@ -70,8 +70,8 @@ static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
     return (uint64_t)jpeg->image_width * jpeg->image_height / (8 * 64 * 16) <= size;
 }
 
-// Charges the coefficients. A file with several scans keeps all of its coefficients in memory before the first row: two
-// bytes each, at most as many as all components in full resolution have.
+// Charges the coefficients. A file with several scans keeps all of its coefficients in memory before the first row.
+// Each needs two bytes, and there are at most as many as if all components had full resolution.
 static bool charge_coefficients(struct reader *reader, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
@@ -97,7 +97,7 @@ static void mix_inks(uint8_t *row, size_t width, bool inverted)
     }
 }
 
-// libjpeg may leave this function by longjmp, so it changes only memory behind its pointers.
+// libjpeg may leave this function with longjmp, so it changes only memory behind its pointers.
 static bool decode(struct reader *reader, lam_image *image, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
@@ -142,7 +142,8 @@ static bool fail_jump(const struct reader *reader, lam_error *error)
     return fail(error, LAM_CANNOT_READ, "%s: JPEG: %s", reader->file->name, reader->message);
 }
 
-// Calls setjmp, so that libjpeg returns here by longjmp; none of its local variables change between the two calls.
+// Calls setjmp, so that libjpeg can return here with longjmp. No local variable of this function changes between the
+// two calls.
 static bool decode_or_jump(struct reader *reader, lam_image *image, lam_error *error)
 {
     return setjmp(reader->out) == 0 ? decode(reader, image, error) : fail_jump(reader, error);

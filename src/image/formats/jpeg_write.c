@@ -36,7 +36,7 @@ static void ignore_message(j_common_ptr jpeg, int level) { (void)jpeg, (void)lev
 
 static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 
-// libjpeg may leave this function by longjmp, so it changes only memory behind its pointer.
+// libjpeg may leave this function with longjmp, so it changes only memory behind its pointer.
 static bool encode(struct writer *writer, lam_error *error)
 {
     struct jpeg_compress_struct *jpeg = &writer->jpeg;
@@ -76,7 +76,8 @@ static bool fail_jump(const struct writer *writer, lam_error *error)
     return fail(error, LAM_LIMIT, "JPEG: %s", message);
 }
 
-// Calls setjmp, so that libjpeg returns here by longjmp; none of its local variables change between the two calls.
+// Calls setjmp, so that libjpeg can return here with longjmp. No local variable of this function changes between the
+// two calls.
 static bool encode_or_jump(struct writer *writer, lam_error *error)
 {
     return setjmp(writer->out) == 0 ? encode(writer, error) : fail_jump(writer, error);

@@ -1,11 +1,11 @@
 // gltf.h: internals of the glTF 2.0 importer.
 //
 // The JSON text (gltf_json.c) of a .gltf, or of a .glb (gltf_container.c), describes buffers (gltf_buffers.c,
-// gltf_views.c, gltf_meshopt.c) and typed arrays in them (gltf_accessors.c, gltf_numbers.c). Meshes are made of these
-// (gltf_primitives.c, gltf_triangles.c, gltf_draco.c), and the tree of nodes places them (gltf_nodes.c, gltf_objects.c)
-// beside lights and cameras (gltf_lights.c, gltf_cameras.c). Materials (gltf_materials.c) read textures, whose pictures
-// are decoded together (gltf_textures.c). An animation sets the nodes (gltf_animation.c) first; morph targets and skins
-// (gltf_deform.c, gltf_skins.c) give a mesh positions of its own.
+// gltf_views.c, gltf_meshopt.c) and typed arrays in them (gltf_accessors.c, gltf_numbers.c). The arrays become meshes
+// (gltf_primitives.c, gltf_triangles.c, gltf_draco.c). The tree of nodes (gltf_nodes.c) places the meshes
+// (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_cameras.c). Materials (gltf_materials.c) read
+// textures, whose pictures are decoded together (gltf_textures.c). An animation sets the nodes (gltf_animation.c)
+// first; morph targets and skins (gltf_deform.c, gltf_skins.c) give a mesh positions of its own.
 //
 // Every count and index of the file is checked on reading, and an error names its position: "ship.gltf:
 // meshes[3].primitives[0].attributes.POSITION: found 12, …". Section numbers refer to the specification,

@@ -71,7 +71,7 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
     return true;
 }
 
-// Returns false if the call must end. The clock is read once per this many objects.
+// Returns false if the call must stop. The clock is read once per this many objects.
 static bool continues(struct gltf *gltf, size_t number)
 {
     struct call_control *call = gltf->source->call;

@@ -1,6 +1,5 @@
 // ply.h: internals of the PLY importer.
 //
-//
 //  ply.c            reads the elements in order and builds the mesh
 //  ply_header.c     the header: elements and their properties
 //  ply_binary.c     rows of an element of a binary file, as a ply_table
@@ -11,7 +10,8 @@
 //  ply_edges.c      lines from edges
 //
 // Rows of equal size stay in the file, and each pass over them reads them in chunks (parallel_rows_read), so that a
-// large file need not be in memory. Rows of a text file, or with lists of several lengths, become rows in memory.
+// large file need not be in memory. Rows of a text file, and rows with lists of several lengths, are converted to rows
+// in memory.
 //
 #ifndef PLY_H
 #define PLY_H
@@ -75,9 +75,9 @@ struct ply_table {
     const uint32_t *offsets;    // the offset of each scalar property in a row
     const enum ply_type *types; // the type of each property in `rows`
     enum ply_positions_as positions;
-    // The requested list with checked indices, from items[starts[r]] for row r; three items per row if `starts` is NULL.
-    // A row has room for its triangles: 3 (n − 2) items for n corners, of which the first n are set. It has none for
-    // fewer than three corners.
+    // The requested list with checked indices, from items[starts[r]] for row r; three items per row if `starts` is
+    // NULL. A row has room for its triangles: 3 (n − 2) items for n corners, of which the first n are set. It has none
+    // for fewer than three corners.
     uint32_t *items;
     const uint32_t *starts; // a row more than the table has
 };

@@ -158,7 +158,7 @@ static const uint8_t *read_row(const struct ply_reader *reader, size_t row, cons
     const struct ply_element *element = reader->element;
     const uint8_t *end = reader->end;
     uint8_t unused[8];
-    uint32_t unused_item; // of a row without triangles, too
+    uint32_t unused_item; // also set for a row without triangles
     for (int i = 0; at && i < element->property_count; i++) {
         at = text_skip_white(at, end);
         if (!element->properties[i].list) {

@@ -1,8 +1,8 @@
 // ply_binary.c: reads the rows of one element of a binary PLY as a table.
 //
-// Rows without lists have a fixed stride and stay in the file. Rows with lists are indexed by a serial pass, which needs
-// them in memory; then chunks of them are read in parallel. In nearly all files, faces are one list of three corners: if
-// the number of remaining bytes suggests this layout, the rows are read with its fixed stride and checked.
+// Rows without lists have a fixed stride and stay in the file. Rows with lists are indexed by a serial pass, which
+// needs them in memory; then chunks of them are read in parallel. In nearly all files, faces are one list of three
+// corners: if the number of remaining bytes suggests this layout, the rows are read with its fixed stride and checked.
 #include "fail.h"
 #include "shown_name.h"
 #include "ply_load.h"

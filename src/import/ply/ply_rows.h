@@ -29,9 +29,9 @@ struct ply_reader {
 // Allocates the arrays that the serial pass fills.
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error);
 
-// Records the start of the chunk that begins with a row. Returns false if the call must end.
+// Records the start of the chunk that begins with a row. Returns false if the call must stop.
 bool ply_index_chunk(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error);
-// Records the start of a row in the serial pass. Returns false if the call must end.
+// Records the start of a row in the serial pass. Returns false if the call must stop.
 static inline bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error)
 {
     if (reader->starts)

@@ -1,6 +1,5 @@
 // stl_ascii.c: reads ASCII STL: solids become named parts; each facet gets three separate vertices.
 //
-//
 //  solid NAME
 //    facet normal NX NY NZ
 //      outer loop
@@ -8,7 +7,6 @@
 //      endloop
 //    endfacet
 //  endsolid NAME
-//
 //
 // Keywords may be in upper or lower case, with line breaks between any words, because programs differ; a name extends
 // to the end of the line. The facets' normals are ignored: they follow from the corners, and some programs write nan.

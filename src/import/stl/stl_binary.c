@@ -2,13 +2,11 @@
 //
 // Two dialects store a colour of 3 × 5 bits in a facet's attribute word:
 //
-//
 //  VisCAM, SolidView   bits 0–4 blue, 5–9 green, 10–14 red
 //                      bit 15 set: the facet has a colour
 //  Materialise Magics  bits 0–4 red, 5–9 green, 10–14 blue
 //                      bit 15 clear: the facet has its own colour
 //                      the header contains "COLOR=" and four bytes RGBA, the colour of the other facets
-//
 //
 // Other programs store counters or undefined words; colors_of decides which it is.
 #include "stl.h"

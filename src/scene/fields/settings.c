@@ -53,7 +53,7 @@ WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if the ambient occlusion `auto
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on with the studio's lights or environment light"},
       {"off", LAM_SPECULAR_AA_OFF, "the exact equations"},
       {"on", LAM_SPECULAR_AA_ON, "the variance of the normals within each pixel increases the roughness"})
-WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "on for model files in the studio's light"},
+WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "on for model files lit by the built-in studio environment"},
       {"off", LAM_BRIGHTEN_OFF, "all models receive the same light"})
 WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
       {"shadow", LAM_GROUND_SHADOW,

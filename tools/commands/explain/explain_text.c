@@ -372,7 +372,7 @@ static void print_material(const lam_explanation *e, const lam_explained_fragmen
     printf("\n");
 }
 
-// Returns a text such as "triangle 5" or "line 2".
+// Returns text such as "triangle 5" or "line 2".
 static const char *item_of(const lam_explained_fragment *f, char out[32])
 {
     snprintf(out, 32, "%s %u", f->corners == 3 ? "triangle" : f->corners == 2 ? "line" : "point", f->triangle);

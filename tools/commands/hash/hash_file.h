@@ -26,7 +26,8 @@ struct hash_file {
     size_t count;
 };
 
-// Reads a regular file of at most HASH_FILE_MAX bytes. The caller frees it, even after a failure. Fails with LAM_CANNOT_READ or LAM_LIMIT.
+// Reads a regular file of at most HASH_FILE_MAX bytes. The caller frees it, even after a failure. Fails with
+// LAM_CANNOT_READ or LAM_LIMIT.
 bool hash_file_read(struct hash_file *file, const char *path, lam_error *error);
 void hash_file_free(struct hash_file *file);
 
@@ -46,8 +47,8 @@ char *hash_file_name(const char *path, const char *model);
 // Returns the path of the model for a name in the file `path`, allocated with malloc. Returns NULL if memory runs out.
 char *hash_file_model(const char *path, const char *name);
 
-// Returns whether the file of hashes `path` may name this file (a path from hash_file_model): it must be below the folder
-// of `path` or in --allow-path after all links are resolved. Fails with LAM_CANNOT_READ.
+// Returns whether the file of hashes `path` may name this file (a path from hash_file_model): it must be below the
+// folder of `path` or in --allow-path after all links are resolved. Fails with LAM_CANNOT_READ.
 bool hash_file_may_name(const char *path, const char *file, const struct options *options, lam_error *error);
 
 #endif

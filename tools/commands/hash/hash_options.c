@@ -107,7 +107,8 @@ static bool may_name(const char *path, const char *name, const char *value, cons
     return ok;
 }
 
-// Makes the paths among the words relative to the present folder, before a look is read. The texts follow the line of the words, at `to`.
+// Makes the paths among the words relative to the present folder, before a look is read. Stores the new paths from `to`
+// on, behind the text of the words.
 static bool resolve(char **words, int count, const char *path, char *to, const char *end, const struct options *o,
                     lam_error *error)
 {

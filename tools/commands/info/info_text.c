@@ -8,7 +8,7 @@
 
 enum { ROWS = 8, NAME_BYTES = 40, LINE_BYTES = 120 };
 
-// Returns a text from a file with control characters replaced by '?', truncated after `bytes`. Returns "" for NULL.
+// Returns text from a file, with control characters replaced by '?', truncated after `bytes`. Returns "" for NULL.
 static char *plain(const char *name, size_t bytes, char *out)
 {
     char *to = out;

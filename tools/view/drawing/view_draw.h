@@ -20,7 +20,9 @@ struct view_request {
     int x, y;
     int threads;   // 0 means one per processor
     int in_flight; // the number of drawing processes, which share the memory
-    int size; // bytes of the words, which follow: each with a 0 at its end; the first is the model, by its path in the page or a shape's name
+    // The size in bytes of the words, which follow this struct and each end with a 0. The first word is the model: its
+    // path in the page, or the name of a shape.
+    int size;
 };
 
 // Precedes the parts of an answer.

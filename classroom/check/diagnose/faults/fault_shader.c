@@ -1,4 +1,5 @@
-// fault_shader.c: a program that computes the lighting with faults switched on or off (fault_light.glsl, fault_physical.glsl).
+// fault_shader.c: a program that computes the lighting with faults switched on or off (fault_light.glsl,
+// fault_physical.glsl).
 #include "fault_shader.h"
 #include "maps.h"
 #include "place.h"

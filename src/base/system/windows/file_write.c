@@ -1,4 +1,5 @@
-// file_write.c: writes whole files on Windows, so that a reader sees either the old file or the new one. The bytes are written to a temporary file in the same folder, which is then renamed.
+// file_write.c: writes whole files on Windows, so that a reader sees either the old file or the new one. The bytes are
+// written to a temporary file in the same folder, which is then renamed.
 #include "file.h"
 
 #include "fail.h"
@@ -13,7 +14,7 @@
 
 enum { PIECE = 1 << 20 };
 
-// Returns false and sets errno on failure; ECANCELED means that the call must end.
+// Returns false and sets errno on failure; ECANCELED means that the call must stop.
 static bool write_all(int file, const uint8_t *at, size_t left, struct call_control *call)
 {
     while (left) {

@@ -84,7 +84,8 @@ static bool give_text(const struct memory_stream *stream)
     return *stream->size == (size_t)end && _fseeki64(stream->file, end, SEEK_SET) == 0;
 }
 
-// Returns the pointer to a stream in the list, whose lock the caller holds; if the stream is not in the list, the pointer at its end.
+// Returns the pointer to a stream in the list, whose lock the caller holds; if the stream is not in the list, the
+// pointer at its end.
 static struct memory_stream **find(FILE *file)
 {
     struct memory_stream **at = &streams;

@@ -54,16 +54,16 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
 }
 
 // Returns the vertex that represents a position, or NONE if it is not in the table. Adds the number of probes after the
-// first line.
+// first line to *probes.
 uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
-// Fills a part from its bin in each of `threads` lists, and empties the bins. With `duplicates`, each vertex whose
-// position is represented by another vertex is added to that list of `mine`. Returns false if the probe limit is
-// reached or memory runs out.
+// Fills one part of the table with the entries of its bin in each of `threads` lists, then empties these bins. With
+// `duplicates`, each vertex whose position is represented by another vertex is added to that list of `mine`. Returns
+// false if the probe limit is reached or memory runs out.
 bool position_hash_fill(struct position_hash *table, uint32_t part, struct block_lists *lists, int threads,
                         struct block_lists *mine, bool duplicates);
 
-// Returns whether there are more probes than in any file that was not made to collide.
+// Returns true if there are so many probes that the file must have been made to cause collisions.
 static inline bool probe_limit_exceeded(size_t probes, size_t searches) { return probes > 16 * searches + 4096; }
 
 #endif

@@ -46,7 +46,7 @@ struct position_simd {
     int lanes; // 32-bit numbers per register
     // Hashes WORD or fewer points of 3 floats. Bit i of the result is set if the filter may contain point i.
     uint64_t (*test)(const float *points, uint32_t count, const struct position_filter *filter, uint32_t hashes[WORD]);
-    // Numbers the members of a word of a set from `first` on; the others get UINT32_MAX.
+    // Numbers the members in one word of a set, beginning with `first`; all other items get UINT32_MAX.
     void (*number)(uint64_t members, uint32_t first, uint32_t numbers[WORD]);
     // Lists the corners, of `count` from number `first`, whose vertices (at `indices`) have a position. The lists need
     // capacity for `count` and one register.

@@ -13,7 +13,7 @@ enum {
     CHUNK = 1 << 16, // vertices or corners per task
 };
 
-// A recent result of the table; bits that no position has mean empty.
+// A recent result of the table. An empty entry contains bits that no position has.
 struct cached_position {
     uint32_t bits[3];
     uint32_t position; // NONE if it is not in the table

@@ -1,5 +1,6 @@
-// page_decoders.c: calls the decoders of a web page. Draco and meshoptimizer are in a second module (web/decoders.py),
-// which JavaScript calls for these functions (web/decoders.js); it copies the bytes between the two memories.
+// page_decoders.c: calls the Draco decoders that the surrounding web page provides. Draco and meshoptimizer are in a
+// second module (web/decoders.py), which JavaScript calls for these functions (web/decoders.js); it copies the bytes
+// between the two memories.
 #include "draco_module.h"
 
 #include <stdbool.h>

@@ -52,7 +52,7 @@ bool gltf_textures_start(struct gltf *gltf)
 enum { NEAREST = 9728, LINEAR, NEAREST_MIPMAP_NEAREST = 9984, LINEAR_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR };
 enum { LINEAR_MIPMAP_LINEAR = 9987, CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648, REPEAT = 10497 };
 
-// Gets a number of the list `allowed`, which ends with 0.
+// Gets a number that must be in the list `allowed`, which ends with 0.
 static bool take_code(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                       const int *allowed, const char *expected, int *out)
 {

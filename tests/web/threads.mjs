@@ -59,12 +59,14 @@ const missingPart = (call) => {
     return error instanceof PartMissing ? error.part : String(error);
   }
 };
-const apart = await openThreads(parts[0], 2, worker('../../web/thread.js'), files), drawn = [...PICTURES, ...REFUSED].map((words) => pixels(apart, words));
+const apart = await openThreads(parts[0], 2, worker('../../web/thread.js'), files), all = [...PICTURES, ...REFUSED];
+const isScene = ([model]) => model.endsWith('.json'), drawn = all.map((words, i) => (isScene(words) ? expected[i] : pixels(apart, words)));
 ok(same(drawn, expected), 'threads: the same pixels and sentences by the first of two parts', drawn.filter((one, i) => one !== expected[i]).join('; '));
+ok(missingPart(() => apart.draw(['/scene.json'])) === 'threads-more', 'threads: a scene file asks for the second part', missingPart(() => apart.draw(['/scene.json'])));
 ok(missingPart(() => apart.explain(['teapot', '--size=96'], 48, 48)) === 'threads-more', 'threads: explaining asks for the second part', missingPart(() => apart.explain(['teapot', '--size=96'], 48, 48)));
 apart.end();
 const whole = await openThreads(parts[0], 2, worker('../../web/thread.js'), files, null, [parts[1]]);
-for (const words of [FORMULA, IMPLICIT, PICTURES[0]]) ok(pixels(whole, words) === pixels(one, words), `threads: both parts draw ${words[0]}`, pixels(whole, words));
+for (const words of [FORMULA, IMPLICIT, PICTURES[0], ['/scene.json']]) ok(pixels(whole, words) === pixels(one, words), `threads: both parts draw ${words[0]}`, pixels(whole, words));
 ok(same(whole.explain(['teapot', '--size=96'], 48, 48), one.explain(['teapot', '--size=96'], 48, 48)), 'threads: both parts explain as the whole module does');
 ok(same(whole.lights(['teapot']), one.lights(['teapot'])), 'threads: both parts list lights as the whole module does');
 whole.end();

@@ -123,10 +123,13 @@ def main():
             compile_library(row, folder, prefix)
     build = folder / "build"
     environment = dict(os.environ) if is_cross else {**os.environ, "PKG_CONFIG_PATH": str(folder / "root" / "pkgconfig")}
+    flags = [] if is_cross else ["-Dc_args=" + SECTIONS, "-Dc_link_args=" + UNUSED]
     if not (build / "build.ninja").exists():
         cross = ["--cross-file", str(cross_file(folder, machine, prefix))] if is_cross else []
-        call("meson", "setup", str(build), str(ROOT), "--buildtype=release", "--prefix=/usr/local", "-Dtests=false", "-Dstatic_program=true",
-             *cross, *([] if is_cross else ["-Dc_args=" + SECTIONS, "-Dc_link_args=" + UNUSED]), env=environment)
+        call("meson", "setup", str(build), str(ROOT), "--buildtype=release", "--prefix=/usr/local", "-Dtests=false", "-Dstatic_program=true", *cross, *flags,
+             env=environment)
+    elif flags: # they may have changed since
+        call("meson", "configure", str(build), *flags, env=environment)
     call("ninja", "-C", str(build), "lambent", env=environment)
     call(prefix + "strip", "-o", str(folder / "lambent"), str(build / "lambent"))
     write_licences(folder)

@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-enum { SIDE = 170, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1), ROOM = 8 << 20 };
+enum { SIDE = 260, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1), ROOM = 8 << 20 };
 
 static char path[] = "/tmp/lambent-large-XXXXXX";
 static uint8_t *bytes;
@@ -76,6 +76,17 @@ static bool load_both(const char *format)
     return loaded;
 }
 
+// Whether the file can be loaded within a memory limit that has no room for both the whole file and the result of
+// `kept` bytes.
+static bool fits(size_t kept)
+{
+    lam_error error;
+    lam_scene *scene = lam_scene_load(path, &(lam_load_params){.normals_when_drawn = true, .threads = 2},
+                                      &(lam_control){.memory_limit_bytes = kept + size / 4 * 3}, &error);
+    lam_scene_free(scene);
+    return scene != NULL;
+}
+
 // --- STL
 
 // `word` is the attribute of every third facet.
@@ -100,6 +111,7 @@ static void stl_files(void **state)
     (void)state;
     make_stl("a header", 0);
     assert_true(load_both(NULL));
+    assert_true(fits(36 * TRIANGLES));
     make_stl("a header", 0x8000 | 31); // colours of VisCAM
     assert_true(load_both(NULL));
     make_stl("COLOR=\1\2\3\4", 0x1234); // colours of Materialise Magics
@@ -138,6 +150,7 @@ struct layout {
     bool normals, bytes;      // of the vertices; colours as bytes
     bool face_colors, mixed;  // a quad between the triangles
     bool list_first, trailer; // an element with lists before the vertices; one after the faces
+    bool tags;                // a list at each vertex
 };
 
 static void add_faces(const struct layout *layout, bool wide)
@@ -163,11 +176,12 @@ static void make_ply(struct layout layout)
     size = 0;
     snprintf(header, sizeof header,
              "ply\nformat %s 1.0\n%selement vertex %d\nproperty %s x\nproperty %s y\nproperty %s z\n%s%s"
-             "element face %d\nproperty list %s vertex_indices\n%s%send_header\n",
+             "%selement face %d\nproperty list %s vertex_indices\n%s%send_header\n",
              layout.format ? layout.format : "binary_little_endian",
              layout.list_first ? "element extra 2\nproperty list uchar short a\n" : "", VERTICES, type, type, type,
              layout.normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
-             layout.bytes ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "", TRIANGLES,
+             layout.bytes ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
+             layout.tags ? "property list uchar uchar tags\n" : "", TRIANGLES,
              layout.corners ? layout.corners : "uchar int",
              layout.face_colors ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
              layout.trailer ? "element rest 3\nproperty int a\n" : "");
@@ -188,6 +202,8 @@ static void make_ply(struct layout layout)
             add_f32(i == 2 ? 1.0f : (float)(v % 7) * 0.01f);
         for (int i = 0; layout.bytes && i < 3; i++)
             add_u8((unsigned)(v + i) & 255);
+        for (int i = 0; layout.tags && i <= v % 3; i++)
+            add_u8((unsigned)(i ? v & 255 : v % 3));
     }
     add_faces(&layout, layout.corners && strncmp(layout.corners, "ushort", 6) == 0);
     for (int i = 0; layout.trailer && i < 3; i++)
@@ -209,11 +225,15 @@ static void ply_files(void **state)
         {.mixed = true},
         {.mixed = true, .face_colors = true, .normals = true},
         {.list_first = true},
+        {.tags = true},
+        {.tags = true, .mixed = true},
         {.trailer = true},
     };
     for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
         make_ply(layouts[i]);
         assert_true(load_both(NULL));
+        if (i == 0)
+            assert_true(fits(12 * (VERTICES + TRIANGLES)));
         size += 3; // bytes after the last row
         load_both(NULL);
     }
@@ -249,6 +269,20 @@ static void ply_errors(void **state)
     make_ply((struct layout){0});
     memcpy(strstr((char *)bytes, "float y"), "float q", 7);
     assert_false(load_both(NULL));
+}
+
+static void can_be_stopped(void **state)
+{
+    (void)state;
+    make_ply((struct layout){0});
+    assert_true(load_both(NULL));
+    lam_cancel cancel = {0};
+    lam_cancel_raise(&cancel);
+    lam_error error;
+    assert_null(lam_scene_load(path, NULL, &(lam_control){.cancel = &cancel}, &error));
+    assert_int_equal(error.code, LAM_CANCELLED);
+    assert_null(lam_scene_load(path, NULL, &(lam_control){.memory_limit_bytes = 1 << 20}, &error));
+    assert_int_equal(error.code, LAM_LIMIT);
 }
 
 // Each allocation fails in turn: the file is refused for want of memory; nothing leaks.
@@ -295,8 +329,8 @@ static int stop(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stl_files),  cmocka_unit_test(stl_errors), cmocka_unit_test(ply_files),
-        cmocka_unit_test(ply_errors), cmocka_unit_test(memory),
+        cmocka_unit_test(stl_files),  cmocka_unit_test(stl_errors),     cmocka_unit_test(ply_files),
+        cmocka_unit_test(ply_errors), cmocka_unit_test(can_be_stopped), cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests_name("large files", tests, start, stop);
 }

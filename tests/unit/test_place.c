@@ -1,5 +1,5 @@
 // test_place.c: the sphere around a scene, moving and rotating it, rigs at their positions, lights in the model's
-// frame, materials of parts, and tangents from texture coordinates.
+// frame, and materials of parts.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -470,7 +470,7 @@ static const float square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 static const float up_normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
 static const uint32_t two_triangles[] = {0, 1, 2, 0, 2, 3};
 
-static lam_scene *square_scene(const float *texcoords, const lam_part *parts, uint32_t part_count)
+static lam_scene *square_scene(const lam_part *parts, uint32_t part_count)
 {
     lam_scene *scene = lam_scene_make(NULL);
     lam_mesh mesh = {.positions = square,
@@ -479,8 +479,6 @@ static lam_scene *square_scene(const float *texcoords, const lam_part *parts, ui
                      .triangle_count = 2,
                      .normals = up_normals,
                      .normal_count = 4,
-                     .texcoords = texcoords,
-                     .texcoord_count = texcoords ? 4 : 0,
                      .parts = parts,
                      .part_count = part_count};
     lam_object object = lam_object_default();
@@ -495,7 +493,7 @@ static void parts_change_their_material(void **state)
     (void)state;
     lam_part parts[] = {{.name = "a", .triangle_count = 1, .material = -1},
                         {.name = "b", .first_triangle = 1, .triangle_count = 1, .material = -1}};
-    lam_scene *scene = square_scene(NULL, parts, 2);
+    lam_scene *scene = square_scene(parts, 2);
     lam_material gold = lam_material_named(LAM_MATERIAL_GOLD, LAM_COLOR_SRGB);
     assert_int_equal(lam_scene_add_material(scene, &gold, NULL), 0);
     assert_true(lam_scene_set_part_material(scene, 0, 1, 0, NULL));
@@ -511,89 +509,6 @@ static void parts_change_their_material(void **state)
     lam_scene_add_warning(scene, "one");
     assert_string_equal(lam_scene_warning(scene, 0), "one");
     lam_scene_free(scene);
-}
-
-static const float *tangent_at(const lam_mesh *mesh, uint32_t corner)
-{
-    return mesh->tangents + 4 * (size_t)mesh->tangent_indices[corner];
-}
-
-static void tangents_of_a_square(void **state)
-{
-    (void)state;
-    static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
-    static const float turned[] = {0, 0, 0, 1, -1, 1, -1, 0}; // s along −y
-    static const float mirrored[] = {1, 0, 0, 0, 0, 1, 1, 1}; // s along −x, t along y
-    static const float nowhere[] = {0, 0, 0, 0, 0, 0, 0, 0};
-    static const struct {
-        const float *texcoords;
-        float expected[4];
-    } rows[] = {{straight, {1, 0, 0, 1}}, {turned, {0, -1, 0, 1}}, {mirrored, {-1, 0, 0, -1}}, {nowhere, {1, 0, 0, 1}}};
-    for (int r = 0; r < 4; r++) {
-        lam_scene *scene = square_scene(rows[r].texcoords, NULL, 0);
-        assert_true(lam_scene_make_tangents(scene, NULL, NULL));
-        const lam_mesh *mesh = lam_scene_mesh(scene, 0);
-        assert_non_null(mesh->tangents);
-        assert_int_equal(mesh->tangent_count, 4); // shared by the corners of a vertex
-        for (uint32_t corner = 0; corner < 6; corner++)
-            for (int i = 0; i < 4; i++)
-                near((double)tangent_at(mesh, corner)[i], (double)rows[r].expected[i], 1e-7);
-        lam_scene_free(scene);
-    }
-    lam_scene *bare = square_scene(NULL, NULL, 0);
-    assert_true(lam_scene_make_tangents(bare, NULL, NULL));
-    assert_null(lam_scene_mesh(bare, 0)->tangents);
-    lam_scene_free(bare);
-}
-
-// A shape's own tangents, from its formula, equal the tangents from its texture coordinates, except for the error of
-// the segments.
-static void tangents_of_a_torus(void **state)
-{
-    (void)state;
-    lam_scene *exact = shape_scene("torus", 1), *made = lam_scene_make(NULL);
-    const lam_mesh *from = lam_scene_mesh(exact, 0);
-    assert_non_null(from->tangents);
-    assert_non_null(from->texcoords);
-    lam_mesh bare = *from;
-    bare.tangents = NULL;
-    bare.tangent_indices = NULL;
-    bare.tangent_count = 0;
-    assert_int_equal(lam_scene_add_mesh(made, &bare, NULL), 0);
-    assert_true(lam_scene_make_tangents(made, NULL, NULL));
-    const lam_mesh *mesh = lam_scene_mesh(made, 0);
-    double least = 1;
-    for (uint32_t corner = 0; corner < 3 * mesh->triangle_count; corner++) {
-        const uint32_t *by = from->tangent_indices ? from->tangent_indices : from->indices;
-        const float *a = from->tangents + 4 * (size_t)(by ? by[corner] : corner), *b = tangent_at(mesh, corner);
-        double dot = (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
-        least = fmin(least, dot);
-        assert_true(a[3] == b[3]);
-    }
-    near(least, 1, 2e-3);
-    // Existing tangents are kept.
-    const float *kept = mesh->tangents;
-    assert_true(lam_scene_make_tangents(made, NULL, NULL));
-    assert_ptr_equal(lam_scene_mesh(made, 0)->tangents, kept);
-    lam_scene_free(exact);
-    lam_scene_free(made);
-}
-
-static void tangents_can_be_bounded(void **state)
-{
-    (void)state;
-    lam_error error;
-    for (int i = 0; i < 2; i++) {
-        static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
-        lam_scene *scene = square_scene(straight, NULL, 0);
-        lam_cancel cancel = {1};
-        lam_control control = i ? (lam_control){.memory_limit_bytes = 16} : (lam_control){.cancel = &cancel};
-        assert_false(lam_scene_make_tangents(scene, &control, &error));
-        assert_int_equal(error.code, i ? LAM_LIMIT : LAM_CANCELLED);
-        assert_null(lam_scene_mesh(scene, 0)->tangents);
-        lam_scene_free(scene);
-    }
-    assert_false(lam_scene_make_tangents(NULL, NULL, &error));
 }
 
 int main(void)
@@ -612,9 +527,6 @@ int main(void)
         cmocka_unit_test(view_matrix),
         cmocka_unit_test(parts_change_their_material),
         cmocka_unit_test(terrains_are_lit_from_the_side),
-        cmocka_unit_test(tangents_of_a_square),
-        cmocka_unit_test(tangents_of_a_torus),
-        cmocka_unit_test(tangents_can_be_bounded),
     };
     return cmocka_run_group_tests(all, NULL, NULL);
 }

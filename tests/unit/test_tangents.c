@@ -413,6 +413,105 @@ static void tangents_of_mikkelsens_code(void **state)
     free(expected);
 }
 
+// --- tangents of scenes (lam_scene_make_tangents)
+
+static lam_scene *square_scene(const float *texcoords)
+{
+    static const float square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const float normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    lam_mesh mesh = quad_mesh(square, normals, texcoords, NULL, NULL);
+    mesh.texcoord_count = texcoords ? 4 : 0;
+    mesh.second_texcoord_count = 0;
+    mesh.part_count = 0;
+    lam_scene *scene = lam_scene_make(NULL);
+    assert_int_equal(lam_scene_add_mesh(scene, &mesh, NULL), 0);
+    return scene;
+}
+
+static const float *tangent_at(const lam_mesh *mesh, uint32_t corner)
+{
+    return mesh->tangents + 4 * (size_t)mesh->tangent_indices[corner];
+}
+
+static void tangents_of_a_square(void **state)
+{
+    (void)state;
+    static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const float turned[] = {0, 0, 0, 1, -1, 1, -1, 0}; // s along −y
+    static const float mirrored[] = {1, 0, 0, 0, 0, 1, 1, 1}; // s along −x, t along y
+    static const float nowhere[] = {0, 0, 0, 0, 0, 0, 0, 0};
+    static const struct {
+        const float *texcoords;
+        float expected[4];
+    } rows[] = {{straight, {1, 0, 0, 1}}, {turned, {0, -1, 0, 1}}, {mirrored, {-1, 0, 0, -1}}, {nowhere, {1, 0, 0, 1}}};
+    for (int r = 0; r < 4; r++) {
+        lam_scene *scene = square_scene(rows[r].texcoords);
+        assert_true(lam_scene_make_tangents(scene, NULL, NULL));
+        const lam_mesh *mesh = lam_scene_mesh(scene, 0);
+        assert_non_null(mesh->tangents);
+        assert_int_equal(mesh->tangent_count, 4); // shared by the corners of a vertex
+        for (uint32_t corner = 0; corner < 6; corner++)
+            for (int i = 0; i < 4; i++)
+                assert_true(fabsf(tangent_at(mesh, corner)[i] - rows[r].expected[i]) <= 1e-7f);
+        lam_scene_free(scene);
+    }
+    lam_scene *bare = square_scene(NULL);
+    assert_true(lam_scene_make_tangents(bare, NULL, NULL));
+    assert_null(lam_scene_mesh(bare, 0)->tangents);
+    lam_scene_free(bare);
+}
+
+// A shape's own tangents, from its formula, equal the tangents from its texture coordinates, except for the error of
+// the segments.
+static void tangents_of_a_torus(void **state)
+{
+    (void)state;
+    lam_scene *exact = lam_scene_make(NULL), *made = lam_scene_make(NULL);
+    assert_int_equal(lam_scene_add_shape(exact, "torus", NULL, NULL), 0);
+    const lam_mesh *from = lam_scene_mesh(exact, 0);
+    assert_non_null(from->tangents);
+    assert_non_null(from->texcoords);
+    lam_mesh bare = *from;
+    bare.tangents = NULL;
+    bare.tangent_indices = NULL;
+    bare.tangent_count = 0;
+    assert_int_equal(lam_scene_add_mesh(made, &bare, NULL), 0);
+    assert_true(lam_scene_make_tangents(made, NULL, NULL));
+    const lam_mesh *mesh = lam_scene_mesh(made, 0);
+    double least = 1;
+    for (uint32_t corner = 0; corner < 3 * mesh->triangle_count; corner++) {
+        const uint32_t *by = from->tangent_indices ? from->tangent_indices : from->indices;
+        const float *a = from->tangents + 4 * (size_t)(by ? by[corner] : corner), *b = tangent_at(mesh, corner);
+        double dot = (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
+        least = fmin(least, dot);
+        assert_true(a[3] == b[3]);
+    }
+    assert_true(least >= 1 - 2e-3);
+    // Existing tangents are kept.
+    const float *kept = mesh->tangents;
+    assert_true(lam_scene_make_tangents(made, NULL, NULL));
+    assert_ptr_equal(lam_scene_mesh(made, 0)->tangents, kept);
+    lam_scene_free(exact);
+    lam_scene_free(made);
+}
+
+static void tangents_can_be_bounded(void **state)
+{
+    (void)state;
+    lam_error error;
+    for (int i = 0; i < 2; i++) {
+        static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
+        lam_scene *scene = square_scene(straight);
+        lam_cancel cancel = {1};
+        lam_control control = i ? (lam_control){.memory_limit_bytes = 16} : (lam_control){.cancel = &cancel};
+        assert_false(lam_scene_make_tangents(scene, &control, &error));
+        assert_int_equal(error.code, i ? LAM_LIMIT : LAM_CANCELLED);
+        assert_null(lam_scene_mesh(scene, 0)->tangents);
+        lam_scene_free(scene);
+    }
+    assert_false(lam_scene_make_tangents(NULL, NULL, &error));
+}
+
 int main(void)
 {
     const struct CMUnitTest all[] = {
@@ -428,6 +527,9 @@ int main(void)
         cmocka_unit_test(equal_hashes_are_distinguished),
         cmocka_unit_test(tangents_of_a_normal_map),
         cmocka_unit_test(tangents_of_mikkelsens_code),
+        cmocka_unit_test(tangents_of_a_square),
+        cmocka_unit_test(tangents_of_a_torus),
+        cmocka_unit_test(tangents_can_be_bounded),
     };
     return cmocka_run_group_tests(all, NULL, NULL);
 }

@@ -260,6 +260,7 @@ end_header
         self.assertEqual(self.picture("c.glb"), self.picture("d.glb"))
         self.given |= self.new_files()
         self.bad(1, "convert", "cube.obj", "x.obj", "--thumbnail", says=".glb")
+        self.bad(1, "convert", "cube.obj", "-o", "x.glb", says="write lambent convert MODEL OUT.glb")
 
     # --- limits
 

@@ -372,12 +372,15 @@ static void look_drop_lights(struct options *options)
     }
 }
 
-// Reports that the intended option belongs to another command.
-static bool does_not_apply(const struct option *option, const struct option *typed, lam_error *error)
+// Reports that the intended option belongs to another command than the one that takes `groups`.
+static bool does_not_apply(const struct option *option, const struct option *typed, uint64_t groups, lam_error *error)
 {
     char takers[200] = "";
     for (const struct command *c = command_table; c->name; c++)
-        if (option_is_taken(option, c->groups)) {
+        if (c->groups == groups && c->operands && strstr(c->operands, "OUT") && strcmp(option->name, "output") == 0) {
+            return complain(error, LAM_BAD_ARGUMENT, "option '--output' is not needed: write lambent %s %s", c->name,
+                            c->operands);
+        } else if (option_is_taken(option, c->groups)) {
             size_t used = strlen(takers);
             snprintf(takers + used, sizeof takers - used, "%s%s", used ? ", " : "", c->name);
         }
@@ -393,7 +396,7 @@ static bool apply(const struct option *typed, const char *value, uint64_t groups
 {
     const struct option *option = option_is_taken(typed, groups) || !typed->several ? meant_by(typed, value) : typed;
     if (!option_is_taken(option, groups))
-        return does_not_apply(option, typed, error);
+        return does_not_apply(option, typed, groups, error);
     if (option->kind == VALUE_FILE && strncmp(value, "~/", 2) == 0 && access("~", F_OK) != 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--%s': found '%.200s': a shell replaces ~ only at the start of a word: --%s %.200s",

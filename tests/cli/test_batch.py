@@ -350,6 +350,17 @@ class Journal(Batch):
         self.assertIn("1 of 6 pictures written, 5 done before", done.stderr.decode())
         self.assertEqual(len(self.pictures()), 6)
 
+    def test_resume_of_several_pictures_of_a_model(self):
+        self.tree(2)
+        words = "in", "-o", "out/{stem}-{view}-{size}.png", "--view", "front,left,iso", "--sizes", "24,40"
+        self.batch(*words)
+        for record in self.journal():
+            if record.get("output"):
+                self.assertEqual(record["bytes"], (self.folder / record["output"]).stat().st_size)
+        self.assertIn("0 of 12 pictures written, 12 done before", self.batch(*words, "--resume").stderr.decode())
+        os.remove(self.folder / "out/m1-left-24.png")
+        self.assertIn("1 of 12 pictures written, 11 done before", self.batch(*words, "--resume").stderr.decode())
+
     def test_resume_is_refused(self):
         self.tree(2)
         self.batch("in", "-o", "out/")

@@ -503,6 +503,8 @@ bool job_run_view(struct job *job, int view, struct progress *progress, lam_erro
     job_choose_view(job, &job->views[view]);
     job->camera = job->cameras[view];
     job->written = false;
+    job->bytes = 0;
+    job->times.encode = 0;
     if (!job_check_output(job, error) || (view > 0 && !job_light_again(job, error)))
         return false;
     job->planned = job->options->report.dry_run;

@@ -174,6 +174,8 @@ def into_newest(part):
         sys.exit("run.py: %s is of another version or machine" % path)
     rows = {row["name"]: {**row, "apart_load": round(part["machine"]["load_before"], 1)} for row in part["rows"]}
     result["rows"] = sorted({**{row["name"]: row for row in result["rows"]}, **rows}.values(), key=lambda row: row["number"])
+    for number, row in enumerate(result["rows"], 1):
+        row["number"] = number
     result["frames"] = geometric_mean(result["rows"], result["isas"])
     result.update({key: part[key] for key in ("limits", "distance", "growth") if part.get(key)})
     save(result, path)

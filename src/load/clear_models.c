@@ -1,4 +1,4 @@
-// clear_models.c: makes a fully transparent scene visible, because its picture would be empty.
+// clear_models.c: makes a fully transparent scene visible, because its picture would otherwise be empty.
 #include "clear_models.h"
 
 #include <stdio.h>
@@ -17,8 +17,8 @@ static bool colors_are_clear(const lam_mesh *mesh)
     return clear;
 }
 
-// Iterates over the materials of an object's front, part by part, then of its back. `next` returns false after the last
-// one.
+// Iterates over the parts of an object, with the materials of their front and back faces. next_shown returns false
+// after the last part.
 struct shown {
     uint32_t part;
     lam_material *front, *back; // a NULL back uses the front's material

@@ -9,7 +9,7 @@ static inline bool gltf_is_binary(const uint8_t *bytes, size_t size)
     return size >= 4 && bytes[0] == 'g' && bytes[1] == 'l' && bytes[2] == 'T' && bytes[3] == 'F';
 }
 
-// Finds the JSON text of the file (all of it, unless it is a .glb), and sets gltf->binary.
+// Finds the JSON text: a chunk of a .glb, or the whole file otherwise. Sets gltf->binary.
 bool gltf_container_read(struct gltf *gltf, const uint8_t **text, size_t *size);
 
 #endif

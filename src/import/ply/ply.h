@@ -35,8 +35,8 @@ struct ply_element {
     const struct ply_property *properties;
     int property_count;
     int list_count;      // properties that are lists
-    size_t scalar_bytes; // bytes of a binary row without its lists
-    size_t min_bytes;    // bytes of a binary row with empty lists
+    size_t scalar_bytes; // size in bytes of a binary row without its lists
+    size_t min_bytes;    // size in bytes of a binary row whose lists are empty
 };
 
 struct ply_header {
@@ -56,15 +56,15 @@ void ply_warn_header(const struct import_source *source, struct lam_scene *scene
 bool ply_read_header(const struct import_source *source, struct arena *arena, struct ply_header *header,
                      lam_error *error);
 
-// Returns the bytes of a number: a digit of the constant for each type.
+// Returns the size in bytes of a number. Each hexadecimal digit of the constant is the size of one type.
 static inline size_t ply_type_size(enum ply_type type) { return 0x84442211 >> 4 * type & 15; }
 static inline bool ply_type_is_integer(enum ply_type type) { return type < PLY_F32; }
 
 // Returns the index of a property with this name, list or scalar, or −1 if there is none.
 int ply_find(const struct ply_element *element, bool list, const char *name);
 
-// The type of x, y and z in a table. The declared types of an ASCII file do not determine its decimals, so positions
-// are read as floats, and again as doubles if the model is far from zero.
+// The type of x, y and z in a table. The declared types of an ASCII file do not determine how many decimals its numbers
+// have, so positions are read as floats, and again as doubles if the model is far from zero.
 enum ply_positions_as { PLY_AS_DECLARED, PLY_AS_FLOAT, PLY_AS_DOUBLE };
 
 // An element's rows.
@@ -75,21 +75,21 @@ struct ply_table {
     const uint32_t *offsets;    // the offset of each scalar property in a row
     const enum ply_type *types; // the type of each property in `rows`
     enum ply_positions_as positions;
-    // The requested list with checked indices, from items[starts[r]] for row r; three items per row if `starts` is
-    // NULL. A row has room for its triangles: 3 (n − 2) items for n corners, of which the first n are set. It has none
-    // for fewer than three corners.
+    // The requested list, with checked indices. The items of row r begin at items[starts[r]], or at items[3 r] if
+    // `starts` is NULL. Each row reserves space for its triangles: 3 (n − 2) items for n corners, of which the first n
+    // are set. Rows of fewer than three corners reserve no items.
     uint32_t *items;
-    const uint32_t *starts; // a row more than the table has
+    const uint32_t *starts; // one more element than the table has rows
 };
 
 // The data to read from an element.
 struct ply_request {
     bool scalars;
     int list;            // index of the property, or −1
-    uint32_t item_limit; // items must be below it
+    uint32_t item_limit; // items must be below this limit
     bool restarts;       // a strip: item −1 is valid and becomes PLY_RESTART
     enum ply_positions_as positions;
-    struct arena *keep, *scratch; // memory for items of lists, and for the rest
+    struct arena *keep, *scratch; // memory for items of lists, and for everything else
 };
 #define PLY_RESTART UINT32_MAX
 

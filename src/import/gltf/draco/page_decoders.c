@@ -1,6 +1,6 @@
 // page_decoders.c: calls the Draco decoders that the surrounding web page provides. Draco and meshoptimizer are in a
-// second module (web/decoders.py), which JavaScript calls for these functions (web/decoders.js); it copies the bytes
-// between the two memories.
+// second WebAssembly module (web/decoders.py). JavaScript (web/decoders.js) calls that module and copies the bytes
+// between the memories of the two modules.
 #include "draco_module.h"
 
 #include <stdbool.h>
@@ -13,7 +13,8 @@ bool page_library_find(void *library, const char *name, void *function);
 
 // Returns whether the module is loaded. If it is not, the page downloads it and reads the file again.
 int web_decoders(void) IMPORT(web_decoders);
-// Stores mesh, vertices and triangles at `out`. Like the next function, it returns a result of draco_functions.
+// Stores the mesh's handle and its numbers of vertices and triangles in `out`. This function and the next one return
+// the same results as the members of draco_functions.
 int web_draco_decode(const uint8_t *bytes, size_t size, uint32_t out[3], char *reason) IMPORT(web_draco_decode);
 int web_draco_attribute(uint32_t mesh, uint32_t id, int component, int width, void *out, char *reason)
     IMPORT(web_draco_attribute);

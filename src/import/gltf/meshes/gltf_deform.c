@@ -55,8 +55,8 @@ struct morph_target {
     size_t count; // the number of vertices
 };
 
-// Adds one attribute of a target to an array, which becomes the mesh's own with the first addition. `width` and
-// `base_width` are the numbers of values per vertex in the target and in the mesh.
+// Adds one attribute of a target to an array of the mesh. The first addition replaces the shared array by the mesh's
+// own copy. `width` and `base_width` are the numbers of values per vertex in the target and in the mesh.
 static bool add_target(const struct morph_target *t, const char *name, int width, int base_width, const float **values,
                        bool *own)
 {
@@ -101,7 +101,7 @@ struct owned {
     bool positions, normals, tangents, texcoords[2];
 };
 
-// Morphs the sets of texture coordinates that the mesh has.
+// Morphs the mesh's sets of texture coordinates.
 static bool morph_texcoords(const struct morph_target *target, lam_mesh *mesh, struct owned *own)
 {
     bool ok = true;
@@ -203,7 +203,7 @@ static bool store(float *out, lam_vec3 v)
     return true;
 }
 
-// Stores a direction. If it is out of range, it becomes 0, which means none.
+// Stores a direction. A direction that is out of range becomes 0, which means that there is no direction.
 static void store_direction(float *out, lam_vec3 v)
 {
     if (!store(out, v3_unit(v)))

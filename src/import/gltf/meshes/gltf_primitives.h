@@ -19,12 +19,12 @@ struct gltf_mesh {
 
 bool gltf_meshes_start(struct gltf *gltf);
 
-// Returns a mesh of the file, which is made on first use and shared by all nodes that refer to it. Returns NULL on
-// error.
+// Returns a mesh of the file. The mesh is created on first use and shared by all nodes that refer to it. Returns NULL
+// on error.
 const struct gltf_mesh *gltf_mesh_at(struct gltf *gltf, int index);
 
-// Returns a separate copy of the mesh for one node, deformed by its skin (may be NULL) or by the node's own weights of
-// morph targets (NULL means the mesh's).
+// Returns a separate copy of the mesh for one node, deformed by `skin` (may be NULL) or by morph targets with the
+// weights of `node` (NULL means the mesh's own weights).
 const struct gltf_mesh *gltf_mesh_deformed(struct gltf *gltf, int index, const struct gltf_node *node,
                                            const struct gltf_skin *skin);
 

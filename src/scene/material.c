@@ -15,7 +15,7 @@ struct named_material {
 // The published shininess is a fraction of OpenGL's maximum exponent, 128.
 #define SHININESS(share) ((float)((share) * 128.0))
 
-// The numbers of SGI's demo teapots.c, unchanged. Its colours were chosen on displays of the time (sRGB).
+// The numbers of SGI's demo teapots.c, unchanged. The demo's colours were chosen on displays of its time (sRGB).
 static const struct named_material named[LAM_MATERIAL_COUNT] = {
     [LAM_MATERIAL_EMERALD] = {"emerald",
                               {0.0215f, 0.1745f, 0.0215f},
@@ -137,7 +137,8 @@ lam_material lam_material_named(lam_material_id id, lam_color_mode color)
 
 const char *lam_material_name(lam_material_id id) { return known(id) ? named[id].name : NULL; }
 
-// Converts a letter to the spelling of the table. It converts only ASCII letters, independently of the locale.
+// Converts a character to the spelling of the table: lower case, with '-' for a space or '_'. Only ASCII letters are
+// converted, independently of the locale.
 static char canonical_letter(char c)
 {
     if (c >= 'A' && c <= 'Z')

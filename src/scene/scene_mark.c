@@ -81,7 +81,8 @@ bool lam_scene_reset(lam_scene *scene, lam_error *error)
     if (!scene || !scene->mark)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_reset: %s", scene ? "no state is marked" : "the scene is NULL");
     const struct scene_mark *mark = scene->mark;
-    for (int i = 0; i < LISTS; i++) { // lists never shrink, so each has space for its earlier elements
+    // the capacity of a list never shrinks, so there is space for its earlier elements
+    for (int i = 0; i < LISTS; i++) {
         struct scene_list *list = list_of(scene, i);
         list->count = mark->saved[i].count;
         if (list->count)

@@ -164,7 +164,7 @@ static void place_rig_light(const lam_scene *scene, lam_light *light)
         return;
     if (light->frame == LAM_FRAME_WORLD)
         lam_scene_sphere(scene, -1, &centre, &radius);
-    // relative to the box, which needs no pass over the vertices
+    // uses half the diagonal of the bounding box, which needs no pass over the vertices
     else if (scene && lam_scene_bounds(scene, &low, &high))
         radius = 0.5 * v3_length(v3_sub(high, low));
     if (radius == 0)

@@ -1,4 +1,5 @@
-// scene_environment.c: reads the environment of a scene file: pictures beside it, or a built-in one.
+// scene_environment.c: reads the environment of a scene file: pictures beside the scene file, or a built-in
+// environment.
 #include "companion.h"
 #include "cube_map.h"
 #include "fail.h"
@@ -41,7 +42,7 @@ static bool read_built_in(struct scene_reader *r, const struct place *place, con
                       near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
 }
 
-// The pictures during reading: their names, and the settings that receive their full paths.
+// The names of the pictures, and the members of the settings that receive their full paths.
 struct pictures {
     struct scene_reader *r;
     const char *const *names;

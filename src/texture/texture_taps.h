@@ -9,7 +9,7 @@
 #include "functions.h"
 #include "texture_map.h"
 
-// Larger coordinates have no fraction. They count as 0, like NaN.
+// Coordinates beyond this limit have no fraction. They are treated as 0, like NaN.
 #define COORDINATE_MAX 2.0e9f
 
 // Four texels of a level, in the form of the rows of texture_taps.
@@ -37,7 +37,8 @@ LANE_FN num wrapped_of(num s, lam_wrap wrap)
     return wrap == LAM_WRAP_MIRROR ? pick((whole & 1) == 1, 1.0f - part, part) : part;
 }
 
-// Two neighbours along a side of `size` texels: the first, the step from it to the second, and the second's weight.
+// Two neighbouring texels along a side of `size` texels: the first texel, the step to the second texel, and the weight
+// of the second texel.
 struct neighbours {
     inum first, step;
     num share;
@@ -119,7 +120,7 @@ struct texture_matrix {
     float m[2][3];
 };
 
-// Returns the transform from the mesh's texture coordinates to the picture's.
+// Returns the transform from the mesh's texture coordinates to coordinates in the picture.
 static inline struct texture_matrix texture_matrix_of(const lam_texture_map *map)
 {
     struct texture_matrix matrix = {{{1, 0, 0}, {0, 1, 0}}};
@@ -133,8 +134,8 @@ static inline struct texture_matrix texture_matrix_of(const lam_texture_map *map
 
 LANE_FN num row_of(const float m[3], num s, num t) { return m[0] * s + m[1] * t; }
 
-// Positions in the picture, the footprints of their pixels in texels of level 0 (squares of the two lengths), and the
-// level of detail. Footprints of zero or unknown size are magnified.
+// Positions in the picture, the squared lengths of the two axes of each pixel's footprint in texels of level 0, and the
+// level of detail. Footprints of zero or unknown size are treated as magnified.
 struct footprints {
     num s, t, longer, shorter, detail;
 };

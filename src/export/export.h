@@ -27,7 +27,7 @@ struct lam_export {
 
 // The state of an export.
 struct exporting {
-    const struct lam_scene *scene; // NULL if there is only a mesh
+    const struct lam_scene *scene; // NULL if a single mesh is exported
     const lam_export_params *params;
     const char *name;    // the name of the model's file
     struct arena *arena; // memory of the export
@@ -38,7 +38,7 @@ struct exporting {
     lam_mesh flat[EXPORT_KINDS];
     struct text text;          // the model's file
     struct call_control *call; // NULL if there is none
-    bool stopped;              // the call must stop, and the result is incomplete
+    bool stopped;              // the call was stopped, so the result is incomplete
     lam_error *error;
 };
 
@@ -58,7 +58,7 @@ EXPORTERS(EXPORTER_DECLARED)
 // `path`.
 const struct exporter *exporter_find(const char *ending, const char *path, lam_error *error);
 
-// Records a loss: something in the scene that the file cannot store. Each sentence is recorded once.
+// Records a loss: something in the scene that the file cannot store. Each message is recorded once.
 void export_lose(struct exporting *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Records the losses that all flat formats share: lights, cameras, an environment, animations. `has_lights_and_cameras`
@@ -85,14 +85,14 @@ void export_memory_free(struct exporting *e, void *memory, size_t bytes);
 bool export_asks(struct exporting *e);
 static inline bool export_continues(struct exporting *e, size_t item) { return item % 65536 || export_asks(e); }
 
-// Return false and fill the error if a loop ended early or the text is incomplete.
+// These functions return false and fill the error if a loop ended early or the text is incomplete.
 bool export_is_whole(struct exporting *e);
 bool export_text_is_whole(struct exporting *e, const struct text *text);
 
 // flatten.c: builds e->flat from the scene.
 bool export_flatten(struct exporting *e);
 
-// export_numbers.c: writes numbers in text and bytes, and rotates vectors to the format's up axis.
+// export_numbers.c: writes numbers as text and as bytes, and rotates vectors to the format's up axis.
 void export_number(struct text *text,
                    double x); // with all digits of a float, or of a double if it is not exactly a float
 void export_word(struct text *text, uint32_t value); // little-endian
@@ -118,8 +118,8 @@ struct export_vertices {
 };
 bool export_share_vertices(struct exporting *e, const lam_mesh *mesh, struct export_vertices *out);
 
-// Return the element of a corner's colour, the linear colour, and the sRGB-encoded colour in 8 bits. The mesh must have
-// colours.
+// These functions return the element of a corner's colour, an element's linear colour, and an element's sRGB-encoded
+// colour in 8 bits. The mesh must have colours.
 uint32_t export_color_element(const lam_mesh *mesh, size_t corner);
 void export_color(const lam_mesh *mesh, size_t element, float color[4]);
 void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4]);

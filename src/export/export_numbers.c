@@ -53,7 +53,7 @@ void export_number(struct text *text, double x)
     size_t length = 0;
     snprintf(digits, sizeof digits, (double)(float)x == x ? "%.9g" : "%.17g", x + 0.0);
     bool point = false;
-    for (const char *c = digits; *c; c++) { // the decimal separator is a point in every locale
+    for (const char *c = digits; *c; c++) { // the decimal separator becomes a point in every locale
         bool usual = (*c >= '0' && *c <= '9') || *c == '-' || *c == '+' || *c == 'e';
         if (usual || !point)
             plain[length++] = usual ? *c : '.';

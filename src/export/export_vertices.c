@@ -85,7 +85,7 @@ void export_color(const lam_mesh *mesh, size_t element, float color[4])
     }
 }
 
-// Returns the byte whose linear intensity is closest to `light`, by bisection, since the curve is monotonic.
+// Finds the byte whose linear intensity is closest to `light` by bisection, because the curve is monotonic.
 static uint8_t encoded(float light)
 {
     int low = 0, high = 255;

@@ -6,7 +6,7 @@
 
 #include <jansson.h>
 
-// The indices of the accessors for the arrays of a scene's mesh, −1 if missing.
+// The indices of the accessors for the arrays of a mesh of the scene; −1 means that the array is missing.
 struct glb_arrays {
     bool ready;
     int position, normal, texcoords[2], tangent, color;
@@ -25,7 +25,7 @@ struct glb_mesh {
 
 struct glb_image {
     const lam_texture *texture;
-    int index; // the index in `images`; −1 if it cannot be written
+    int index; // the index in `images`; −1 if the picture cannot be written
 };
 
 struct glb {
@@ -66,7 +66,7 @@ bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size
 // Returns the index of the file's mesh for a part of an object (−1: all parts), or −1 if memory runs out.
 int glb_mesh_of(struct glb *glb, const lam_object *object, int part);
 
-// Returns the index of a material in the file. −1 is the default material.
+// Returns the index in the file of a material of the scene (−1 means the default material).
 int glb_material(struct glb *glb, int material, bool double_sided);
 
 // Returns the JSON object for a map's texture, with its texture coordinates and transform. Returns NULL if there is no

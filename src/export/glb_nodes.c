@@ -3,7 +3,7 @@
 
 #include "linear.h"
 
-// Rotates a matrix from the scene's up axis to y.
+// Rotates a matrix from the scene's up axis to y up.
 static lam_mat4 placed(const struct glb *glb, lam_mat4 m)
 {
     lam_mat4 turn = lam_mat4_identity();

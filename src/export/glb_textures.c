@@ -17,7 +17,7 @@ static bool is_same(const lam_texture *a, const lam_texture *b)
            memcmp(a->bytes, b->bytes, (size_t)x->width * (size_t)x->height * (size_t)a->channels) == 0;
 }
 
-// Returns the index of a texture's image, or −1 if it cannot be written.
+// Returns the index of a texture's image, or −1 if the image cannot be written.
 static int image_of(struct glb *glb, const lam_texture *texture)
 {
     for (int i = 0; i < glb->pictures.count; i++) {

@@ -93,7 +93,7 @@ static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *pa
     }
 }
 
-// Writes a name on a line of its own.
+// Writes a name on a separate line.
 static void put_name(struct text *text, const char *word, const char *name)
 {
     char clean[200];
@@ -111,8 +111,8 @@ static size_t object_length(const char *name)
     return slash && slash[1] ? (size_t)(slash - name) : 0;
 }
 
-// Writes the name of a part. `before` is the name of the previous part, or NULL. The written statements make a reader
-// join object and group into the same name again.
+// Writes the name of a part. `before` is the name of the previous part, or NULL. A reader of the written statements
+// joins object and group into the same name again.
 static void put_part_name(struct text *text, const char *name, const char *before)
 {
     size_t length = object_length(name);

@@ -52,7 +52,7 @@ static char *join(struct arena *arena, const char *folder, const char *name)
     return path;
 }
 
-// Returns the path after following all links, if it is inside one of params->allowed_paths; see path_within.
+// Returns the path after following all links, if the result is inside one of params->allowed_paths; see path_within.
 static char *path_allowed(const struct import_source *source, const char *path, size_t *length)
 {
     char *real = NULL;
@@ -62,7 +62,7 @@ static char *path_allowed(const struct import_source *source, const char *path, 
     return real;
 }
 
-// Returns whether a name that leads out of the folder leads to an allowed path.
+// Returns whether a name that refers to a file outside the folder refers to an allowed path.
 static bool is_allowed(const struct import_source *source, const char *name)
 {
     const struct companions *companions = source->open_state;
@@ -213,7 +213,7 @@ bool companions_of_model(const struct import_source *scene, const char *name, co
     *out = *(const struct companions *)scene->open_state;
     const char *path = model->path;
     if (!path) {
-        copy_components(name, inside, sizeof inside); // same as in open_of_scene
+        copy_components(name, inside, sizeof inside); // the same name as in open_of_scene
         path = inside;
     }
     const char *folder = arena_string_of(arena, path, (size_t)(path_name(path) - path));

@@ -18,7 +18,7 @@ typedef bool open_companion(const struct import_source *source, const char *name
 struct import_source {
     const char *name;     // for messages: the path as the user wrote it
     const char *path;     // the file's path; NULL if it is in memory or standard input
-    const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
+    const uint8_t *bytes; // FILE_PADDING zero bytes follow the last byte
     size_t size;          // the size of the file in bytes
     // Set for a large file that is read in parts (importer.in_parts); `bytes` then contains only its first FILE_HEAD
     // bytes. NULL if `bytes` contains the whole file. The functions of parallel_rows.h support both cases.
@@ -29,7 +29,7 @@ struct import_source {
     const lam_load_params *params;
     struct pool *pool;         // NULL if there are no threads
     struct call_control *call; // never NULL; every long loop checks it
-    // Open a file that the model or a scene file names (companion.h).
+    // These functions open a file that the model or a scene file names (companion.h).
     open_companion *open, *open_of_scene;
     // Finds the importer of a model that a scene file names (formats.h).
     const struct importer *(*importer_for)(const char *name, const struct file_bytes *file, const char *wanted,
@@ -39,7 +39,7 @@ struct import_source {
 
 struct importer {
     const char *name;       // "obj"
-    const char *extensions; // "obj"; several are separated by spaces
+    const char *extensions; // "obj"; several extensions are separated by spaces
     lam_up up;              // the format's up axis
     // the format does not define an up axis; `up` is the most common one, and the shape of a terrain may override it
     bool up_is_habit;
@@ -48,7 +48,7 @@ struct importer {
     bool flat_normals; // the format requires flat normals for meshes without normals
     // Returns whether the bytes are of this format: 0 no, 1 possibly (the file's extension decides), 2 certainly.
     int (*probe)(const uint8_t *bytes, size_t size);
-    // Fills an empty scene: meshes, materials, one object per mesh. On failure the caller frees the scene.
+    // Fills an empty scene with meshes, materials, and one object per mesh. On failure, the caller frees the scene.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
     // Optional. Returns whether `load` reads this large file in parts (import_source.parts).
     bool (*in_parts)(const struct import_source *source);
@@ -78,7 +78,8 @@ static inline double importer_crease(const struct importer *importer, lam_normal
                                                                                           : crease_angle_rad;
 }
 
-// Fail with LAM_CANNOT_READ and "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". Return false.
+// These functions fail with LAM_CANNOT_READ and "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". They return
+// false.
 bool fail_line(lam_error *error, const struct import_source *source, size_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 bool fail_byte(lam_error *error, const struct import_source *source, size_t offset, const char *format, ...)

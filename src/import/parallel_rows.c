@@ -1,4 +1,5 @@
-// parallel_rows.c: processes a file's rows in parallel chunks, with errors that do not depend on the threads.
+// parallel_rows.c: processes a file's rows in parallel chunks. The reported error does not depend on the number of
+// threads.
 #include "parallel_rows.h"
 
 struct run {

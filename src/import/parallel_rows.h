@@ -1,4 +1,5 @@
-// parallel_rows.h: processes a file's rows in parallel chunks, with errors that do not depend on the threads.
+// parallel_rows.h: processes a file's rows in parallel chunks. The reported error does not depend on the number of
+// threads.
 #ifndef PARALLEL_ROWS_H
 #define PARALLEL_ROWS_H
 
@@ -16,9 +17,9 @@ static inline void parallel_rows_range(size_t rows, size_t index, size_t *first,
     *last = rows - *first < PARALLEL_ROWS ? rows : *first + PARALLEL_ROWS;
 }
 
-// A task that processes chunk `index`. It may run twice for the same chunk. Returns false if the chunk has an error,
-// and `error` (may be NULL) describes the first one in it. The call's cancellation and deadline are checked between
-// chunks.
+// A task that processes chunk `index`. It may run twice for the same chunk. Returns false if the chunk contains an
+// error; `error` (may be NULL) then describes the first error in the chunk. The call's cancellation and deadline are
+// checked between chunks.
 typedef bool parallel_rows_task(void *user, size_t index, lam_error *error);
 
 // Runs the task for chunks 0 … count − 1 on the source's pool. If some chunks fail, the first of them is processed

@@ -1,5 +1,5 @@
-// json_reader.h: values of a JSON file, checked on access. Each error names the file, the position in it, the value
-// found and the value expected. The readers of scene files and shader contracts use these functions.
+// json_reader.h: gets values of a JSON file and checks each value on access. Each error names the file, the position in
+// it, the value found and the value expected. The readers of scene files and shader contracts use these functions.
 #ifndef JSON_READER_H
 #define JSON_READER_H
 
@@ -63,7 +63,7 @@ bool json_take_number(const struct json_reader *r, const struct place *place, co
                       double min, double max, double *out);
 bool json_take_bool(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
                     bool *out);
-// Gets a string that is not empty; it belongs to `object`.
+// Gets a string, which must not be empty. The string belongs to `object`.
 bool json_take_text(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
                     const char **out);
 

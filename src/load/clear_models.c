@@ -41,7 +41,7 @@ static bool is_clear(struct lam_scene *scene, const lam_object *object)
     struct shown shown = {0};
     while (next_shown(scene, object, &shown)) {
         bool materials = !(shown.front->diffuse.a > 0) && (!shown.back || !(shown.back->diffuse.a > 0));
-        if (!materials) // the mesh's colours determine its opacity
+        if (!materials) // the material is opaque, so the mesh's colours decide
             return colors_are_clear(scene_mesh(scene, object->mesh));
     }
     return true;

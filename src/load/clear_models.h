@@ -1,4 +1,4 @@
-// clear_models.h: makes a fully transparent scene visible, because its picture would be empty.
+// clear_models.h: makes a fully transparent scene visible, because its picture would otherwise be empty.
 #ifndef CLEAR_MODELS_H
 #define CLEAR_MODELS_H
 

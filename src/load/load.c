@@ -130,7 +130,7 @@ static bool load_in_parts(struct import_source *source, const struct importer **
         source->size = file.size;
         source->parts = &file;
         call_add_input(source->call, file.size);
-        // If the file is too large, the function that reads whole files reports it.
+        // If the file is too large, load reports that after this function returns.
         if (call_check_file(source->call, source->name, file.size, NULL))
             *importer = importer_for_parts(source->name, head, file.size, source->params->format);
         in_parts = *importer && (*importer)->in_parts && (*importer)->in_parts(source);

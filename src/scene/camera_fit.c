@@ -29,7 +29,7 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, la
     };
 }
 
-// The input of a fit.
+// The parameters of a fit.
 struct fitting {
     struct view_axes axes;
     double aspect, fill, fovy, zoom;
@@ -102,8 +102,8 @@ static void centre_axis(const struct view_points *points, bool horizontal, doubl
 //
 //  ex = (R − L)/2,   ez = (R + L)/(2k)
 //
-// The result is exact and takes one pass over the points. The axis with the larger ez determines the distance. The
-// other axis is centred with the smaller k at which it would touch the frame at this ez.
+// The result is exact, and computing it needs one pass over the points. The axis with the larger ez determines the
+// distance. The other axis is centred with the smaller k at which it would touch the frame at this ez.
 static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;

@@ -18,7 +18,7 @@ struct scene_list {
 
 // The bounds of a mesh's triangles, lines or points.
 struct scene_extent {
-    lam_vec3 minimum, maximum; // mesh coordinates, origin included
+    lam_vec3 minimum, maximum; // in mesh coordinates, including the origin
     // The vertices that triangles use, in order; NULL means all vertices.
     const uint32_t *used;
     uint32_t used_count;
@@ -83,7 +83,7 @@ struct lam_scene {
     // position. The message is NULL if there is no such material.
     int clear_materials;
     const char *first_clear;
-    const lam_picture_settings *settings; // a scene file's settings, or NULL
+    const lam_picture_settings *settings; // the settings of a scene file; NULL for other files
     lam_up up;
     lam_mat4 placement; // the product of all lam_scene_transform calls
     lam_rgb ambient;
@@ -103,7 +103,7 @@ struct lam_scene {
     bool shared_arrays;      // meshes may share arrays, so no array is changed in place
 };
 
-// Works like lam_scene_make, but charges allocations to `call` (may be NULL) until scene_built.
+// Works like lam_scene_make, but charges allocations to `call` (may be NULL) until scene_built is called.
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 

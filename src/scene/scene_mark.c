@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-// The restored lists, with the size of their items. Cameras and origins come from files and are never removed.
+// The lists that are restored, with the size of their items. Cameras and origins come from files and are never removed.
 static const struct {
     size_t list, item;
 } lists[] = {

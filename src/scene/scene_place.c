@@ -155,7 +155,7 @@ bool scene_lit_by_environment(const struct lam_scene *scene)
     return physical && !classic;
 }
 
-// Moves a light of a rig for a scene of radius 1 to its position in this scene.
+// Moves a light of a rig, which is defined for a scene of radius 1, to its position in this scene.
 static void place_rig_light(const lam_scene *scene, lam_light *light)
 {
     lam_vec3 low, high, centre = v3(0, 0, 0);

@@ -6,7 +6,7 @@
 
 // The axes of the view as directions in world space: to the right and to the top of the picture, and from the model to
 // the eye. The coordinates x, y and z of a vertex are measured along these axes from `centre`. This point is near the
-// scene, so the coordinates are precise wherever the scene is.
+// scene, so the coordinates are precise for any position of the scene.
 struct view_axes {
     lam_vec3 right, above, back;
     lam_vec3 centre;
@@ -29,7 +29,7 @@ enum extent_direction { EXTENT_RIGHT, EXTENT_LEFT, EXTENT_TOP, EXTENT_BOTTOM, EX
 struct view_extents {
     double kx, ky;
     double value[EXTENT_DIRECTIONS];
-    lam_vec3 point[EXTENT_DIRECTIONS]; // the point with the maximum: its x, y and z
+    lam_vec3 point[EXTENT_DIRECTIONS]; // x, y and z of the point with the maximum
 };
 
 // Gets a point of the scene: the middle of the box of the first object that has triangles. If no object has triangles,

@@ -55,7 +55,7 @@ static bool open_picture(void *user, int index, struct call_control *call, struc
     struct pictures *pictures = user;
     const struct import_source *source = pictures->r->source;
     struct companion companion;
-    (void)call; // the source contains its own call
+    (void)call; // unused, because the source contains the call
     if (!source->open_of_scene(source, pictures->names[index], &pictures->r->scene->arena, &companion, error))
         return false;
     *file = companion.file;
@@ -65,7 +65,7 @@ static bool open_picture(void *user, int index, struct call_control *call, struc
     return pictures->paths[index] || call_memory_error(source->call, strlen(pictures->names[index]), error);
 }
 
-// Reads the pictures. Errors name the key.
+// Reads the pictures. Error messages name the key of the scene file.
 static struct lam_environment *read_pictures(struct scene_reader *r, const struct place *place,
                                              const char *const *names, int count, const char **paths)
 {

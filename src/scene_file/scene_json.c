@@ -207,7 +207,7 @@ static bool read_setting(struct scene_reader *r, const json_t *root, const lam_s
     return true;
 }
 
-// Lighting by vertex implies Gouraud shading, unless the file sets another method.
+// Lighting per vertex implies Gouraud shading, unless the file sets another method.
 static bool check_stage(struct scene_reader *r)
 {
     lam_picture_settings *s = r->settings;

@@ -24,7 +24,7 @@ static struct cover cover_of(int from, int to, int i)
     return cover;
 }
 
-// With three channels, the fourth number overwrites the next texel, which is stored later.
+// With three channels, the fourth number is written into the next texel, which is stored later.
 static void store_texel(float *out, texel t) { *(texel_memory *)out = t; }
 
 // Makes level 1 from bytes. `channels` is a constant after inlining.

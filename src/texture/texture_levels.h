@@ -18,7 +18,7 @@ typedef float texel_memory __attribute__((vector_size(16), aligned(4), may_alias
 
 struct texture_level {
     int width, height;
-    const float *floats; // floats in rows from the top; NULL if `bytes` is used
+    const float *floats; // texels of floats, row by row from the top; NULL if `bytes` is used
 };
 
 struct lam_texture {

@@ -1,8 +1,8 @@
 // texture_taps.h: finds the texels that a point uses, and their weights, for LANES points at a time (docs/textures.md).
 // Define LANES before including it.
 //
-// Every lookup uses four texels of a level and four of the next, mixed with three weights. Lookups of fewer texels use
-// weights of 0, which do not change any bit.
+// Every lookup mixes four texels of a level and four texels of the next level, with three weights. Lookups of fewer
+// texels use weights of 0, which do not change any bit.
 #ifndef TEXTURE_TAPS_H
 #define TEXTURE_TAPS_H
 
@@ -79,8 +79,8 @@ LANE_FN struct tap_lanes tap_of(const lam_texture_map *map, num s, num t, inum w
 
 // --- level of detail
 
-// Returns the side length at given levels: `side` texels at level 0, halved and rounded down, at least 1. It is exact,
-// because side lengths have at most 15 bits.
+// Returns the side length at given levels: `side` texels at level 0, halved and rounded down, at least 1. The result is
+// exact, because side lengths have at most 15 bits.
 LANE_FN inum side_at(int side, inum level)
 {
     return imax_of(floor_of((float)side * num_of_bits(shift_left(127 - level, 23))), inum_of(1));
@@ -152,7 +152,7 @@ LANE_FN struct footprints footprints_of(const lam_texture_map *map, const struct
     num ys = row_of(m[0], ds_dy, dt_dy) * width, yt = row_of(m[1], ds_dy, dt_dy) * height;
     num x_square = xs * xs + xt * xt, y_square = ys * ys + yt * yt;
     num longer = max_of(x_square, y_square);
-    // The square root is part of the logarithm: log2 √longer.
+    // The factor 0.5 is the square root within the logarithm: log2 √longer.
     num detail = pick(longer > 1.0e-30f, 0.5f * log2_of(min_of(longer, num_of(1.0e30f))), num_of(-50.0f));
     return (struct footprints){row_of(m[0], s, t) + m[0][2], row_of(m[1], s, t) + m[1][2], longer,
                                min_of(x_square, y_square), detail};

@@ -14,7 +14,7 @@
 enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
 _Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
-// Names of materials that are not in the table of classic materials, and the descriptions that they stand for.
+// Names of materials that are not in the table of classic materials, and the descriptions that define them.
 static const struct {
     const char *name, *words;
 } others[] = {{"glass", "white,roughness=0,transmission=1"}};
@@ -22,10 +22,10 @@ static const struct {
 enum { OTHERS = sizeof others / sizeof *others };
 
 struct parser {
-    lam_material_id id; // a named material, or LAM_MATERIAL_COUNT if none is given
+    lam_material_id id; // a named material, or LAM_MATERIAL_COUNT if the text names none
     const char *words;  // the description of one of `others`, or NULL
     bool given[MATERIAL_KEYS];
-    bool ambient_is_diffuse; // whether ambient=diffuse was given
+    bool ambient_is_diffuse; // whether the text contains ambient=diffuse
     double numbers[MATERIAL_KEYS][4];
 };
 

@@ -4,9 +4,9 @@
 // gltf_views.c, gltf_meshopt.c) and typed arrays in them (gltf_accessors.c, gltf_numbers.c). The arrays become meshes
 // (gltf_primitives.c, gltf_triangles.c, gltf_draco.c). The tree of nodes (gltf_nodes.c) places the meshes
 // (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_cameras.c). Materials (gltf_materials.c) read
-// textures, whose pictures are decoded together (gltf_textures.c). Before that, an animation sets the transforms of the
-// nodes (gltf_animation.c). For morph targets and skins (gltf_deform.c, gltf_skins.c), a mesh gets its own copy of the
-// positions.
+// textures, whose pictures are decoded together (gltf_textures.c). Before the nodes are placed, an animation sets their
+// transforms (gltf_animation.c). For morph targets and skins (gltf_deform.c, gltf_skins.c), a mesh gets its own copy of
+// the positions.
 //
 // Every count and index of the file is checked on reading, and an error names its position: "ship.gltf:
 // meshes[3].primitives[0].attributes.POSITION: found 12, …". Section numbers refer to the specification,
@@ -17,19 +17,19 @@
 #include "importer.h"
 #include "json_reader.h"
 
-// A buffer: the file's own bytes, a file beside it, or a data URI. It is read on first use.
+// A buffer: the file's own bytes, a file beside it, or a data URI. The buffer is read on first use.
 struct gltf_buffer {
     const uint8_t *data; // NULL if not read yet
     size_t size;
     struct file_bytes file; // the owner of `data`, unless the model file owns it
-    bool kept;              // the scene's arrays point into it
+    bool kept;              // the scene's arrays point into the buffer
 };
 
 // A bufferView: a range of a buffer's bytes.
 struct gltf_view {
     const uint8_t *data; // NULL if not read yet
     size_t size, stride; // stride 0: the elements are contiguous
-    int buffer;          // −1 if there is none; the bytes were decoded into the scene's memory
+    int buffer;          // −1 if the bytes were decoded into the scene's memory
 };
 
 // componentType (section 3.6.2.2).
@@ -64,7 +64,7 @@ struct gltf {
     struct arena *scratch; // freed after the load
     struct json_reader json;
     json_t *root;
-    size_t json_bytes;     // charged to the call for `root`
+    size_t json_bytes;     // size of the memory of `root`, charged to the call
     const uint8_t *binary; // the .glb's BIN chunk, or NULL
     size_t binary_size;
     bool source_kept; // the scene's arrays point into the model file's own bytes
@@ -72,8 +72,8 @@ struct gltf {
     struct gltf_buffer *buffers;
     struct gltf_view *views;
     struct gltf_accessor *accessors;
-    void *meshopt;        // the library, opened when a bufferView needs it; NULL before
-    void *draco;          // the module, opened when a primitive needs it; NULL before
+    void *meshopt;        // the library, opened when a bufferView needs it; NULL until then
+    void *draco;          // the module, opened when a primitive needs it; NULL until then
     int first_material;   // index in the scene of the file's first material
     int default_material; // index in the scene, for primitives that name no material; −1 if not created yet
     int variant;          // the requested variant, or −1

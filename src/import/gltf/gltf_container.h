@@ -1,4 +1,4 @@
-// gltf_container.h: reads .glb: a header and chunks around the JSON text and the binary buffer (section 4).
+// gltf_container.h: reads .glb: a header, and chunks that contain the JSON text and the binary buffer (section 4).
 #ifndef GLTF_CONTAINER_H
 #define GLTF_CONTAINER_H
 

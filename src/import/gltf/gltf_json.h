@@ -8,7 +8,7 @@
 bool gltf_json_parse(struct gltf *gltf, const uint8_t *text, size_t size);
 void gltf_json_free(struct gltf *gltf);
 
-// Return the length of a list of the file ("accessors"), and one of its elements.
+// These functions return the length of a top-level list of the file ("accessors"), and one of its elements.
 size_t gltf_list_size(const struct gltf *gltf, const char *list);
 const json_t *gltf_list_item(const struct gltf *gltf, const char *list, int index);
 
@@ -36,8 +36,8 @@ bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_
 // Gets the weights of morph targets; *out is NULL if there are none.
 bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_t *object, double **out, size_t *count);
 
-// Return the value of a key, which must be an object, or a list of objects. Return NULL if the key is missing; if its
-// value is wrong, they also set *ok to false.
+// These functions return the value of a key, which must be an object, or a list of objects. They return NULL if the key
+// is missing. If the value is wrong, they also set *ok to false.
 const json_t *gltf_take_object(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                                bool *ok);
 const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
@@ -48,8 +48,8 @@ const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const
 const char *gltf_name(struct gltf *gltf, const json_t *object, bool *ok);
 
 // Returns the index of the element of `list` (NULL means empty) whose name is `wanted`; if there is none, `wanted` may
-// also be an index. If neither exists, returns −1 with an error that lists the elements and calls each of them a
-// `what`.
+// also be an index. If neither exists, returns −1 with an error that lists the elements; `what` is the noun for an
+// element.
 int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, const char *what);
 
 #endif

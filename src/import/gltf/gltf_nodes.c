@@ -52,7 +52,7 @@ static bool read_node(struct gltf *gltf, const struct place *place, const json_t
     return true;
 }
 
-// Sets the parents of a list of children.
+// Sets `parent` as the parent of each node in its list of children.
 static bool read_children(struct gltf *gltf, int parent)
 {
     const json_t *object = gltf_list_item(gltf, "nodes", parent), *list = json_object_get(object, "children");

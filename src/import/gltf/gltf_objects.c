@@ -42,7 +42,7 @@ static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char
     return true;
 }
 
-// A node's instances: arrays with 3, 4 and 3 numbers for each. NULL means that the attribute is missing.
+// A node's instances: arrays with 3, 4 and 3 numbers for each instance. NULL means that the attribute is missing.
 struct instances {
     const float *translation, *rotation, *scale;
     size_t count;
@@ -71,7 +71,7 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
     return true;
 }
 
-// Returns false if the call must stop.
+// Returns false if the call is cancelled or out of time. This is checked once per 1024 objects.
 static bool continues(struct gltf *gltf, size_t number)
 {
     struct call_control *call = gltf->source->call;

@@ -244,7 +244,7 @@ enum statement {
     TR,
     ILLUM,
     MAP,                           // MAP + enum lam_map
-    NOTHING = MAP + LAM_MAP_COUNT, // known, but not supported by the classic models
+    NOTHING = MAP + LAM_MAP_COUNT, // a known statement that the classic models do not support
     OTHER_MAP,
     UNKNOWN,
     FIELD, // FIELD + the index of the material's field that the statement sets
@@ -273,8 +273,8 @@ static const struct {
     {"map_refl", MAP + LAM_MAP_REFLECTION},
     {"map_pm", MAP + LAM_MAP_METALLIC},
     {"map_pr", MAP + LAM_MAP_ROUGHNESS},
-    // Statements for refraction, the transmission filter and the sharpness of reflections, and extensions of physically
-    // based programs.
+    // Statements for refraction, for the transmission filter, for the sharpness of reflections, and for physically
+    // based materials.
     {"ni", NOTHING},
     {"tf", NOTHING},
     {"kt", NOTHING},

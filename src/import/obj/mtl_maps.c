@@ -69,7 +69,7 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
-// Reads numbers that affect the map. If one is out of range, all are ignored with a warning.
+// Reads numbers that affect the map. If a number is out of range, warns and ignores all of them.
 static int take_checked(struct options *o, float *out, int most)
 {
     float numbers[3];

@@ -8,7 +8,7 @@
 //   obj_strokes.c              lines and points
 //   obj_libraries.c, mtl.c     material files
 //   obj_mesh.c                 the scene's mesh
-//  obj_stream.c large files on disk: one pass, chunk by chunk
+//   obj_stream.c               large files on disk: one pass, chunk by chunk
 //
 // The file is split at line ends into chunks of about OBJ_CHUNK bytes, and each pass processes the chunks in parallel.
 // Pass one counts the elements of each chunk; prefix sums of the counts give each chunk's first index in every array,
@@ -44,13 +44,13 @@ struct obj_counts {
 
 struct obj_chunk {
     const uint8_t *begin, *end; // complete lines
-    // The number of elements of each kind in this chunk. While obj_stream.c parses the chunk, the capacities of its
-    // arrays instead.
+    // The number of elements of each kind in this chunk. While obj_stream.c parses the chunk, these are the capacities
+    // of its arrays instead.
     struct obj_counts counts;
     struct obj_counts before; // elements in all previous chunks
     // Pass one: whether a vertex has a colour, and whether the text contains a '/'.
     bool colors, slashes;
-    // Pass two. Bounding box of the positions; low > high if there are none.
+    // Pass two. Bounding box of the positions; low > high if there are no positions.
     float low[3], high[3];
     double low_exact[3], high_exact[3]; // the same bounds as doubles, set only if an origin is needed
     float brightest;                    // the largest colour channel
@@ -60,7 +60,7 @@ struct obj_chunk {
     bool texcoord_unknown, normal_unknown;
     uint64_t short_faces;                              // the number of faces with one or two corners
     uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
-    const uint8_t *first_short_face, *first_nonfinite; // the first of each
+    const uint8_t *first_short_face, *first_nonfinite; // the first such face, and the first such vector
 };
 
 // A statement of OBJ_OTHER, and the numbers of triangles, positions and texture coordinates before it.
@@ -84,7 +84,7 @@ struct obj_strokes {
 struct obj_libraries {
     struct name_table tried; // keys: confined names; values: 1 read, 0 missing
     bool named, missing;     // the file names a library; some libraries could not be opened or were skipped
-    bool left_out;           // there are more than OBJ_LIBRARIES_MAX
+    bool left_out;           // the file names more than OBJ_LIBRARIES_MAX libraries
 };
 
 struct obj {
@@ -138,12 +138,12 @@ struct obj_reader {
     lam_error *error;
 };
 
-// obj_lines.c, compiled for several instruction sets: reads lines up to the first one with a continuation. Returns the
+// obj_lines.c, compiled for several instruction sets: reads lines up to the first line with a continuation. Returns the
 // start of the next line, at most `end`, or NULL on error.
 typedef const uint8_t *obj_lines_reader(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
 obj_lines_reader obj_read_lines_scalar, obj_read_lines_avx512;
 
-// obj_line.c. Reads one logical line of any kind and returns the start of the next, or NULL on error.
+// obj_line.c. Reads one logical line of any kind. Returns the start of the next line, or NULL on error.
 const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);
 // obj_parse.c
 bool obj_parse(struct obj *obj, lam_error *error); // pass two

@@ -1,8 +1,8 @@
 // obj_lines_avx512.h: the line parsers of obj_lines.c for AVX-512 with VBMI, which moves bytes within a register.
 //
-// A line is loaded into one register, and bit masks of its digits, spaces and points are computed. From the starts and
-// ends of the numbers, packed into bytes, follows the source of each byte of a lane. A permutation then moves every
-// number to its own lane, right-aligned and with leading zeros.
+// A line is loaded into one register, and bit masks of its digits, spaces and points are computed. The starts and ends
+// of the numbers, packed into bytes, determine the index for permuting each byte. The permutation moves every number to
+// its own lane, right-aligned and padded with leading zeros.
 #ifndef OBJ_LINES_AVX512_H
 #define OBJ_LINES_AVX512_H
 

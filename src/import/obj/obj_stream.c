@@ -138,7 +138,7 @@ static bool parse(struct chunk_scratch *scratch, struct obj_chunk *chunk)
             return false;
         if (!chunk->texcoord_unknown && !chunk->normal_unknown)
             break;
-        // the first faces of this thread that use them: the chunk is parsed again
+        // the thread finds the first faces with texture coordinates or normals, so the chunk is parsed again
         scratch->texcoords |= chunk->texcoord_unknown;
         scratch->normals |= chunk->normal_unknown;
     }
@@ -185,7 +185,8 @@ static bool append_statements(struct stream *stream, const struct chunk_scratch 
     return true;
 }
 
-// Adds the chunk to the totals, in the order of the chunks. *before receives the totals of the previous chunks.
+// Waits until the previous chunks are counted, then adds the chunk's counts to the totals. *before receives the totals
+// of the previous chunks.
 static bool count_chunk(struct stream *stream, struct chunk_scratch *scratch, size_t index,
                         const struct obj_chunk *chunk, struct obj_counts *before)
 {

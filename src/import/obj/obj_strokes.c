@@ -1,5 +1,5 @@
-// obj_strokes.c: converts the statements `l` (lines: v or v/t for each vertex) and `p` (points) to meshes of their own,
-// separate from the mesh of faces.
+// obj_strokes.c: converts the statements `l` (lines: v or v/t for each vertex) and `p` (points) to separate meshes: one
+// of lines and one of points.
 #include "obj.h"
 
 #include "fail.h"

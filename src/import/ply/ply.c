@@ -132,7 +132,7 @@ static void warn_rest(const struct reader *reader, size_t at)
                    source->name, text_line(source->bytes, rest), text_found(rest, end, found));
 }
 
-// Reads the elements in the order of the file, up to the last used one.
+// Reads the elements in the order of the file, up to the last element that Lambent uses.
 static bool read_elements(struct reader *reader, lam_error *error)
 {
     int last = 0;

@@ -93,7 +93,8 @@ struct ply_request {
 };
 #define PLY_RESTART UINT32_MAX
 
-// Read the element at offset *at of the file, or skip it (`table` is NULL), and set *at to the byte after it.
+// These functions read the element at offset *at of the file, or skip it if `table` is NULL. They set *at to the byte
+// after the element.
 bool ply_read_binary(const struct import_source *source, const struct ply_header *header,
                      const struct ply_element *element, const struct ply_request *request, size_t *at,
                      struct ply_table *table, lam_error *error);
@@ -106,7 +107,7 @@ bool ply_plan_rows(const struct import_source *source, const struct ply_request 
 // Reports a file that ends within the element's row `row`, counted from 0.
 bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
                         lam_error *error);
-// Reports more elements than 32-bit indices can address: LAM_LIMIT.
+// Fails with LAM_LIMIT, because the file contains more elements than 32-bit indices can address.
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error);
 
 // Finds the scalar properties with these names (−1 if missing). Returns whether all exist.
@@ -124,7 +125,7 @@ void ply_copy_column(const struct ply_table *table, int property, const uint8_t 
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                    lam_mesh *mesh, bool *needs_doubles, lam_error *error);
 
-// Attributes beside the positions; NULL if the element does not have them.
+// All attributes except positions; NULL if the element does not have the attribute.
 enum { PLY_NORMALS = 1, PLY_TANGENTS = 2, PLY_TEXCOORDS = 4, PLY_COLORS = 8, PLY_ALL = 15 };
 struct ply_attributes {
     const float *normals, *tangents, *texcoords;

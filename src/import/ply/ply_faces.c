@@ -119,9 +119,9 @@ bool ply_faces(const struct import_source *source, const struct ply_table *faces
     return done;
 }
 
-// Writes the triangles of a row's strip to `out` (may be NULL) and returns their number. Each item from the third on
-// forms a triangle with the two items before it; the winding of every second triangle is reversed. Triangles with equal
-// corners only connect parts of a strip and are skipped.
+// Writes the triangles of a row's strip to `out` (may be NULL) and returns the number of triangles. Each item from the
+// third on forms a triangle with the two items before it; the winding of every second triangle is reversed. Triangles
+// with equal corners only connect parts of a strip and are skipped.
 static size_t strip_triangles(const struct ply_table *strips, size_t row, uint32_t *out)
 {
     const uint32_t *items = strips->items + strips->starts[row], room = strips->starts[row + 1] - strips->starts[row];

@@ -122,7 +122,7 @@ struct threemf {
     uint64_t expanded;         // total bytes of all parts
     uint64_t placed;           // number of components and items that were followed
     size_t flattened;          // number of instances whose transform is singular
-    size_t multiplied_layers;  // number of multiproperties that are drawn as a product
+    size_t multiplied_layers;  // number of multiproperties that are drawn as the product of their layers
     size_t beams, sliced;      // number of beams, and of objects with slices
 };
 

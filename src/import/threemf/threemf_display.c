@@ -91,7 +91,7 @@ void display_finish(struct model_reader *reader)
             apply((const struct display *)reader->displays.items + group->first + wishes[i].index,
                   &materials[wishes[i].material]);
     }
-    // Mixed layers over a base material use its surface.
+    // Mixed layers over a base material use the surface of that material.
     for (size_t i = 0; i < reader->part->resources.count && reader->wishes.count; i++) {
         const struct threemf_resource *group = model_resource(reader->part, (int32_t)i);
         if (group->kind != RESOURCE_MULTI || !group->layers || group->layers->base < 0 || group->faulty)

@@ -36,7 +36,7 @@ static bool take_layers(struct threemf_xml *xml, const char *list, struct threem
     return true;
 }
 
-// Reads the blend methods of the layers from the second one on.
+// Reads the blend methods of all layers except the first.
 static void take_methods(const char *blend, struct threemf_layers *layers)
 {
     for (int i = 1; blend && i < layers->count && !model_at_end(blend); i++) {
@@ -220,7 +220,8 @@ static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, 
     return *out && scene_adopt_texture(file->scene, *out, file->error);
 }
 
-// Returns whether a product is exact: there is one texture, and no layer is blended with the layers below it.
+// Returns whether multiplying the colours and the texture is exact: there is one texture, and no layer is blended with
+// the layers below it.
 static bool needs_no_mixing(const struct threemf_layers *layers)
 {
     bool mixes = layers->texture_count > 1;
@@ -229,7 +230,7 @@ static bool needs_no_mixing(const struct threemf_layers *layers)
     return !mixes;
 }
 
-// Collects the layers. Returns false if they cannot be mixed into one texture.
+// Collects the layers of the group. Returns false if these layers cannot be mixed into one texture.
 static bool collect_layers(struct model_reader *reader, const struct threemf_layers *layers, struct mixed_layer *out)
 {
     const lam_texture_map *first = NULL;

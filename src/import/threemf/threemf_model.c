@@ -177,7 +177,7 @@ static bool end_object(struct threemf_xml *xml)
 
 // --- components and the build
 
-// A transform is 4 rows of 3 numbers for row vectors: "m00 m01 m02 m10 … m32", the last row the translation.
+// A transform is 4 rows of 3 numbers for row vectors: "m00 m01 m02 m10 … m32". The last row is the translation.
 static bool take_transform(struct threemf_xml *xml, const char *const *attributes, lam_mat4 *out)
 {
     const char *text = threemf_attribute(attributes, "transform");

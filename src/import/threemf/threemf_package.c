@@ -165,7 +165,7 @@ static bool fail_part(struct threemf *file, const char *name, const char *why)
                 shown_name(name, shown), why);
 }
 
-// Returns the index of a part. Programs write names in different case, so a short list of entries is also searched
+// Returns the index of a part. Programs differ in the case of names, so a short list of entries is also searched
 // without regard to case. A long list is searched only by the hash of the exact name.
 static zip_int64_t locate(const struct zip_library *zip, const char *name)
 {

@@ -8,7 +8,7 @@
 #include <lambent/light.h>
 #include <lambent/material.h>
 
-// The reader of a material's field in shaders.
+// When shaders read a field of a material.
 enum field_reader {
     FIELD_ALWAYS,
     FIELD_LIT,         // read for every lit surface
@@ -40,7 +40,7 @@ int map_layer(lam_map map);
 
 struct light_field {
     lam_field field; // must be the first member
-    bool optional;   // a scene file omits it if it is 0
+    bool optional;   // a scene file omits the field if it is 0
     // the kind of cone for which a spotlight uses the field; a cone is soft if outer_rad > 0
     enum { ANY_CONE, HARD_CONE, SOFT_CONE } cone;
 };

@@ -14,7 +14,8 @@ const struct gltf_view *gltf_view_at(struct gltf *gltf, int index);
 bool gltf_buffer_bytes(struct gltf *gltf, const struct place *place, int index, size_t offset, size_t length,
                        const uint8_t **out);
 
-// Marks a buffer as kept: its bytes stay as long as the scene, because an array of the scene points into them.
+// Marks a buffer as kept: its bytes remain in memory as long as the scene exists, because an array of the scene points
+// into them.
 void gltf_buffer_keep(struct gltf *gltf, int buffer);
 
 // Moves kept buffers to the scene and releases the others. Returns false if memory runs out.

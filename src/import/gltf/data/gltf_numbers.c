@@ -83,7 +83,8 @@ static uint32_t index_at(int component, const uint8_t *run, size_t i)
     return component == GLTF_U8 ? run[i] : component == GLTF_U16 ? load_16(run + 2 * i) : load_32(run + 4 * i);
 }
 
-// Calls put(user, element, values) for each element that is replaced. Returns false if an index is out of range.
+// Calls put(user, element, value) for each element that a sparse accessor replaces. Returns false if an index is out of
+// range.
 static bool each_sparse(struct gltf *gltf, const struct gltf_accessor *a,
                         void (*put)(void *user, size_t element, const uint8_t *value), void *user)
 {

@@ -72,7 +72,7 @@ static size_t decode_base64(const char *text, size_t length, uint8_t *out)
 
 static size_t base64_bytes(size_t length) { return length / 4 * 3 + (length % 4 ? length % 4 - 1 : 0); }
 
-// Decodes text with %XX and returns the number of bytes. `out` may be NULL.
+// Decodes text that may contain %XX, and returns the number of bytes. `out` may be NULL.
 static size_t decode_text(const char *text, uint8_t *out)
 {
     size_t size = 0;

@@ -11,7 +11,8 @@
 void *page_library(const char *name);
 bool page_library_find(void *library, const char *name, void *function);
 
-// Returns whether the module is loaded. If it is not, the page downloads it and reads the file again.
+// Returns whether the module is loaded. If it is not loaded, the page downloads the module and then reads the file
+// again.
 int web_decoders(void) IMPORT(web_decoders);
 // Stores the mesh's handle and its numbers of vertices and triangles in `out`. This function and the next one return
 // the same results as the members of draco_functions.
@@ -23,7 +24,7 @@ void web_draco_free(uint32_t mesh) IMPORT(web_draco_free);
 // `kind` is 0 for vertices, 1 for triangles, 2 for a sequence of indices. Returns 0 or an error number.
 int web_meshopt_decode(int kind, void *out, size_t count, size_t stride, const uint8_t *bytes, size_t size)
     IMPORT(web_meshopt_decode);
-// `kind` is 0 for octahedral, 1 for quaternions, 2 for exponential.
+// `kind` is 0 for the octahedral filter, 1 for the quaternion filter, 2 for the exponential filter.
 void web_meshopt_filter(int kind, void *data, size_t count, size_t stride) IMPORT(web_meshopt_filter);
 
 // The other module does not count memory; the browser limits it.

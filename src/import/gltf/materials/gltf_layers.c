@@ -53,7 +53,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
 bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t *object, int index,
                       lam_material *material)
 {
-    // Materials with these extensions cannot have layers.
+    // Unlit materials and specular-glossiness materials have no layers.
     if (material->unlit || gltf_extension(object, "KHR_materials_pbrSpecularGlossiness"))
         return true;
     return take_numbers(gltf, place, object, material) && take_maps(gltf, place, object, index);

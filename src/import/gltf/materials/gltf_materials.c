@@ -17,7 +17,7 @@ struct factors {
     double metallic, roughness;   // 0…1
     double specular[3];           // for KHR_materials_pbrSpecularGlossiness
     double glossiness;            // for KHR_materials_pbrSpecularGlossiness, 0…1
-    bool has_specular;            // specular-glossiness instead of metallic-roughness
+    bool has_specular;            // the material is specular-glossiness instead of metallic-roughness
     double emission[3], strength; // emissiveFactor; KHR_materials_emissive_strength
     double cutoff;
     int alpha; // lam_alpha_mode
@@ -208,7 +208,7 @@ static bool take_variant(struct gltf *gltf, const struct place *place, const jso
     return ok;
 }
 
-// Returns the material for primitives without one: the defaults of the specification.
+// Returns the material for primitives without a material: the defaults of the specification.
 static int default_material(struct gltf *gltf)
 {
     if (gltf->default_material < 0) {

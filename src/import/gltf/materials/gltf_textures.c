@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// A picture of the file, decoded as lam_texture_values says.
+// A picture of the file, decoded according to `values`.
 struct gltf_picture {
     bool wanted;
     lam_texture_values values;
@@ -78,7 +78,7 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
     static const int minify[] = {
         NEAREST, LINEAR, NEAREST_MIPMAP_NEAREST, LINEAR_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR, LINEAR_MIPMAP_LINEAR, 0};
     if (index < 0)
-        return true; // without a sampler, the default applies: repeated and trilinear
+        return true; // without a sampler, the texture is repeated and filtered trilinearly
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "samplers"), (size_t)index);
     const json_t *object = gltf_list_item(gltf, "samplers", index);
     int large = LINEAR, small = LINEAR_MIPMAP_LINEAR, s = REPEAT, t = REPEAT;
@@ -303,7 +303,7 @@ static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t 
     return true;
 }
 
-// Sets a map of its material.
+// Sets a requested map in its material.
 static bool add_map(struct gltf *gltf, const struct gltf_map *item)
 {
     struct gltf_picture *picture = &gltf->pictures[item->picture];
@@ -318,7 +318,7 @@ static bool add_map(struct gltf *gltf, const struct gltf_map *item)
     return scene_share_texture(gltf->scene, picture->texture, gltf->json.error);
 }
 
-// Sets the maps whose pictures were read in their materials. Warns once for each picture that could not be read.
+// Sets, in the materials, all maps whose pictures were read. Warns once for each picture that could not be read.
 static bool add_maps(struct gltf *gltf)
 {
     for (size_t i = 0; i < VALUES * gltf_list_size(gltf, "images"); i++) {

@@ -1,6 +1,6 @@
 // draco_header.c: reads the declared sizes of a mesh compressed by Draco. https://google.github.io/draco/spec/ (version
 // 2.2), sections "Draco Header", "Metadata", "Sequential Connectivity Decode" and "EdgeBreaker Decode"; older versions
-// are read like Draco's decoder does.
+// are read as in Draco's decoder.
 #include "draco_header.h"
 
 #include <string.h>

@@ -14,7 +14,7 @@ enum { STEP, LINEAR, CUBIC_SPLINE };
 static const struct json_choice interpolation_words[] = {
     {"STEP", STEP}, {"LINEAR", LINEAR}, {"CUBICSPLINE", CUBIC_SPLINE}, {NULL, 0}};
 
-// A sampler: key times, and `width` numbers for each of them (three times as many for splines).
+// A sampler: the times of the keyframes, and `width` numbers for each keyframe (three times as many for splines).
 struct sampler {
     int interpolation;
     const float *times, *values;

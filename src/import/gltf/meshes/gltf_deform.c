@@ -96,7 +96,7 @@ static bool add_target(const struct morph_target *t, const char *name, int width
     return parallel_rows_run(gltf->source, parallel_rows_count(count), add_chunk, &addition, gltf->json.error);
 }
 
-// Whether the mesh owns each attribute's array, so that it may be changed in place.
+// Whether the mesh owns the array of each attribute. Only such an array may be changed in place.
 struct owned {
     bool positions, normals, tangents, texcoords[2];
 };

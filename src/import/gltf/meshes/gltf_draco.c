@@ -163,7 +163,7 @@ static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
     return there && json_object_get(gltf_list_item(gltf, "accessors", (int)number), "bufferView");
 }
 
-// Accounts for the decoder's memory, which Draco allocates itself.
+// Charges the memory that Draco's decoder will allocate itself to the call.
 static bool charge_claim(const struct decoding *d, const struct gltf_view *view, size_t *charged)
 {
     struct gltf *gltf = d->gltf;

@@ -1,6 +1,6 @@
-// gltf_primitives.c: reads the primitives of meshes (section 3.7.2); each becomes a mesh of the scene.
+// gltf_primitives.c: reads the primitives of meshes (section 3.7.2). Each primitive becomes a mesh of the scene.
 //
-// Primitives of one mesh may have different attributes, materials and sides. These meshes share their common arrays. If
+// The primitives of a mesh may have different attributes, materials and sides. Their meshes share common arrays. If
 // possible, the arrays are the file's own bytes.
 #include "gltf_primitives.h"
 
@@ -130,7 +130,7 @@ static bool take_attributes(struct gltf *gltf, const struct place *place, const 
            take_floats(gltf, place, attributes, &tangent_rule, count, &mesh->tangents, &mesh->tangent_count);
 }
 
-// Adds one part with the primitive's material.
+// Adds the only part of the mesh, with the primitive's material.
 static bool add_part(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
 {
     lam_part *part = arena_alloc_zeroed(&gltf->scene->arena, sizeof *part);

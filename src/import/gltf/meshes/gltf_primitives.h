@@ -1,4 +1,4 @@
-// gltf_primitives.h: reads the primitives of meshes (section 3.7.2); each becomes a mesh of the scene.
+// gltf_primitives.h: reads the primitives of meshes (section 3.7.2). Each primitive becomes a mesh of the scene.
 #ifndef GLTF_PRIMITIVES_H
 #define GLTF_PRIMITIVES_H
 
@@ -6,7 +6,7 @@
 #include "gltf_nodes.h"
 #include "gltf_skins.h"
 
-// A mesh of the file, as one mesh of the scene for each of its primitives.
+// A mesh of the file. Each of its primitives is one mesh of the scene.
 struct gltf_primitive {
     int mesh;     // index in the scene; −1 means the primitive is empty
     bool skinned; // the mesh's positions are in the file's space

@@ -33,8 +33,8 @@ struct exporting {
     struct arena *arena; // memory of the export
     struct lam_export *out;
     lam_up from, to; // the up axis of the scene and of the format
-    // For flat formats: one mesh in world space for each kind of items. Its parts refer to the materials. The mesh is
-    // empty if the scene contains no such items.
+    // For flat formats: one mesh in world space for each kind of items. The mesh's parts refer to the materials. The
+    // mesh is empty if the scene contains no items of its kind.
     lam_mesh flat[EXPORT_KINDS];
     struct text text;          // the model's file
     struct call_control *call; // NULL if there is none

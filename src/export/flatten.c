@@ -1,5 +1,5 @@
-// flatten.c: merges a scene into one mesh of triangles, one of lines and one of points, in world space, for formats
-// without objects.
+// flatten.c: merges a scene into at most three meshes in world space, for formats without objects: triangles, lines and
+// points.
 #include "export.h"
 
 #include "fail.h"
@@ -155,7 +155,8 @@ static void put_object(struct flat *f, const lam_mesh *m, const lam_object *obje
     f->corners += mesh_corners(m);
 }
 
-// If some meshes lack an attribute, appends one default element to its array and uses this element for their corners.
+// If some meshes lack an attribute, appends one default element to the attribute's array. The corners of these meshes
+// use the default element.
 static void put_missing(struct flat *f, size_t corners)
 {
     bool normals = false, texcoords = false;

@@ -11,7 +11,7 @@ struct glb_arrays {
     bool ready;
     int position, normal, texcoords[2], tangent, color;
     int first_indices; // accessor of the first part's indices; the other parts follow
-    // the latest mesh of the file that uses this mesh of the scene, or −1; glb_mesh.before lists the others
+    // the latest mesh of the file that uses this mesh of the scene, or −1; glb_mesh.before refers to the one before it
     int first_mesh;
 };
 
@@ -33,8 +33,8 @@ struct glb {
     json_t *root, *accessors, *views, *meshes, *materials, *nodes, *images, *textures, *samplers, *lights, *cameras,
         *used;
     struct text bytes;         // the buffer
-    struct glb_arrays *arrays; // one per mesh of the scene
-    struct scene_list own;     // struct glb_mesh: one per mesh of the file
+    struct glb_arrays *arrays; // one element per mesh of the scene
+    struct scene_list own;     // struct glb_mesh: one element per mesh of the file
     // the index in the file of each material and of the default material: [0] one-sided, [1] double-sided; −1 if not
     // written yet
     int *material_index[2];

@@ -41,7 +41,7 @@ struct importer {
     const char *name;       // "obj"
     const char *extensions; // "obj"; several extensions are separated by spaces
     lam_up up;              // the format's up axis
-    // the format does not define an up axis; `up` is the most common one, and the shape of a terrain may override it
+    // the format does not define an up axis; `up` is the most common axis, and the shape of a terrain may override `up`
     bool up_is_habit;
     // a scene file: it names other models, and its importer prepares their normals and origins itself
     bool is_scene_file;

@@ -1,5 +1,6 @@
 // json_reader.h: gets values of a JSON file and checks each value on access. Each error names the file, the position in
-// it, the value found and the value expected. The readers of scene files and shader contracts use these functions.
+// the file, the value found and the value expected. The readers of scene files and shader contracts use these
+// functions.
 #ifndef JSON_READER_H
 #define JSON_READER_H
 
@@ -12,7 +13,7 @@
 
 struct json_reader {
     const char *file; // the file's name for messages
-    // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if `text` is set
+    // receives LAM_CANNOT_READ with "FILE: PLACE: sentence", or with "FILE:LINE: PLACE: sentence" if `text` is set
     lam_error *error;
     const char *text; // the file's text, of `size` bytes; if NULL, errors name no line
     size_t size;
@@ -57,8 +58,8 @@ bool json_number_of(const struct json_reader *r, const struct place *place, cons
 bool json_numbers_of(const struct json_reader *r, const struct place *place, const json_t *list, size_t min, size_t max,
                      double *out, size_t *count);
 
-// These functions check the value of a key of `object` and store it. *out is unchanged if the key is missing. They
-// return false if the value is wrong.
+// These functions check the value of a key of `object` and store the value. If the key is missing, *out is unchanged.
+// The functions return false if the value is wrong.
 bool json_take_number(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
                       double min, double max, double *out);
 bool json_take_bool(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,

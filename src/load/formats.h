@@ -8,9 +8,9 @@
 enum { FORMAT_LIST_SIZE = 128 };
 const char *format_list(char out[FORMAT_LIST_SIZE]);
 
-// Returns the importer for a file: the format that `wanted` names; if it is NULL, the format that matches the file's
-// content; if none does, the format that matches the extension of `name`. Returns NULL and fills the error if no format
-// matches.
+// Returns the importer for a file. If `wanted` is not NULL, it names the format. Otherwise, the content of the file
+// determines the format; if the content does not, the extension of `name` does. Returns NULL and fills the error if no
+// format matches.
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error);
 

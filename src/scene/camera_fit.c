@@ -70,8 +70,8 @@ static lam_camera fit_orthographic(const struct fitting *fitting, const struct v
 }
 
 // Centres the horizontal (vertical) axis for an eye at ez. The function finds the k at which the points touch x = ex ±
-// k·(ez − z) on both sides. That k is the root of R(k) + L(k) − 2k·ez, a convex function whose slope is given by the
-// points with the maxima R and L; for vertices it is piecewise linear. This is a step of Newton's method:
+// k·(ez − z) on both sides. That k is the root of R(k) + L(k) − 2k·ez. This function is convex, and piecewise linear
+// for vertices; the points with the maxima R and L determine its slope. A step of Newton's method is:
 //
 //  k = (x_R − x_L) / (2ez − z_R − z_L)
 //

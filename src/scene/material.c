@@ -100,8 +100,8 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
         {"yellow-rubber", {0.05f, 0.05f, 0.0f}, {0.5f, 0.5f, 0.4f}, {0.7f, 0.7f, 0.04f}, SHININESS(0.078125)},
 };
 
-// Returns a grey that ranges from sRGB 60 to 230 under the studio rig, with headroom for a highlight that shows the
-// shape but does not look like metal or wet clay.
+// Returns a grey that ranges from sRGB 60 to 230 under the studio rig. This leaves headroom for a highlight that shows
+// the shape but does not look like metal or wet clay.
 lam_material lam_material_default(void)
 {
     lam_material material = {.illum = -1};

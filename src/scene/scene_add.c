@@ -1,4 +1,5 @@
-// scene_add.c: public functions that add to a scene or change it; they check and copy their arguments.
+// scene_add.c: public functions that add something to a scene or change the scene. These functions check and copy their
+// arguments.
 #include "scene_internal.h"
 
 #include "fail.h"

@@ -69,12 +69,12 @@ struct lam_scene {
     struct arena arena;
     struct scene_token *token;
     struct scene_list meshes;    // lam_mesh
-    struct scene_list extents;   // struct scene_extent, one for each measured mesh, in the same order
+    struct scene_list extents;   // struct scene_extent: one element for each measured mesh, in the order of the meshes
     struct scene_list materials; // lam_material
     struct scene_list objects;   // lam_object
     struct scene_list lights;    // lam_light
     struct scene_list cameras;   // struct scene_camera
-    struct scene_list textures;  // lam_texture *: one reference each
+    struct scene_list textures;  // lam_texture *: each element is one reference
     struct scene_list kept;      // struct arena *: memory of meshes that lam_scene_reset may restore
     struct scene_list warnings;  // const char *
     struct scene_list files;     // const char *: paths
@@ -90,7 +90,7 @@ struct lam_scene {
     lam_material default_material;   // for parts without a material
     lam_environment *environment;    // may be shared with other scenes; NULL if there is none
     double environment_rotation_rad; // rotation about the up axis
-    struct lazy_environment *studio; // used if there is no other light (scene_lit_by_environment)
+    struct lazy_environment *studio; // the built-in studio environment (scene_lit_by_environment)
     lam_color_mode color;            // the encoding of the file's colours
     const char *format;
     lam_file_info file; // information about a glTF file
@@ -115,9 +115,9 @@ struct scene_token *scene_token_make(lam_error *error); // NULL if memory runs o
 struct scene_token *scene_token_hold(struct scene_token *token);
 void scene_token_release(struct scene_token *token); // `token` may be NULL
 
-// These functions add an item whose arrays and strings are already in the scene's arena. They do not copy the arrays or
-// compute normals. They return the item's index, or −1 with LAM_LIMIT if memory runs out or a load exceeds the call's
-// triangle limit.
+// These functions add an item whose arrays and strings are already in the scene's arena. These functions neither copy
+// the arrays nor compute normals. They return the index of the item, or −1 with LAM_LIMIT if memory runs out or a load
+// exceeds the call's triangle limit.
 int scene_adopt_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 int scene_adopt_material(struct lam_scene *scene, const lam_material *material, lam_error *error);
 int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
@@ -184,8 +184,9 @@ bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error)
 // Returns the largest distance of a used vertex from a point, in world space.
 double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
 
-// Adds twice the areas of the triangles `first`, `first + step`, … to *all. Adds the components of their area vectors
-// along `axis` to *facing; they are positive for front faces whose normal is `axis`. `transform` may be NULL.
+// Adds twice the areas of the triangles `first`, `first + step`, … to *all. Adds the components of the triangles' area
+// vectors along `axis` to *facing. These components are positive for front faces whose normal is `axis`. `transform`
+// may be NULL.
 void mesh_add_areas(const lam_mesh *mesh, size_t first, size_t step, const lam_mat4 *transform, lam_vec3 axis,
                     double *all, double *facing);
 

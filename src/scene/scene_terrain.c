@@ -4,9 +4,9 @@
 #include "linear.h"
 #include "up_axis.h"
 
-// A scene is a terrain if it is open, and its area faces up: the vertical part of the sum of all area vectors is at
-// least FACING of the whole area. A closed surface faces all sides equally, so its sum is 0. A level plane is not a
-// terrain, because light from the side would show nothing on it.
+// A scene is a terrain if it is open and its area faces up: the vertical component of the sum of all area vectors must
+// be more than FACING times the whole area. A closed surface faces all sides equally, so its sum is 0. A level plane is
+// not a terrain, because light from the side would show nothing on it.
 #define FACING 0.6
 #define LEVEL  0.98
 

@@ -33,7 +33,7 @@ static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int m
 
 // Tangents follow the texture coordinates after the map's transform, so that the slopes of a rotated or mirrored map
 // still describe the same bumps. glTF says "the texture coordinates associated with the normal texture" (section
-// 3.7.2.1), which leaves KHR_texture_transform undefined; three.js and Khronos' sample renderer also use the
+// 3.7.2.1), and does not say whether KHR_texture_transform applies. three.js and Khronos' sample renderer also use the
 // transformed coordinates. `t_down` means that the second transformed coordinate grows downwards in the picture. A
 // transform that only shifts and scales needs no new coordinates.
 static bool transformed_texcoords(lam_mesh *seen, const lam_texture_map *map, struct arena *arena, bool *t_down)

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// Keys that are not fields, or that set several fields.
+// Keys that are not fields of a light, or that set several fields.
 static const struct {
     const char *name;
     unsigned light_types;
@@ -71,8 +71,8 @@ static bool read_fields(struct scene_reader *r, const struct place *place, const
     return true;
 }
 
-// Reads a position of three numbers, or of four homogeneous coordinates. A w of 0 means that the others are a direction
-// towards the light.
+// Reads a position of three numbers, or of four homogeneous coordinates. If the fourth coordinate w is 0, the other
+// three are a direction towards the light.
 static bool read_position(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     const json_t *position = json_object_get(value, "position");

@@ -31,8 +31,8 @@ bool fail_place(struct scene_reader *r, const struct place *place, const char *f
 // `keys` ends with NULL.
 bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
 
-// These functions check the value of a key of `object` and store it. *out is unchanged if the key is missing. They
-// return false if the value is wrong. Numbers must be in [min, max].
+// These functions check the value of a key of `object` and store it. *out is unchanged if the key is missing. The
+// functions return false if the value is wrong. Numbers must be in [min, max].
 bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double min,
                  double max, double *out);
 bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int min,

@@ -1,8 +1,8 @@
 // scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. A reader gets every
 // number with the same bits.
 //
-// The file is longer than 600 lines because it contains one function for each section of a file, in the order of the
-// file.
+// This source file is longer than 600 lines, because it contains one function for each section of a scene file, in the
+// order of these sections.
 #include "scene_write.h"
 
 #include "fail.h"
@@ -435,7 +435,8 @@ static bool put_objects(struct scene_writer *w, json_t *root)
                         "scene file cannot describe it",
                         w->path, i, shown_name(object->name ? object->name : "", shown));
         const lam_object plain = lam_object_default();
-        bool several = origin->object_count > 1; // one entry describes all objects of a file
+        // a single entry in the scene file describes all objects of a model file
+        bool several = origin->object_count > 1;
         int hidden = hidden_from(w->scene, i, several ? origin->object_count : 1);
         if (hidden == (several ? origin->object_count : 1)) {
             i += hidden - 1;

@@ -17,7 +17,7 @@ static inline bool texture_map_translucent(const lam_texture_map *map)
 }
 
 // Gets approximate bounds of a map's numbers after channel, scale and offset are applied; rounding makes the bounds
-// inexact. They are −1e30 and 1e30 if the texture was not made from bytes. Any thread may call this function; the
+// inexact. The bounds are −1e30 and 1e30 if the texture was not made from bytes. Any thread may call this function; the
 // bounds of a texture are computed once.
 void texture_map_range(const lam_texture_map *map, float out[2]);
 

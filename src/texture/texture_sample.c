@@ -1,7 +1,7 @@
 // texture_sample.c: fetches and filters the texels of points (docs/textures.md).
 //
 // texture_taps.h finds the texels of LANES points at a time. This file fetches and mixes these texels, four channels at
-// a time. It is plain C, which the code for every instruction set calls.
+// a time. This file is plain C; the code for every instruction set calls it.
 #define LANES 1
 #include "texture_taps.h"
 

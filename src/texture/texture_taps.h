@@ -9,7 +9,7 @@
 #include "functions.h"
 #include "texture_map.h"
 
-// Coordinates beyond this limit have no fraction. They are treated as 0, like NaN.
+// Coordinates beyond this limit have no fraction. Such coordinates are treated as 0, like NaN.
 #define COORDINATE_MAX 2.0e9f
 
 // Four texels of a level, in the form of the rows of texture_taps.

@@ -442,8 +442,8 @@ static bool sphere_in_frame(const lam_light *light, const lam_light_text_params 
     return true;
 }
 
-// Rotates a default, defined for y up, to the axes of the scene, so that a light in the world frame is in front of the
-// model for every up axis.
+// Rotates a default direction or position, which is defined for y up, to the axes of the scene. A light in the world
+// frame is then in front of the model for every up axis.
 static lam_vec3 turned(const lam_light *light, const lam_scene *scene, lam_vec3 v)
 {
     return light->frame == LAM_FRAME_WORLD || light->frame == LAM_FRAME_MODEL ? from_y_up(lam_scene_up(scene), v) : v;

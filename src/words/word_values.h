@@ -27,8 +27,8 @@ const char *word_number(const char *text, double *number);
 // radii[i].
 bool word_numbers(const char *text, int min, int max, double *numbers, int *count, bool *radii);
 
-// Parses the numbers of a field as lam_field_set needs them but with angles in degrees, and checks the field's range.
-// Points and triples have separate functions.
+// Parses the numbers of a field and checks the field's range. The numbers have the form that lam_field_set needs,
+// except that angles are in degrees. Points and triples have separate functions.
 bool word_field(const lam_field *field, const char *value, lam_color_mode mode, double numbers[4], lam_error *error);
 
 // Sets a field to numbers from word_field.

@@ -47,7 +47,7 @@ struct gltf_accessor {
     int width;           // numbers per element
     const char *type;    // "VEC3"
     bool normalized;
-    // Elements that replace others (sparse accessors, section 3.6.2.3).
+    // Elements that replace elements of `data` (sparse accessors, section 3.6.2.3).
     size_t sparse_count;
     int sparse_component;
     const uint8_t *sparse_indices, *sparse_values;
@@ -77,11 +77,12 @@ struct gltf {
     int first_material;   // index in the scene of the file's first material
     int default_material; // index in the scene, for primitives that name no material; −1 if not created yet
     int variant;          // the requested variant, or −1
-    size_t cut_factors;   // the number of clamped factors (gltf_take_factors); the first of them follows
+    // the number of clamped factors (gltf_take_factors); the next members describe the first clamped factor
+    size_t cut_factors;
     char cut_factor[160];
     double cut_from, cut_to;
 
-    lam_file_image *file_images;   // one for each image (gltf_file_info.h)
+    lam_file_image *file_images;   // one element for each image (gltf_file_info.h)
     struct gltf_picture *pictures; // gltf_textures.h: two for each image of the file
     struct gltf_map *maps;         // the maps of materials, latest first
     // for each material, the file's texture coordinate sets that are its first and second set; −1 if unused

@@ -28,8 +28,8 @@ bool gltf_index_of(struct gltf *gltf, const struct place *place, const json_t *v
 bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double *out);
 
-// Gets a factor of `count` numbers whose range the standard limits. Numbers outside [min, max] are clamped; there is
-// one warning per file if a number lies outside by more than a rounding error.
+// Gets a factor of `count` numbers whose range the standard limits. Numbers outside [min, max] are clamped. If a number
+// lies outside by more than a rounding error, the file causes one warning.
 bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double min, double max, double *out);
 

@@ -69,7 +69,7 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
-// Reads numbers that affect the map. If a number is out of range, warns and ignores all of them.
+// Reads numbers that affect the map. If a number is out of range, warns and ignores all numbers of the option.
 static int take_checked(struct options *o, float *out, int most)
 {
     float numbers[3];

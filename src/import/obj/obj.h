@@ -11,8 +11,8 @@
 //   obj_stream.c               large files on disk: one pass, chunk by chunk
 //
 // The file is split at line ends into chunks of about OBJ_CHUNK bytes, and each pass processes the chunks in parallel.
-// Pass one counts the elements of each chunk; prefix sums of the counts give each chunk's first index in every array,
-// so that pass two writes each number to its final position. The result does not depend on the number of threads.
+// Pass one counts the elements of each chunk. Prefix sums of the counts are each chunk's first index in every array, so
+// pass two can write each number to its final position. The result does not depend on the number of threads.
 #ifndef OBJ_H
 #define OBJ_H
 
@@ -108,7 +108,7 @@ struct obj {
     const uint8_t *inner_edges; // same as lam_mesh.inner_edges; NULL if not requested or there are no polygons
     lam_part *parts;
     uint32_t part_count;
-    const char *object_name;       // set if the file has exactly one object; else NULL
+    const char *object_name;       // the object's name if the file contains exactly one object; otherwise NULL
     struct obj_strokes strokes[2]; // points, lines
 
     double origin[3];

@@ -57,7 +57,7 @@ static bool lacks_normal(const uint32_t *corners)
 }
 
 // Computes smooth normals for the triangles that have a corner without a normal, using only these triangles. Appends
-// them to the file's normals.
+// these normals to the normals of the file.
 static bool make_missing_normals(struct obj *obj, lam_error *error)
 {
     const struct import_source *source = obj->source;

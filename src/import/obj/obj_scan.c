@@ -1,4 +1,5 @@
-// obj_scan.c: pass one over an OBJ file: splits it into chunks and counts their elements, 64 bytes at a time.
+// obj_scan.c: pass one over an OBJ file: splits the file into chunks and counts the elements of each chunk, 64 bytes at
+// a time.
 #include "obj.h"
 
 #include "byte_masks.h"

@@ -9,9 +9,8 @@
 //  ply_faces.c      triangles from faces and strips
 //  ply_edges.c      lines from edges
 //
-// Rows of equal size stay in the file, and each pass over them reads them in chunks (parallel_rows_read), so that a
-// large file need not be in memory. Rows of a text file, and rows with lists of several lengths, are converted to rows
-// in memory.
+// Rows of equal size stay in the file. Each pass reads these rows in chunks (parallel_rows_read), so that a large file
+// need not be in memory. Rows of a text file, and rows with lists of several lengths, are converted to rows in memory.
 //
 #ifndef PLY_H
 #define PLY_H
@@ -44,7 +43,7 @@ struct ply_header {
     const struct ply_element *elements;
     int element_count;
     size_t body; // offset of the first byte after the header
-    // Unknown lines: their number, and the line number and first word of the first one.
+    // The number of unknown lines, and the line number and the first word of the first unknown line.
     size_t unknown_count, unknown_line;
     const uint8_t *unknown;
 };
@@ -82,7 +81,7 @@ struct ply_table {
     const uint32_t *starts; // one more element than the table has rows
 };
 
-// The data to read from an element.
+// A request: which data to read from an element.
 struct ply_request {
     bool scalars;
     int list;            // index of the property, or −1

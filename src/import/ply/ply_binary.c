@@ -1,8 +1,8 @@
 // ply_binary.c: reads the rows of one element of a binary PLY as a table.
 //
 // Rows without lists have a fixed stride and stay in the file. Rows with lists must be in memory: a serial pass indexes
-// them, and then their chunks are read in parallel. In nearly all files, each face is a list of three corners: if the
-// number of remaining bytes suggests this layout, the rows are read with the fixed stride of this layout, and checked.
+// them, and then their chunks are read in parallel. In nearly all files, each face is a list of three corners. If the
+// number of remaining bytes matches this layout, the rows are read with its fixed stride, and checked.
 #include "fail.h"
 #include "shown_name.h"
 #include "ply_load.h"
@@ -21,7 +21,7 @@ static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t
                      (long long)reader->request->item_limit - 1);
 }
 
-// Reads and checks the items of one row's list. Returns the number of items before the first wrong one.
+// Reads and checks the items of one row's list. Returns the number of items before the first wrong item.
 static uint32_t read_items(const struct ply_reader *reader, const uint8_t *at, uint32_t count, uint32_t *items)
 {
     enum ply_type type = reader->element->properties[reader->request->list].type;
@@ -84,8 +84,8 @@ static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_er
     return true;
 }
 
-// Returns whether the rest of the file has exactly the size of rows with three items each and of the elements after
-// them.
+// Returns whether the rest of the file has the right size for rows with three items each, followed by the remaining
+// elements.
 static bool may_be_triangles(const struct ply_reader *reader, const struct ply_header *header)
 {
     const struct ply_element *element = reader->element, *end = header->elements + header->element_count;

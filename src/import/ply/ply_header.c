@@ -8,8 +8,8 @@
 //   property list uchar int corners     lists: type of the count, type of the items, name
 //   end_header
 //
-// Lines may be indented or blank. They end in "\n" or "\r\n", or in "\r" if the first line does so. The body begins
-// after the line end of "end_header".
+// A line may be indented or blank. Lines end in "\n" or "\r\n"; if the first line ends in "\r", all lines do. The body
+// begins after the line end of "end_header".
 #include "ply.h"
 #include "fail.h"
 #include "number.h"

@@ -96,8 +96,8 @@ static bool copy_chunk(void *user, size_t index, const uint8_t *rows, lam_error 
     return true;
 }
 
-// Doubles and 32-bit integers need two passes. The first computes their bounding box, which determines the origin; the
-// second rounds them to floats.
+// Doubles and 32-bit integers need two passes. The first pass computes their bounding box, which determines the origin.
+// The second pass rounds the positions to floats.
 static bool measure_chunk(void *user, size_t index, const uint8_t *at, lam_error *error)
 {
     const struct positions *positions = user;

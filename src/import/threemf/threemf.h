@@ -47,7 +47,8 @@ enum { LAYERS_MAX = 16 };
 struct threemf_layers {
     int count;
     int32_t groups[LAYERS_MAX]; // indices of resources
-    // Whether the layer multiplies the layers below it. Otherwise it is blended over them by its alpha.
+    // Whether the layer multiplies the layers below it. Otherwise, the layer is blended over the layers below it, by
+    // its alpha.
     bool multiply[LAYERS_MAX];
     int texture; // the first layer that is a texture, or −1
     int texture_count;
@@ -119,7 +120,7 @@ struct threemf {
     struct expat_library *expat;
     struct name_table part_names;
     struct threemf_rows parts; // struct threemf_part *
-    uint64_t expanded;         // total bytes of all parts
+    uint64_t expanded;         // total size of all parts in bytes
     uint64_t placed;           // number of components and items that were followed
     size_t flattened;          // number of instances whose transform is singular
     size_t multiplied_layers;  // number of multiproperties that are drawn as the product of their layers

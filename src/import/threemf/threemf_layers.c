@@ -1,8 +1,8 @@
 // threemf_layers.c: reads multiproperties of the materials extension, which combine elements of several groups as
 // layers.
 //
-// Layers are mixed into one texture if each layer of colours has the same colour in all elements and all textures use
-// the same coordinates. Other layers become one colour per element, which multiplies the first texture.
+// Layers are mixed into one texture if each colour layer has the same colour in all elements, and all textures use the
+// same coordinates. Otherwise, the layers become one colour per element, which multiplies the first texture.
 #include "threemf_model.h"
 
 #include "fail.h"
@@ -115,7 +115,8 @@ static void compare_with_first(struct threemf_part *part, struct threemf_layers 
     }
 }
 
-// Combines the colours of an element's layers into one colour. If there is a texture, this colour multiplies it.
+// Reads an element of multiproperties: combines the colours of its layers into one colour. If there is a texture, this
+// colour multiplies it.
 bool begin_multi(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
@@ -250,8 +251,8 @@ static bool collect_layers(struct model_reader *reader, const struct threemf_lay
     return !layers->varies;
 }
 
-// Adds a material with the mixed texture. Its other fields are copied from the base material `base` if it is not −1,
-// otherwise from the default material.
+// Adds a material with the mixed texture. The other fields of the material are copied from the base material `base` if
+// it is not −1, otherwise from the default material.
 static int add_mixed_material(struct threemf *file, const lam_texture_map *like, lam_texture *texture, int base)
 {
     lam_material material = base >= 0 ? *lam_scene_material(file->scene, base) : lam_material_default();

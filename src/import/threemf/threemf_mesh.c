@@ -74,7 +74,8 @@ static bool resolve(const struct mesh_maker *maker, const struct threemf_propert
     return true;
 }
 
-// Finds the surface of each triangle. Triangles with the same properties as the previous one are not looked up again.
+// Finds the surface of each triangle. Triangles with the same properties as the previous triangle are not looked up
+// again.
 static bool resolve_all(struct mesh_maker *maker)
 {
     const struct threemf_object *object = maker->object;

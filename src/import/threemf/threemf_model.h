@@ -1,4 +1,4 @@
-// threemf_model.h: the elements of a model part while it is parsed.
+// threemf_model.h: the state of a model part while it is parsed, and the functions that read its elements.
 #ifndef THREEMF_MODEL_H
 #define THREEMF_MODEL_H
 
@@ -69,7 +69,7 @@ static inline struct model_reader *reader_of(struct threemf_xml *xml) { return x
 struct threemf_resource *model_add_resource(struct threemf_xml *xml, const char *const *attributes,
                                             enum resource_kind kind);
 
-// These functions return a resource by its index, and the current group.
+// model_resource returns a resource by its index; model_group returns the current group of properties.
 struct threemf_resource *model_resource(struct threemf_part *part, int32_t index);
 struct threemf_resource *model_group(struct model_reader *reader);
 bool model_add_color(struct threemf *file, struct threemf_part *part, const float color[4]);
@@ -99,8 +99,8 @@ bool properties_take_color(struct threemf_xml *xml, const char *const *attribute
 // threemf_layers.c: multiproperties.
 threemf_begin_fn begin_multis, begin_multi;
 threemf_end_fn end_multis;
-// threemf_display.c: display properties. display_finish applies them at the end of the part, because they may come
-// after the materials in the file.
+// threemf_display.c: display properties. display_finish applies these properties at the end of the part, because they
+// may come after the materials in the file.
 threemf_begin_fn begin_display, begin_metallic, begin_specular;
 void display_finish(struct model_reader *reader);
 // Reports a fault of properties, which does not stop the load: adds a warning "FILE: PART:LINE: sentence" and marks the

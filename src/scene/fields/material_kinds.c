@@ -9,7 +9,8 @@ static float mixed(double from, double to, double share) { return (float)(from +
 
 static double within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
-// Gets the reflectance of the dielectric along the normal. It is 0.04, except for specular–glossiness materials.
+// Gets the reflectance of the dielectric along the normal. The reflectance is 0.04, except for specular–glossiness
+// materials.
 static void dielectric_f0_of(const lam_material *m, double f0[3])
 {
     const float *color = &m->f0_color.r;

@@ -23,8 +23,8 @@ struct account {
     size_t taken;
 };
 
-// This is only a pointer, in the static storage of each thread (initial-exec), because other models of thread_local
-// data allocate memory on first use.
+// The account of the current thread. Only a pointer is thread_local, in the static storage of each thread
+// (initial-exec), because other thread_local data allocate memory on first use.
 thread_local account *counting __attribute__((tls_model("initial-exec"))) = nullptr;
 
 void *take(std::size_t size)
@@ -181,8 +181,8 @@ const draco_functions functions = {DRACO_MODULE_VERSION, decode, attribute, tria
 
 } // namespace
 
-// These operators serve this shared object and Draco's library, which it loaded. Blocks come from malloc, so that other
-// operators new and delete may free them, and these may free blocks of others.
+// These operators serve this shared object and Draco's library, which it loaded. They use malloc and free, so that
+// another operator delete may free blocks from this operator new, and the reverse.
 void *operator new(std::size_t size)
 {
     void *block = take(size);

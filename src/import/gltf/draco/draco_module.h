@@ -19,23 +19,23 @@ enum { DRACO_REASON_SIZE = 160 };
 // of vertices, so the sizes in the header give no useful bound.
 struct draco_memory {
     size_t granted; // bytes
-    // Requests more memory and adds it to `granted`. Returns 0 if there is no more memory; decoding then ends as if
-    // memory had run out.
+    // Requests more memory and adds the bytes to `granted`. Returns 0 if no more memory is granted; decoding then fails
+    // as if memory had run out.
     int (*grant)(struct draco_memory *memory, size_t bytes);
     void *user;
 };
 
 struct draco_functions {
     int version;
-    // Decodes a mesh. The result is 1 if *mesh and its numbers of vertices and triangles are set. It is 0 if the bytes
-    // are damaged; `reason` then says why. It is −1 if memory or the granted memory ran out.
+    // Decodes a mesh. Returns 1 if *mesh and its numbers of vertices and triangles are set. Returns 0 if the bytes are
+    // damaged; `reason` then says why. Returns −1 if memory or the granted memory ran out.
     int (*decode)(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
                   uint32_t *triangles, char reason[DRACO_REASON_SIZE]);
     // Writes the attribute with this unique id to `out`: `width` numbers of a glTF component type for each vertex,
-    // without gaps. The results are the same as for `decode`.
+    // without gaps. Returns the same values as `decode`.
     int (*attribute)(const void *mesh, uint32_t id, int component, int width, void *out,
                      char reason[DRACO_REASON_SIZE]);
-    // Writes three vertices for each triangle.
+    // Writes the indices of three vertices for each triangle.
     void (*triangles)(const void *mesh, uint32_t *out);
     void (*free)(void *mesh);
 };

@@ -27,7 +27,7 @@ int web_meshopt_decode(int kind, void *out, size_t count, size_t stride, const u
 // `kind` is 0 for the octahedral filter, 1 for the quaternion filter, 2 for the exponential filter.
 void web_meshopt_filter(int kind, void *data, size_t count, size_t stride) IMPORT(web_meshopt_filter);
 
-// The other module does not count memory; the browser limits it.
+// The WebAssembly module of the decoders does not count memory, because the browser limits memory.
 static int decode(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
                   uint32_t *triangles, char reason[DRACO_REASON_SIZE])
 {

@@ -124,8 +124,8 @@ static void slerp(const double a[4], const double b[4], double t, double out[4])
         out[i] = from * a[i] + to * b[i];
 }
 
-// Evaluates a sampler at a time. Before the first keyframe it uses the first keyframe, and after the last keyframe the
-// last one.
+// Evaluates a sampler at a time. Before the first keyframe, the result is the first keyframe's value; after the last
+// keyframe, it is the last keyframe's value.
 static void evaluate(const struct sampler *s, double time, enum path path, double *out)
 {
     double t, length;

@@ -16,7 +16,7 @@ enum {
     GLTF_TRIANGLE_FAN
 };
 
-// Sets the mesh's indices and triangle_count from the primitive's indices and its `mode`, which must be one of the
+// Sets the indices and the triangle_count of the mesh from the indices of the primitive. `mode` must be one of the
 // three modes for triangles. Checks that every index is below mesh->vertex_count. Degenerate triangles of strips and
 // fans, which use a vertex twice, are dropped.
 bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh);

@@ -40,7 +40,7 @@ struct glb {
     int *material_index[2];
     struct scene_list pictures; // struct glb_image
     int thumbnail;              // index of the thumbnail's image
-    bool failed;                // memory ran out in the JSON
+    bool failed;                // memory ran out while the JSON was built
 };
 
 // Sets a member or adds an element, and takes ownership of the value. A NULL value records that memory ran out.

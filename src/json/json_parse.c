@@ -28,7 +28,7 @@ static bool fail_as(const struct parser *p, lam_code code, const char *at, const
             line++;
             column = 0;
         }
-        column += (*c & 0xc0) != 0x80; // characters, not bytes
+        column += (*c & 0xc0) != 0x80; // columns are counted in characters, not bytes
     }
     return fail(p->error, code, "%s:%zu: column %zu: %s", p->file, line, column, sentence);
 }

@@ -58,7 +58,7 @@ static void make_opaque(struct lam_scene *scene, const lam_object *object)
     const lam_mesh *mesh = scene_mesh(scene, object->mesh);
     if (!colors_are_clear(mesh))
         return;
-    void *colors = (void *)(uintptr_t)mesh->colors; // in the scene's arena
+    void *colors = (void *)(uintptr_t)mesh->colors; // the colours are in the scene's arena, so they may be changed
     for (uint32_t i = 0; i < mesh->color_count; i++) {
         if (mesh->colors_format == LAM_COLORS_LINEAR_F32)
             ((float *)colors)[4 * (size_t)i + 3] = 1;

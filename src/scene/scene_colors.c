@@ -19,7 +19,8 @@ bool scene_give_colors_white(struct lam_scene *scene, lam_error *error)
     for (int m = 0; m < scene->meshes.count; m++) {
         const lam_mesh *mesh = scene_mesh(scene, m);
         for (uint32_t p = 0; mesh->colors && p < mesh->part_count; p++) {
-            lam_part *part = (lam_part *)(uintptr_t)mesh->parts + p; // in the scene's arena
+            // the parts are in the scene's arena, so they may be changed
+            lam_part *part = (lam_part *)(uintptr_t)mesh->parts + p;
             if (part->material < 0 && (part->material = white_of(scene, &white, error)) < 0)
                 return false;
         }

@@ -23,7 +23,7 @@ struct search {
 
 static double absolute(double a) { return a < 0 ? -a : a; }
 
-// Sets the directions of the extents in the axes of the view.
+// Computes the directions along which the extents are measured, in the axes of the view.
 static void set_across(const struct view_extents *extents, lam_vec3 across[EXTENT_DIRECTIONS])
 {
     across[EXTENT_RIGHT] = v3(1, 0, extents->kx);

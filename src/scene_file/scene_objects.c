@@ -62,7 +62,8 @@ static bool replace_parts(struct scene_reader *r, const struct place *place, con
                           json_kind(list, kind), origin->part_count);
     for (int i = origin->first_mesh; i < origin->first_mesh + origin->mesh_count; i++)
         for (uint32_t k = 0; k < scene_mesh(r->scene, i)->part_count; k++, n++) {
-            lam_part *part = (lam_part *)(uintptr_t)&scene_mesh(r->scene, i)->parts[k]; // in the scene's arena
+            // the parts are in the scene's arena, so they may be changed
+            lam_part *part = (lam_part *)(uintptr_t)&scene_mesh(r->scene, i)->parts[k];
             const json_t *material = json_array_get(list, n);
             int index = part->material;
             if (!json_is_null(material) && !read_material_value(r, ELEMENT_OF(here, n), material, NULL, &index))
@@ -122,7 +123,8 @@ static void place_lights_and_cameras(struct lam_scene *scene, const struct entry
     }
 }
 
-// Applies the keys that shapes and files share to the items of an entry.
+// Applies keys such as "transform" and "material" to the objects, lights and cameras of an entry. Shapes and files
+// share these keys.
 static bool finish(struct scene_reader *r, const struct place *place, const json_t *value, const struct entry *entry,
                    const char *name)
 {

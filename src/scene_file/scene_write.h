@@ -7,7 +7,7 @@
 struct scene_writer {
     const struct lam_scene *scene;
     const char *path;   // the path of the file, for messages
-    const char *folder; // the file's folder, absolute
+    const char *folder; // the absolute path of the file's folder
     bool ok;            // false if Jansson ran out of memory
     lam_error *error;
 };

@@ -57,7 +57,7 @@ const char *lam_material_key(int index)
     return NULL;
 }
 
-// Flags may omit their value.
+// Returns whether a key is a flag. The value of a flag may be omitted.
 static bool is_flag(const char *name, size_t length)
 {
     for (int i = 0; lam_material_field(i); i++) {

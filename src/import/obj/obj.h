@@ -39,7 +39,7 @@ enum obj_kind {
 struct obj_counts {
     uint64_t positions, texcoords, normals;
     uint64_t triangles, polygons; // polygons: faces with more than three corners
-    uint64_t others;              // statements of OBJ_OTHER
+    uint64_t others;              // number of statements of kind OBJ_OTHER
 };
 
 struct obj_chunk {

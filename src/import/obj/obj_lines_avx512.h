@@ -32,7 +32,7 @@ struct constants {
     __m256i cut, middle, doubt;            // number_rounds_surely
     __m256i hundred_millions;
     __m128 sign;
-    __m128i one_32, index_limit; // index_limit: for faces
+    __m128i one_32, index_limit; // index_limit: the largest index in faces
 };
 static inline struct constants constants_of(uint32_t index_limit)
 {
@@ -151,7 +151,7 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     __m256i whole = _mm256_add_epi64(_mm256_mul_epu32(eights, c->hundred_millions), _mm256_srli_epi64(eights, 32));
     __m512i decimals = _mm512_cvtepu8_epi64(_mm_cvtsi32_si128((int)(ends - middles))); // digits after the point, plus 1
     __m256d tenths = _mm512_castpd512_pd256(_mm512_permutex2var_pd(c->tenths_to_6, decimals, c->tenths_to_14));
-    __m256d product = _mm256_mul_pd(_mm256_cvtepi64_pd(whole), tenths); // as in number_float_quick
+    __m256d product = _mm256_mul_pd(_mm256_cvtepi64_pd(whole), tenths); // the same computation as in number_float_quick
     __m256i off = _mm256_sub_epi64(_mm256_and_si256(_mm256_castpd_si256(product), c->cut), c->middle);
     if (_mm256_cmple_epu64_mask(off, c->doubt)) // the test of number_rounds_surely; the unused fourth lane is 0
         return false;

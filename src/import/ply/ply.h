@@ -33,7 +33,7 @@ struct ply_element {
     size_t line; // line in the header
     const struct ply_property *properties;
     int property_count;
-    int list_count;      // properties that are lists
+    int list_count;      // number of properties that are lists
     size_t scalar_bytes; // size in bytes of a binary row without its lists
     size_t min_bytes;    // size in bytes of a binary row whose lists are empty
 };
@@ -81,7 +81,7 @@ struct ply_table {
     const uint32_t *starts; // one more element than the table has rows
 };
 
-// A request: which data to read from an element.
+// The data that a caller requests from an element.
 struct ply_request {
     bool scalars;
     int list;            // index of the property, or −1
@@ -113,7 +113,7 @@ bool ply_fail_too_many(const struct import_source *source, const struct ply_elem
 bool ply_find_all(const struct ply_table *table, const char *const *names, int count, int *properties);
 // Returns whether the properties are adjacent floats in the machine's byte order, so that memcpy can copy them.
 bool ply_contiguous(const struct ply_table *table, const int *properties, int count);
-// Finds red, green, blue and alpha by any of their usual names. Returns whether the first three exist.
+// Finds red, green, blue and alpha by any of their usual names. Returns whether red, green and blue exist.
 bool ply_find_colors(const struct ply_table *table, int properties[4]);
 // Copies a scalar property of `count` rows as floats, divided by `divisor`, to every `step`-th element of `out`.
 void ply_copy_column(const struct ply_table *table, int property, const uint8_t *rows, size_t count, float divisor,

@@ -15,7 +15,7 @@ struct positions {
     struct box {
         double minimum[3], maximum[3];
         bool finite;
-    } *boxes; // one per chunk
+    } *boxes; // one box per chunk
     double origin[3];
 };
 

@@ -143,7 +143,7 @@ static void read_name(struct reader *reader, const uint8_t **name, size_t *lengt
 static bool begin_part(struct reader *reader, const uint8_t *name, size_t length, lam_error *error)
 {
     if (reader->part_count > 0 && reader->parts[reader->part_count - 1].first_triangle == reader->facets)
-        reader->part_count--; // a solid without facets
+        reader->part_count--; // drops a solid without facets
     lam_part *part = &reader->parts[reader->part_count++];
     *part = (lam_part){.first_triangle = reader->facets, .material = -1};
     if (length == 0)

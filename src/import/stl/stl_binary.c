@@ -18,7 +18,7 @@
 
 // Statistics of the attribute words of a chunk.
 struct words {
-    uint32_t marked;          // words with bit 15 set
+    uint32_t marked;          // number of words with bit 15 set
     uint32_t unmarked_values; // number of different nonzero words without bit 15: 0, 1, or 2 for more than one
     uint16_t unmarked;        // the first nonzero word without bit 15
     bool any;                 // whether any word is not 0

@@ -90,7 +90,7 @@ struct threemf_object {
     struct threemf_component *components;
     size_t component_count;
     int mesh;      // index in the scene; −1 if not created yet, or if the object has no triangles
-    bool made;     // `mesh` is final
+    bool made;     // `mesh` has its final value
     bool visiting; // set while the object is being placed; a component that refers to it then forms a cycle
 };
 

@@ -103,7 +103,7 @@ bool extensions_check(struct threemf_xml *xml, const char *const *attributes)
     lam_file_info *info = &file->scene->file;
     info->extensions = list;
     for (size_t i = 0; i < count; i++) {
-        if (strcmp(spaces[i].uri, known[0].uri) == 0) // the core specification
+        if (strcmp(spaces[i].uri, known[0].uri) == 0) // the namespace of the core specification
             continue;
         lam_file_extension *extension = &list[info->extension_count++];
         extension->name = spaces[i].uri;

@@ -124,7 +124,7 @@ bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...)
 
 // --- name spaces
 //
-// This file resolves prefixes itself, because expat rejects undeclared prefixes, and these occur in samples of the 3MF
+// This file resolves prefixes itself, because expat rejects undeclared prefixes, which occur in samples of the 3MF
 // consortium.
 
 static enum threemf_namespace space_of_uri(const char *uri)

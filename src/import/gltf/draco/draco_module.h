@@ -15,8 +15,8 @@ enum { DRACO_MODULE_VERSION = 2 };
 
 enum { DRACO_REASON_SIZE = 160 };
 
-// The memory budget of a decoding. A file of a few kilobytes can declare thousands of attributes for each of thousands
-// of vertices, so the sizes in the header give no useful bound.
+// The memory budget for decoding a mesh. A file of a few kilobytes can declare thousands of attributes for each of
+// thousands of vertices, so the sizes in the header give no useful bound.
 struct draco_memory {
     size_t granted; // bytes
     // Requests more memory and adds the bytes to `granted`. Returns 0 if no more memory is granted; decoding then fails

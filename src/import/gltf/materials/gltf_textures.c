@@ -29,7 +29,7 @@ struct gltf_picture {
 struct gltf_map {
     struct gltf_map *next;
     struct gltf_map_request request;
-    int picture; // 2 · image + values
+    int picture; // index in gltf->pictures: 2 · image + values
     lam_texture_map map;
 };
 

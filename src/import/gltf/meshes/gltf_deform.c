@@ -17,7 +17,7 @@
 
 struct addition {
     struct gltf *gltf;
-    const struct place *place; // position of the target's accessor
+    const struct place *place; // the position of the target's accessor in the file
     bool required;             // whether a sum that is not finite is an error; otherwise it becomes 0
     const float *base, *target;
     float *out; // may be `base`
@@ -140,7 +140,7 @@ enum { SETS_MAX = 16 }; // each with four joints
 
 struct skinning {
     struct gltf *gltf;
-    const struct place *place; // position of the attributes
+    const struct place *place; // the position of the attributes in the file
     const struct gltf_skin *skin;
     const float *joints[SETS_MAX], *weights[SETS_MAX]; // four for each vertex
     int sets;

@@ -33,7 +33,7 @@ static void find_functions(struct gltf *gltf, const struct draco_functions **fun
 // The state of decoding a primitive.
 struct decoding {
     struct gltf *gltf;
-    const struct place *place; // position of the extension
+    const struct place *place; // the position of the extension in the file
     const struct draco_functions *functions;
     int view;
     void *mesh;

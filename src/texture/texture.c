@@ -22,7 +22,8 @@ static int levels_of(int width, int height)
 
 static int side_of(int side, int level) { return side >> level ? side >> level : 1; }
 
-// Levels of at least this size are allocated in separate huge pages, whose first access is faster.
+// Levels whose total size is at least this many bytes are allocated in separate huge pages, whose first access is
+// faster.
 #define PAGES_FROM ((size_t)2 << 20)
 
 // Allocates a texture of this size with all its levels, except for level 0 if it consists of bytes. Fails with

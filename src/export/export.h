@@ -1,6 +1,6 @@
 // export.h: the interface between export.c and the writers of model formats.
 //
-// A format is a file with a `struct exporter` and its name in EXPORTERS.
+// To add a format, define its `struct exporter` in a new file and list the format's name in EXPORTERS.
 #ifndef EXPORT_H
 #define EXPORT_H
 
@@ -27,49 +27,51 @@ struct lam_export {
 
 // The state of an export.
 struct exporting {
-    const struct lam_scene *scene; // NULL if there is only a mesh
+    const struct lam_scene *scene; // NULL if a single mesh is exported
     const lam_export_params *params;
     const char *name;    // the name of the model's file
     struct arena *arena; // memory of the export
     struct lam_export *out;
     lam_up from, to; // the up axis of the scene and of the format
-    // For flat formats: everything of one kind as one mesh in world space, whose parts refer to their materials. Empty
-    // if there is nothing of that kind.
+    // For flat formats: one mesh in world space for each kind of items. The mesh's parts refer to the materials. The
+    // mesh is empty if the scene contains no items of its kind.
     lam_mesh flat[EXPORT_KINDS];
     struct text text;          // the model's file
     struct call_control *call; // NULL if there is none
-    bool stopped;              // the call must stop, and the result is incomplete
+    bool stopped;              // the call was stopped, so the result is incomplete
     lam_error *error;
 };
 
 struct exporter {
     const char *ending;
     lam_up up; // the up axis of the format
-    bool flat; // the format has no objects, so it gets `flat`
-    // Writes the model to `text`, and further files by export_add_file. Returns false and fills `error` on failure.
+    bool flat; // the format has no objects, so exporting.flat is built for it
+    // Writes the model to `text`, and adds any other files with export_add_file. Returns false and fills `error` on
+    // failure.
     bool (*write)(struct exporting *e);
 };
 
 #define EXPORTER_DECLARED(name) extern const struct exporter exporter_##name;
 EXPORTERS(EXPORTER_DECLARED)
 
-// Returns the exporter for a file extension. Returns NULL if there is none; the error then names `path`.
+// Returns the exporter for a file extension. Returns NULL if no format uses this extension; the error then names
+// `path`.
 const struct exporter *exporter_find(const char *ending, const char *path, lam_error *error);
 
-// Records a loss: a part of the scene that the file does not contain. Each sentence is recorded once.
+// Records a loss: something in the scene that the file cannot store. Each message is recorded once.
 void export_lose(struct exporting *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Records the losses that all flat formats share: lights, cameras, an environment, animations. `has_lights_and_cameras`
 // means that the format supports lights and cameras.
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 
-// Records that a format with one mesh loses objects, or the names of their parts, if there are several. `reason` is the
-// end of the sentence.
+// Records a loss if the scene has several objects or its parts have several names, because a flat format merges objects
+// and drops these names. `reason` is appended to the message.
 void export_lose_objects(struct exporting *e, const char *reason);
 
-// Adds a file beside the model; takes ownership of its bytes, which come from malloc. Its name is the model's name
-// without its extension, followed by `ending`, such as "-0.png". With `beside`, other files refer to it by name, so
-// letters that OBJ and MTL cannot use in names become _. Fails with LAM_LIMIT.
+// Adds a file beside the model, and takes ownership of the file's bytes, which malloc allocated. The file's name is the
+// model's name without its extension, followed by `ending`, such as "-0.png". If `beside` is set, other files refer to
+// this file by name, so characters that OBJ and MTL do not allow in file names become _. Fails with LAM_LIMIT.
 const char *export_add_file(struct exporting *e, const char *ending, bool beside, lam_bytes bytes);
 
 // Reports that memory has run out. Returns false.
@@ -79,18 +81,18 @@ bool export_no_memory(struct exporting *e, size_t bytes);
 void *export_memory(struct exporting *e, size_t bytes);
 void export_memory_free(struct exporting *e, void *memory, size_t bytes);
 
-// The condition of long loops. After every 64 ki items, it checks whether the call may continue.
+// The condition of long loops. Every 65,536 items, export_continues checks whether the call may continue.
 bool export_asks(struct exporting *e);
 static inline bool export_continues(struct exporting *e, size_t item) { return item % 65536 || export_asks(e); }
 
-// Return false and fill the error if a loop ended early or the text is incomplete.
+// These functions return false and fill the error if a loop ended early or the text is incomplete.
 bool export_is_whole(struct exporting *e);
 bool export_text_is_whole(struct exporting *e, const struct text *text);
 
 // flatten.c: builds e->flat from the scene.
 bool export_flatten(struct exporting *e);
 
-// export_numbers.c: writes numbers in text and bytes, and rotates vectors to the format's up axis.
+// export_numbers.c: writes numbers as text and as bytes, and rotates vectors to the format's up axis.
 void export_number(struct text *text,
                    double x); // with all digits of a float, or of a double if it is not exactly a float
 void export_word(struct text *text, uint32_t value); // little-endian
@@ -101,7 +103,8 @@ lam_vec3 export_turned(const struct exporting *e, lam_vec3 p);
 lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32_t vertex);
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index);
 
-// Returns the element of an attribute at a corner. `own` is its index array and may be NULL.
+// Returns the element of an attribute at a corner. `own` is the attribute's index array; if it is NULL, the mesh's
+// indices are used.
 static inline uint32_t export_element(const uint32_t *own, const lam_mesh *mesh, size_t corner)
 {
     return own ? own[corner] : mesh->indices ? mesh->indices[corner] : (uint32_t)corner;
@@ -115,8 +118,8 @@ struct export_vertices {
 };
 bool export_share_vertices(struct exporting *e, const lam_mesh *mesh, struct export_vertices *out);
 
-// Return the element of a corner's colour, the linear colour, and the sRGB-encoded colour in 8 bits. The mesh must have
-// colours.
+// These functions return the element of a corner's colour, an element's linear colour, and an element's sRGB-encoded
+// colour in 8 bits. The mesh must have colours.
 uint32_t export_color_element(const lam_mesh *mesh, size_t corner);
 void export_color(const lam_mesh *mesh, size_t element, float color[4]);
 void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4]);
@@ -124,11 +127,11 @@ void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4]);
 // Returns a channel of light as a number for OBJ and MTL.
 double export_encoded(float light);
 
-// Encodes a texture's picture as PNG, from malloc. Returns false if it cannot be exact (floats), or if memory runs out,
-// in which case the error is filled.
+// Encodes a texture's picture as PNG, in memory from malloc. Records a loss and returns false if PNG cannot store the
+// picture exactly (floats). Fills the error and returns false if memory runs out.
 bool export_texture(struct exporting *e, const lam_texture *texture, lam_bytes *png);
 
-// Returns the material of a part, or the scene's default one.
+// Returns the material of a part, or the scene's default material.
 const lam_material *export_material(const struct exporting *e, int index);
 
 #endif

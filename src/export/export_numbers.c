@@ -8,7 +8,7 @@
 
 lam_vec3 export_turned(const struct exporting *e, lam_vec3 p)
 {
-    switch (e->from) { // rotates to y up first; a negative axis is upside down
+    switch (e->from) { // rotates the vector from the scene's up axis to y up
     case LAM_UP_X:
         p = v3(-p.y, p.x, p.z);
         break;
@@ -37,7 +37,7 @@ lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32
     return export_turned(e, v3((double)p[0] + o[0], (double)p[1] + o[1], (double)p[2] + o[2]));
 }
 
-// Leaves a normal unchanged if its length is 1 up to rounding, so that reading and writing a file preserves its
+// A normal whose length is 1 up to rounding is not normalised, so that reading and writing a file preserves the
 // numbers.
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index)
 {
@@ -53,7 +53,7 @@ void export_number(struct text *text, double x)
     size_t length = 0;
     snprintf(digits, sizeof digits, (double)(float)x == x ? "%.9g" : "%.17g", x + 0.0);
     bool point = false;
-    for (const char *c = digits; *c; c++) { // use a point in every locale
+    for (const char *c = digits; *c; c++) { // the decimal separator becomes a point in every locale
         bool usual = (*c >= '0' && *c <= '9') || *c == '-' || *c == '+' || *c == 'e';
         if (usual || !point)
             plain[length++] = usual ? *c : '.';

@@ -117,8 +117,8 @@ void export_lose_objects(struct exporting *e, const char *reason)
 
 // --- files
 
-// OBJ and MTL files name the files beside them without quotes: a name may not begin with a blank or like an option, nor
-// contain a backslash, a control character, or bytes that are not UTF-8. Such letters become _.
+// OBJ and MTL files name other files without quotes. A name must not begin with a space or a '-', and must not contain
+// a backslash, a control character, or bytes that are not UTF-8. Such characters become _.
 static void make_nameable(char *stem)
 {
     if (*stem == ' ' || *stem == '-')
@@ -142,7 +142,8 @@ const char *export_add_file(struct exporting *e, const char *ending, bool beside
         make_nameable(file.name);
     if (file.name)
         strcat(file.name, ending);
-    bool charged = !beside || !e->call || call_charge(e->call, bytes.size); // the model's own text is charged already
+    // the model's own text has already been charged
+    bool charged = !beside || !e->call || call_charge(e->call, bytes.size);
     if (charged && file.name && append(e->out, &e->out->files, &file, sizeof file))
         return file.name;
     lam_bytes_free(&bytes);
@@ -180,7 +181,7 @@ void lam_export_free(lam_export *result)
         return;
     for (int i = 0; i < result->files.count; i++)
         lam_bytes_free(&((struct export_file *)result->files.items)[i].bytes);
-    struct arena arena = result->arena; // it contains the result itself
+    struct arena arena = result->arena; // a copy, because the arena contains the result itself
     arena_free(&arena);
 }
 

@@ -1,5 +1,5 @@
 // export_vertices.c: merges corners with equal attributes into vertices, for formats with one index for all attributes
-// of a corner. It also converts colours and textures for the writers.
+// of a corner. This file also converts colours and textures for the writers.
 #include "export.h"
 
 #include "srgb.h"
@@ -85,7 +85,7 @@ void export_color(const lam_mesh *mesh, size_t element, float color[4])
     }
 }
 
-// Returns the byte whose linear intensity is closest to `light`, by bisection, since the curve is monotonic.
+// Finds the byte whose linear intensity is closest to `light` by bisection, because the curve is monotonic.
 static uint8_t encoded(float light)
 {
     int low = 0, high = 255;
@@ -99,9 +99,10 @@ static uint8_t encoded(float light)
     return (uint8_t)low;
 }
 
-// Returns the number that OBJ and MTL use for a channel of light: sRGB-encoded below 1. The reader rounds it to a float
-// and decodes it. This is the smallest float between 0 and 1 whose linear intensity is not below `light`, so that a
-// colour from such a file gets its original number. Most results are exact bytes.
+// Returns the number that OBJ and MTL use for a channel of light: sRGB-encoded below 1. The reader rounds the number to
+// a float and decodes it. If a byte divided by 255 decodes to exactly `light`, that quotient is the result. Otherwise,
+// the result is the smallest float between 0 and 1 that does not decode to less than `light`. A colour read from OBJ or
+// MTL is therefore written with its original number.
 double export_encoded(float light)
 {
     uint32_t low = 0, high = 0x3f800000; // bit patterns of 0 and 1

@@ -1,5 +1,5 @@
-// flatten.c: merges a scene into one mesh of triangles, one of lines and one of points, in world space, for formats
-// without objects.
+// flatten.c: merges a scene into at most three meshes in world space, for formats without objects: triangles, lines and
+// points.
 #include "export.h"
 
 #include "fail.h"
@@ -63,7 +63,7 @@ static bool is_identity(const lam_mat4 *m)
     return memcmp(m, &identity, sizeof identity) == 0;
 }
 
-// Coordinates far from zero are stored relative to one origin, the origin of the first object's mesh.
+// Coordinates far from zero are stored relative to the origin of the first object's mesh.
 static void put_positions(struct flat *f, const lam_mesh *m, const lam_mat4 *transform, const double origin[3])
 {
     bool same = is_identity(transform) && memcmp(origin, m->origin, 3 * sizeof *origin) == 0;
@@ -116,7 +116,7 @@ static void put_corners(struct flat *f, const lam_mesh *m, bool mirrored)
     for (size_t i = 0; i < mesh_corners(m) && export_continues(f->e, i); i++) {
         size_t c = source_corner(f, i, mirrored), to = f->corners + i;
         f->index[to] = (uint32_t)f->vertices + export_element(NULL, m, c);
-        // Meshes without normals use the element after the last one.
+        // UINT32_MAX marks a missing attribute; put_missing replaces this index.
         f->normal_index[to] = m->normals ? (uint32_t)f->normals + export_element(m->normal_indices, m, c) : UINT32_MAX;
         f->texcoord_index[to] =
             m->texcoords ? (uint32_t)f->texcoords + export_element(m->texcoord_indices, m, c) : UINT32_MAX;
@@ -155,7 +155,8 @@ static void put_object(struct flat *f, const lam_mesh *m, const lam_object *obje
     f->corners += mesh_corners(m);
 }
 
-// Appends the elements for meshes that lack an attribute, if there are such meshes.
+// If some meshes lack an attribute, appends one default element to the attribute's array. The corners of these meshes
+// use the default element.
 static void put_missing(struct flat *f, size_t corners)
 {
     bool normals = false, texcoords = false;

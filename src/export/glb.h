@@ -6,15 +6,16 @@
 
 #include <jansson.h>
 
-// The indices of the accessors for the arrays of a scene's mesh, −1 if missing.
+// The indices of the accessors for the arrays of a mesh of the scene; −1 means that the array is missing.
 struct glb_arrays {
     bool ready;
     int position, normal, texcoords[2], tangent, color;
-    int first_indices; // indices of its parts, consecutive
-    int first_mesh;    // the latest mesh of the file that uses it (glb_mesh.before), or −1
+    int first_indices; // accessor of the first part's indices; the other parts follow
+    // the latest mesh of the file that uses this mesh of the scene, or −1; glb_mesh.before refers to the one before it
+    int first_mesh;
 };
 
-// A mesh of the file: a mesh of the scene, or a part of it, with the materials of an object.
+// A mesh of the file: a mesh of the scene or one of its parts, with the materials of an object.
 struct glb_mesh {
     int part;     // −1: all parts
     int material; // the object's material; −1 if the parts' materials are used
@@ -24,7 +25,7 @@ struct glb_mesh {
 
 struct glb_image {
     const lam_texture *texture;
-    int index; // the index in `images`; −1 if it cannot be written
+    int index; // the index in `images`; −1 if the picture cannot be written
 };
 
 struct glb {
@@ -32,27 +33,29 @@ struct glb {
     json_t *root, *accessors, *views, *meshes, *materials, *nodes, *images, *textures, *samplers, *lights, *cameras,
         *used;
     struct text bytes;         // the buffer
-    struct glb_arrays *arrays; // one per mesh of the scene
-    struct scene_list own;     // struct glb_mesh: one per mesh of the file
-    // for each material and the default one, its index in the file, one-sided and double-sided; −1 if not written yet
+    struct glb_arrays *arrays; // one element per mesh of the scene
+    struct scene_list own;     // struct glb_mesh: one element per mesh of the file
+    // the index in the file of each material and of the default material: [0] one-sided, [1] double-sided; −1 if not
+    // written yet
     int *material_index[2];
     struct scene_list pictures; // struct glb_image
-    int thumbnail;              // index of its image
-    bool failed;                // memory ran out in the JSON
+    int thumbnail;              // index of the thumbnail's image
+    bool failed;                // memory ran out while the JSON was built
 };
 
 // Sets a member or adds an element, and takes ownership of the value. A NULL value records that memory ran out.
 void glb_set(struct glb *glb, json_t *object, const char *key, json_t *value);
 int glb_add(struct glb *glb, json_t *list, json_t *value); // returns its index
 
-void glb_set_name(struct glb *glb, json_t *object, const char *name); // sets no name if it is NULL or not UTF-8
+void glb_set_name(struct glb *glb, json_t *object, const char *name); // sets nothing if the name is NULL or not UTF-8
 json_t *glb_floats(struct glb *glb, const float *numbers, int count);
 
-// Lists an extension in extensionsUsed, and returns its object in `object`, which is created if it is missing.
+// Lists an extension in extensionsUsed. Returns the extension's object within `object`, and creates that object if it
+// is missing.
 json_t *glb_extension(struct glb *glb, json_t *object, const char *name);
 
-// Appends bytes to the buffer, aligned to four, as a view. Returns the index of the view. `target` is the target of the
-// view in glTF, or 0.
+// Appends bytes to the buffer, aligned to four bytes, and adds a bufferView for them. Returns the index of the
+// bufferView. `target` is its "target" in glTF, or 0.
 int glb_add_view(struct glb *glb, const void *bytes, size_t size, int target);
 
 // Fills the error with the reason why the file is incomplete, and returns false.
@@ -63,11 +66,11 @@ bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size
 // Returns the index of the file's mesh for a part of an object (−1: all parts), or −1 if memory runs out.
 int glb_mesh_of(struct glb *glb, const lam_object *object, int part);
 
-// Returns the index of a material in the file. −1 is the default material.
+// Returns the index in the file of a material of the scene (−1 means the default material).
 int glb_material(struct glb *glb, int material, bool double_sided);
 
 // Returns the JSON object for a map's texture, with its texture coordinates and transform. Returns NULL if there is no
-// map, or its picture cannot be written.
+// map, or if the map's picture cannot be written.
 json_t *glb_texture(struct glb *glb, const lam_texture_map *map);
 
 // Writes the nodes: the scene's objects, lights and cameras.

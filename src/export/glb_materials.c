@@ -1,4 +1,4 @@
-// glb_materials.c: writes materials as metallic-roughness materials of glTF, with the extensions for their layers.
+// glb_materials.c: writes materials as metallic-roughness materials of glTF, with the extensions for material layers.
 #include "glb.h"
 
 #include "khr_layers.h"
@@ -8,8 +8,8 @@
 
 static float scale_of(const lam_texture_map *map) { return map->scale == 0 ? 1 : map->scale; }
 
-// Returns the map if glTF can represent it: a slot of glTF allows only one channel, without scale and offset. Otherwise
-// records a loss.
+// Returns the map if glTF can represent it: each slot of glTF prescribes a channel and allows no scale or offset.
+// Otherwise, records a loss and returns NULL.
 static const lam_texture_map *usual(struct glb *glb, const lam_material *m, lam_map slot, int channel)
 {
     const lam_texture_map *map = m->maps[slot];
@@ -57,8 +57,8 @@ static void put_metallic(struct glb *glb, json_t *object, const lam_material *m)
     glb_set(glb, object, "pbrMetallicRoughness", pbr);
 }
 
-// KHR_materials_pbrSpecularGlossiness: the importer converted its specular colour to f0, and glossiness to 1 −
-// roughness.
+// KHR_materials_pbrSpecularGlossiness: the importer converted the specular colour to f0, and the glossiness to a
+// roughness of 1 − glossiness.
 static void put_glossy(struct glb *glb, json_t *object, const lam_material *m)
 {
     json_t *glossy = glb_extension(glb, object, "KHR_materials_pbrSpecularGlossiness");
@@ -122,7 +122,7 @@ static void put_other_maps(struct glb *glb, json_t *object, const lam_material *
             export_lose(glb->e, "%s maps are omitted: glTF does not support them", lam_map_name(others[i]));
 }
 
-// Writes emission above 1 as a factor and a strength (KHR_materials_emissive_strength).
+// Writes an emission above 1 as a factor and a strength (KHR_materials_emissive_strength).
 static void put_emission(struct glb *glb, json_t *object, const lam_material *m)
 {
     const float *e = &m->emission.r;
@@ -148,8 +148,8 @@ static bool is_opaque(const lam_material *m)
 
 static void put_alpha(struct glb *glb, json_t *object, const lam_material *m, bool classic)
 {
-    // Any classic material may use alpha blending. Viewers sort such surfaces in glTF files, so the file declares
-    // blending only if it is needed.
+    // Any classic material may use alpha blending. Viewers of glTF sort blended surfaces by depth, so the file declares
+    // blending only if a material needs it.
     bool blends = m->alpha_mode == LAM_ALPHA_BLEND && !(classic && is_opaque(m));
     if (blends || m->alpha_mode == LAM_ALPHA_MASK)
         glb_set(glb, object, "alphaMode", json_string(blends ? "BLEND" : "MASK"));

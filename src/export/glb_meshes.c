@@ -17,7 +17,7 @@ static bool has_one_number(const lam_mesh *m)
            (!m->tangents || m->tangent_count == m->vertex_count) && (!m->colors || m->color_count == m->vertex_count);
 }
 
-// The vertices to write: the mesh's own, or merged ones.
+// The vertices to write: the mesh's own vertices, or merged vertices.
 struct vertices {
     const lam_mesh *mesh;
     bool as_they_are;
@@ -37,7 +37,7 @@ static int add_accessor(struct glb *glb, int view, int component, const char *ty
                              (json_int_t)count, "type", type));
 }
 
-// Writes an attribute of floats. Returns its accessor.
+// Writes an attribute of floats. Returns the index of its accessor.
 static int add_floats(struct glb *glb, const struct vertices *v, const float *items, const uint32_t *own, int width)
 {
     static const char *const types[] = {NULL, NULL, "VEC2", "VEC3", "VEC4"};
@@ -59,7 +59,7 @@ static int add_floats(struct glb *glb, const struct vertices *v, const float *it
     return add_accessor(glb, view, FLOAT, types[width], v->count);
 }
 
-// Sets the smallest and largest position, which the standard requires.
+// Sets the accessor's minimum and maximum, which the standard requires for positions.
 static void set_bounds(struct glb *glb, const struct vertices *v, int accessor)
 {
     float low[3] = {0}, high[3] = {0};

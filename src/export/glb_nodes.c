@@ -3,7 +3,7 @@
 
 #include "linear.h"
 
-// Rotates a matrix from the scene's up axis to y.
+// Rotates a matrix from the scene's up axis to y up.
 static lam_mat4 placed(const struct glb *glb, lam_mat4 m)
 {
     lam_mat4 turn = lam_mat4_identity();
@@ -49,7 +49,7 @@ static bool add_part(struct glb *glb, const lam_object *object, int part, const 
     return true;
 }
 
-// Primitives of glTF have no names, so a mesh with named parts becomes a node for each part.
+// Primitives of glTF have no names, so a mesh with named parts is written as one node for each part.
 static bool add_object(struct glb *glb, const lam_object *object)
 {
     const lam_mesh *m = scene_mesh(glb->e->scene, object->mesh);
@@ -81,7 +81,7 @@ static bool add_object(struct glb *glb, const lam_object *object)
 
 // --- lights
 
-// Returns a frame whose third axis is −direction and whose other axes have the same length.
+// Returns a transform whose third axis is −direction and whose other axes have the same length.
 static lam_mat4 looking(lam_vec3 position, lam_vec3 direction)
 {
     lam_mat4 m = lam_mat4_identity();
@@ -114,8 +114,8 @@ static void lose_fields(struct glb *glb, const lam_light *l)
         export_lose(glb->e, "spot lights with an exponent become soft cones with the same angle");
 }
 
-// Intensities are candela and lux: in glTF, a white Lambertian surface returns 1/π of the light; here it returns all of
-// it.
+// glTF gives intensities in candela and lux, and a white Lambertian surface reflects 1/π of the light; in Lambent it
+// reflects all of the light.
 static json_t *light(struct glb *glb, const lam_light *l)
 {
     static const char *const words[LAM_LIGHT_TYPE_COUNT] = {
@@ -177,7 +177,7 @@ static void add_camera(struct glb *glb, const lam_camera *c, const char *name)
         m.m[0][0] = x.x, m.m[1][0] = x.y, m.m[2][0] = x.z;
         m.m[0][1] = y.x, m.m[1][1] = y.y, m.m[2][1] = y.z;
     }
-    if (!(near_plane > 0) && !(far_plane > 0)) { // these planes are fitted to the scene, but glTF needs numbers
+    if (!(near_plane > 0) && !(far_plane > 0)) { // Lambent would fit these planes to the scene, but glTF needs numbers
         lam_vec3 centre;
         double radius;
         lam_scene_sphere(glb->e->scene, -1, &centre, &radius);

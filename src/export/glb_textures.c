@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-// Pictures with equal bytes are stored once, because a picture that a file uses both as colours and as numbers was read
-// twice.
+// Pictures with equal bytes are written once. Such duplicates exist because the importer reads a picture twice if
+// materials use it both as colours and as numbers.
 static bool is_same(const lam_texture *a, const lam_texture *b)
 {
     if (a == b)
@@ -17,7 +17,7 @@ static bool is_same(const lam_texture *a, const lam_texture *b)
            memcmp(a->bytes, b->bytes, (size_t)x->width * (size_t)x->height * (size_t)a->channels) == 0;
 }
 
-// Returns the index of a texture's image, or −1 if it cannot be written.
+// Returns the index of a texture's image, or −1 if the image cannot be written.
 static int image_of(struct glb *glb, const lam_texture *texture)
 {
     for (int i = 0; i < glb->pictures.count; i++) {
@@ -41,7 +41,8 @@ static int image_of(struct glb *glb, const lam_texture *texture)
 
 static int wrap_code(lam_wrap wrap) { return wrap == LAM_WRAP_CLAMP ? 33071 : wrap == LAM_WRAP_MIRROR ? 33648 : 10497; }
 
-// Returns the index of the sampler, or −1 for the default, which repeats and filters between levels.
+// Returns the index of the sampler, or −1 for the default sampler, which repeats the texture and filters between mip
+// levels.
 static int sampler_of(struct glb *glb, const lam_texture_map *map)
 {
     static const int minify[2][3] = {{9987, 9985, 9729}, {9986, 9984, 9728}}; // indexed by filter (linear, nearest) and

@@ -1,4 +1,4 @@
-// mtl_write.c: writes materials as MTL, and the pictures of their maps as PNG beside it.
+// mtl_write.c: writes materials as MTL, and the pictures of their maps as PNG files beside it.
 #include "mtl_write.h"
 
 #include "fail.h"
@@ -194,7 +194,7 @@ static const char *name_of(struct exporting *e, const char *const *names, int in
     return arena_string(e->arena, name);
 }
 
-// Finds the materials that the parts use, and whether their texture coordinates need flipping in t. Returns the number
+// Finds the materials that the parts use, and whether the texture coordinates must be flipped in t. Returns the number
 // of these materials.
 static int find_used(struct exporting *e, bool *used, bool *flips)
 {

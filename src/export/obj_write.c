@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-// The indices of the next vertex, texture coordinate and normal, starting at 1. They continue across the kinds of
-// items.
+// The indices of the next vertex, texture coordinate and normal, starting at 1. Triangles, lines and points share one
+// numbering.
 struct firsts {
     unsigned long position, texcoord, normal;
 };
@@ -17,8 +17,8 @@ static void put_vector(struct text *text, const char *word, lam_vec3 p)
     export_line(text, word, (double[3]){p.x, p.y, p.z}, 3);
 }
 
-// Collects the colour of each vertex; *out is NULL if there are none. OBJ stores one colour per position, so a vertex
-// whose corners have different colours gets none.
+// Collects the colour of each vertex; *out is NULL if the mesh has no colours. OBJ stores one colour per position, so a
+// vertex whose corners have different colours gets no colour.
 static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
 {
     *out = NULL;
@@ -93,7 +93,7 @@ static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *pa
     }
 }
 
-// Writes a name on a line of its own.
+// Writes a name on a separate line.
 static void put_name(struct text *text, const char *word, const char *name)
 {
     char clean[200];
@@ -111,8 +111,8 @@ static size_t object_length(const char *name)
     return slash && slash[1] ? (size_t)(slash - name) : 0;
 }
 
-// Writes the name of a part. If the part follows one named `before` (may be NULL), chooses the name so that a reader
-// joins the two names into the same object again.
+// Writes the name of a part. `before` is the name of the previous part, or NULL. A reader of the written statements
+// joins object and group into the same name again.
 static void put_part_name(struct text *text, const char *name, const char *before)
 {
     size_t length = object_length(name);

@@ -16,7 +16,8 @@ static bool write(struct exporting *e)
         return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, and STL supports nothing else", e->name);
     const char *name = m->name ? m->name : "mesh";
     snprintf(head, sizeof head, "%-80.80s",
-             strncmp(name, "solid", 5) == 0 ? "mesh" : name); // text files begin with "solid"
+             // ASCII files begin with "solid", so binary files must not
+             strncmp(name, "solid", 5) == 0 ? "mesh" : name);
     text_add_part(text, head, 80);
     export_word(text, m->triangle_count);
     for (size_t t = 0; t < m->triangle_count && !text->failed; t++) {

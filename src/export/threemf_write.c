@@ -81,7 +81,7 @@ static void mean_color(const lam_material *material, float color[4])
     color[3] = material->diffuse.a;
 }
 
-// Adds the materials of the parts in the order of their first use; `numbers` receives the index of each.
+// Adds the materials of the parts in the order of their first use; `numbers` receives the index of each material.
 static bool add_materials(struct exporting *e, struct text *text, const lam_mesh *m, int *numbers)
 {
     int count = 0, materials = e->scene->materials.count;
@@ -171,7 +171,7 @@ static const char relations[] =
 
 static bool add_entry(const struct library *zip, zip_t *archive, const char *name, const void *bytes, size_t size)
 {
-    enum { FIRST_DAY = 0x21 }; // 1 January 1980, so that the same model gives the same bytes
+    enum { FIRST_DAY = 0x21 }; // 1 January 1980; with a fixed date, the same model always yields the same file
     zip_source_t *source = zip->zip_source_buffer(archive, bytes, size, 0);
     zip_int64_t index = source ? zip->zip_file_add(archive, name, source, ZIP_FL_ENC_UTF_8) : -1;
     if (source && index < 0)

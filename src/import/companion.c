@@ -12,8 +12,9 @@
 
 // --- names
 
-// Copies the components of a path, without "." and empty ones, to `out`, which may be `name` itself. Each ".." removes
-// the component before it. Returns false if the path leaves the folder, nothing is left, or `capacity` is too small.
+// Copies the components of a path to `out`, which may be `name` itself. Components that are "." or empty are omitted.
+// Each ".." removes the component before it. Returns false if the path leaves the folder, if no component is left, or
+// if `capacity` is too small.
 static bool copy_components(const char *name, char *out, size_t capacity)
 {
     size_t used = 0;
@@ -51,7 +52,7 @@ static char *join(struct arena *arena, const char *folder, const char *name)
     return path;
 }
 
-// Returns the path after following all links, if it is inside one of params->allowed_paths; see path_within.
+// Returns the path after following all links, if the result is inside one of params->allowed_paths; see path_within.
 static char *path_allowed(const struct import_source *source, const char *path, size_t *length)
 {
     char *real = NULL;
@@ -61,7 +62,7 @@ static char *path_allowed(const struct import_source *source, const char *path, 
     return real;
 }
 
-// Returns whether a name that leads out of the folder leads to an allowed path.
+// Returns whether a name that refers to a file outside the folder refers to an allowed path.
 static bool is_allowed(const struct import_source *source, const char *name)
 {
     const struct companions *companions = source->open_state;
@@ -135,7 +136,7 @@ static bool open_by_caller(const struct import_source *source, const char *name,
     return ok;
 }
 
-// Opens a file on disk. With `confined` it must be in the folder or below.
+// Opens a file on disk. If `confined` is set, the file must be in the folder or below.
 static bool open_beside(const struct import_source *source, const char *name, bool confined, const char *advice,
                         struct arena *arena, struct companion *out, lam_error *error)
 {
@@ -153,7 +154,7 @@ static bool open_beside(const struct import_source *source, const char *name, bo
         return fail(error, LAM_CANNOT_READ, "%s: leads out of the folder %s%s", out->shown, *root ? root : ".", advice);
     if (!real && errno == ENOMEM)
         return fail_memory(error, COMPANION_NAME_SIZE);
-    // Opens the path that was checked. If it is broken, reading reports the reason.
+    // Opens the path that was checked. If the path could not be resolved, file_read_named reports the reason.
     out->real = real ? arena_string(arena, real) : out->path;
     length = real && confined ? length : 0;
     free(real);
@@ -162,7 +163,8 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     return file_read_named(out->real, length, out->shown, fresh, source->pool, source->call, &out->file, error);
 }
 
-// Explains that a missing file's name was cut: the file may exist under its full name.
+// Explains that the name of a missing file was cut to its last component, because the file may exist under the full
+// name.
 static void explain_cut(const char *name, lam_error *error)
 {
     char shown[SHOWN_NAME_SIZE];
@@ -211,7 +213,7 @@ bool companions_of_model(const struct import_source *scene, const char *name, co
     *out = *(const struct companions *)scene->open_state;
     const char *path = model->path;
     if (!path) {
-        copy_components(name, inside, sizeof inside); // same as in open_of_scene
+        copy_components(name, inside, sizeof inside); // the same name as in open_of_scene
         path = inside;
     }
     const char *folder = arena_string_of(arena, path, (size_t)(path_name(path) - path));

@@ -1,13 +1,13 @@
-// companion.h: opens files that a model or a scene file names, beside it or through the caller's function.
+// companion.h: opens the files that a model or a scene file names, from its folder or through the caller's function.
 #ifndef COMPANION_H
 #define COMPANION_H
 
 #include "importer.h"
 
-// The state of import_source.open and .open_of_scene: the search locations.
+// The state of import_source.open and .open_of_scene: where they look for files.
 struct file_list;
 struct companions {
-    // the folder of the naming file with its '/' ("" is the current folder); NULL if the naming file is not on disk
+    // the folder of the model or scene file, with its '/' ("" is the current folder); NULL if that file is not on disk
     const char *folder;
     const char *inside; // prefix of names for `open`: the folder of a model within a scene, with its '/', or ""
     lam_open_fn *open;  // the caller's function; NULL if files are opened in `folder`
@@ -20,7 +20,7 @@ struct companions {
 struct companion {
     struct file_bytes file;
     const char *path;  // the file's path; NULL if it came from the caller's function
-    const char *real;  // identifies the file: its path without links, or its name for the caller's function
+    const char *real;  // identifies the file: its path after following links, or its name for the caller's function
     const char *shown; // the file's name in messages: the folder, then the name shortened by shown_name
 };
 
@@ -34,16 +34,16 @@ bool companion_open(const struct import_source *source, const char *name, struct
 bool companion_open_of_scene(const struct import_source *source, const char *name, struct arena *arena,
                              struct companion *out, lam_error *error);
 
-// Makes the companions of a model that a scene file names: `model` was opened by open_of_scene as `name`. The strings
-// are in `arena`. Returns false if memory runs out.
+// Initialises the companions of a model that a scene file names: open_of_scene opened `model` under the name `name`.
+// The strings are in `arena`. Returns false if memory runs out.
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,
                          struct arena *arena, struct companions *out, lam_error *error);
 
-// Converts the name of a file that a model refers to. It is confined to the model's folder: backslashes become slashes,
-// "." and empty components are removed, and ".." removes the component before it. A name that begins at a root or a
-// drive, or leads out of the folder, is cut to its last component, unless it leads to a file of params->allowed_paths.
-// All spellings of a file in the folder therefore give the same name. Sets *cut to whether it was cut. Returns false if
-// nothing is left, or COMPANION_NAME_SIZE is too small.
+// Converts the name of a file that a model refers to. The name is confined to the model's folder: backslashes become
+// slashes, "." and empty components are removed, and ".." removes the component before it. A name that begins at a root
+// or a drive, or refers to a file outside the folder, is cut to its last component, unless params->allowed_paths
+// contains the file. All spellings of a file in the folder are therefore converted to the same name. Sets *cut to
+// whether the name was cut. Returns false if no component is left, or if COMPANION_NAME_SIZE is too small.
 enum { COMPANION_NAME_SIZE = 4096 };
 bool companion_name(const struct import_source *source, const char *name, char out[COMPANION_NAME_SIZE], bool *cut);
 

@@ -15,7 +15,7 @@ struct file_list {
 
 void file_list_start(struct file_list *list);
 
-// Adds a copy of a path, from any thread. Returns whether the path is new. `list` may be NULL.
+// Adds a copy of a path. Any thread may call this function. Returns whether the path is new. `list` may be NULL.
 bool file_list_add(struct file_list *list, const char *path);
 
 // Passes the model's own path (may be NULL) and then the other paths, in alphabetical order without duplicates, to the

@@ -1,4 +1,5 @@
-// importer.h: the interface of a model format. A new format is one importer, and its name in IMPORTERS.
+// importer.h: the interface of a model format. To add a format, define its importer and list the importer's name in
+// IMPORTERS.
 #ifndef IMPORTER_H
 #define IMPORTER_H
 
@@ -17,18 +18,18 @@ typedef bool open_companion(const struct import_source *source, const char *name
 struct import_source {
     const char *name;     // for messages: the path as the user wrote it
     const char *path;     // the file's path; NULL if it is in memory or standard input
-    const uint8_t *bytes; // FILE_PADDING zero bytes follow the last one
-    size_t size;          // of the file
-    // A large file that is read in parts (importer.in_parts): `bytes` contains its first FILE_HEAD bytes only. NULL if
-    // `bytes` contains the whole file. parallel_rows.h reads both.
+    const uint8_t *bytes; // FILE_PADDING zero bytes follow the last byte
+    size_t size;          // the size of the file in bytes
+    // Set for a large file that is read in parts (importer.in_parts); `bytes` then contains only its first FILE_HEAD
+    // bytes. NULL if `bytes` contains the whole file. The functions of parallel_rows.h support both cases.
     const struct file_parts *parts;
-    // The owner of `bytes`. An importer whose arrays point into them may move it to the scene's arena
+    // The owner of `bytes`. An importer whose arrays point into `bytes` may move the owner to the scene's arena
     // (file_move_to_arena). NULL if the file is read in parts.
     struct file_bytes *file;
     const lam_load_params *params;
     struct pool *pool;         // NULL if there are no threads
     struct call_control *call; // never NULL; every long loop checks it
-    // Open a file that the model or a scene file names (companion.h).
+    // These functions open a file that the model or a scene file names (companion.h).
     open_companion *open, *open_of_scene;
     // Finds the importer of a model that a scene file names (formats.h).
     const struct importer *(*importer_for)(const char *name, const struct file_bytes *file, const char *wanted,
@@ -38,21 +39,21 @@ struct import_source {
 
 struct importer {
     const char *name;       // "obj"
-    const char *extensions; // "obj"; several are separated by spaces
+    const char *extensions; // "obj"; several extensions are separated by spaces
     lam_up up;              // the format's up axis
-    // the format defines none; `up` is the most common, and the shape of a terrain may override it
+    // the format does not define an up axis; `up` is the most common axis, and the shape of a terrain may override `up`
     bool up_is_habit;
-    bool is_scene_file; // names other models, and prepares their normals and origins itself
-    bool flat_normals;  // the format requires flat normals for meshes without normals
+    // a scene file: it names other models, and its importer prepares their normals and origins itself
+    bool is_scene_file;
+    bool flat_normals; // the format requires flat normals for meshes without normals
     // Returns whether the bytes are of this format: 0 no, 1 possibly (the file's extension decides), 2 certainly.
     int (*probe)(const uint8_t *bytes, size_t size);
-    // Fills an empty scene: meshes, materials, one object per mesh. On failure the caller frees the scene.
+    // Fills an empty scene with meshes, materials, and one object per mesh. On failure, the caller frees the scene.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
     // Optional. Returns whether `load` reads this large file in parts (import_source.parts).
     bool (*in_parts)(const struct import_source *source);
-    // Optional. Loads a large file in parts, as far as the scene needs neither a line number nor a second pass over the
-    // text. Returns false for other files and for errors: the caller then runs `load` with an empty scene and the whole
-    // file.
+    // Optional. Loads a large file in parts, if that needs neither a line number nor a second pass over the text.
+    // Returns false for other files and on errors. The caller then runs `load` with an empty scene and the whole file.
     bool (*load_stream)(const struct import_source *source, struct lam_scene *scene);
 };
 
@@ -62,22 +63,23 @@ static inline size_t import_held(const struct import_source *source)
     return source->parts ? FILE_HEAD : source->size;
 }
 
-// The formats, in the order in which lists name them. tests/fuzz/meson.build reads these names too.
+// The formats, in the order of the lists that users see. tests/fuzz/meson.build reads these names too.
 #define IMPORTERS(X) X(obj) X(stl) X(ply) X(gltf) X(3mf) X(scene)
 
 #define IMPORTER(name) extern const struct importer importer_##name;
 IMPORTERS(IMPORTER)
 #undef IMPORTER
 
-// Returns the crease angle for scene_prepare in a load with these parameters (0 means the default). Flat normals are
-// facet normals.
+// Returns the crease angle for scene_prepare in a load with these parameters (0 means the default). Flat normals
+// correspond to FACET_CREASE_RAD.
 static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)
 {
     return importer->flat_normals && normals == LAM_NORMALS_FILE && crease_angle_rad == 0 ? FACET_CREASE_RAD
                                                                                           : crease_angle_rad;
 }
 
-// Fail with LAM_CANNOT_READ and "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". Return false.
+// These functions fail with LAM_CANNOT_READ and "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". They return
+// false.
 bool fail_line(lam_error *error, const struct import_source *source, size_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 bool fail_byte(lam_error *error, const struct import_source *source, size_t offset, const char *format, ...)

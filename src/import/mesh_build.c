@@ -1,4 +1,4 @@
-// mesh_build.c: from polygons to a mesh of the scene, for all formats.
+// mesh_build.c: splits polygons into triangles, and adds meshes to the scene, for all formats.
 #include "mesh_build.h"
 
 #include "loop_status.h"
@@ -22,7 +22,7 @@ struct splitting {
     struct loop_status loop;
 };
 
-// Puts a polygon's corners into the order of its triangles. `copy` has room for them.
+// Replaces a polygon's corners with the corners of its triangles. `copy` is scratch memory for `count` corners.
 static inline void reorder(uint32_t *at, uint32_t count, const uint32_t *triples, uint32_t *copy)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -49,7 +49,7 @@ static bool split_polygon(const struct splitting *splitting, struct mesh_polygon
     for (uint32_t i = 0; splitting->inner_edges && i < count - 2; i++)
         splitting->inner_edges[polygon.first_triangle + i] = triangulated_inner_edges(triples + 3 * (size_t)i, count);
     for (int k = 0; k < 3; k++) {
-        if (splitting->corners[k] && count == 4) // the compiler unrolls it
+        if (splitting->corners[k] && count == 4) // the compiler unrolls the loops for this constant
             reorder(splitting->corners[k] + first, 4, triples, corners);
         else if (splitting->corners[k])
             reorder(splitting->corners[k] + first, count, triples, corners);
@@ -66,7 +66,7 @@ static void split_polygons(void *user, size_t index, int thread)
     for (size_t i = first; done && i < last; i++) {
         done = split_polygon(splitting, splitting->polygons[i], &splitting->splitters[thread]);
         if (!done)
-            no_memory(&splitting->loop); // or the call must stop
+            no_memory(&splitting->loop); // or the call was cancelled, which mesh_triangulate reports instead
     }
 }
 

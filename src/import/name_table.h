@@ -9,7 +9,7 @@ struct name_entry {
     int32_t value;
 };
 
-// All zero except `memory` means empty.
+// A table whose members are zero, except for `memory`, is empty.
 struct name_table {
     struct arena *memory; // for the entries; the caller owns the names
     struct name_entry *entries;

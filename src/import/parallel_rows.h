@@ -1,10 +1,11 @@
-// parallel_rows.h: processes a file's rows in parallel chunks, with errors that do not depend on the threads.
+// parallel_rows.h: processes a file's rows in parallel chunks. The reported error does not depend on the number of
+// threads.
 #ifndef PARALLEL_ROWS_H
 #define PARALLEL_ROWS_H
 
 #include "importer.h"
 
-// Rows (facets, vertices, faces) per chunk; a chunk of the usual formats fits the second-level cache.
+// Rows (facets, vertices, faces) per chunk. In the usual formats, a chunk fits into the second-level cache.
 enum { PARALLEL_ROWS = 4096 };
 
 static inline size_t parallel_rows_count(size_t rows) { return rows / PARALLEL_ROWS + (rows % PARALLEL_ROWS != 0); }
@@ -16,31 +17,33 @@ static inline void parallel_rows_range(size_t rows, size_t index, size_t *first,
     *last = rows - *first < PARALLEL_ROWS ? rows : *first + PARALLEL_ROWS;
 }
 
-// Processes chunk `index`; it may run twice for the same chunk. Returns false if the chunk has an error, and `error`
-// (may be NULL) describes the first one in it. The call's cancellation and deadline are checked between chunks.
+// A task that processes chunk `index`. It may run twice for the same chunk. Returns false if the chunk contains an
+// error; `error` (may be NULL) then describes the first error in the chunk. The call's cancellation and deadline are
+// checked between chunks.
 typedef bool parallel_rows_task(void *user, size_t index, lam_error *error);
 
-// Runs the task for chunks 0 … count − 1 on the source's pool. If some fail, the first of them runs again on the
-// calling thread to fill `error`, so that the file's first error is reported. It also returns false if the call is
-// cancelled.
+// Runs the task for chunks 0 … count − 1 on the source's pool. If some chunks fail, the first of them is processed
+// again on the calling thread to fill `error`, so that the file's first error is reported. Also returns false if the
+// call is cancelled.
 bool parallel_rows_run(const struct import_source *source, size_t count, parallel_rows_task *task, void *user,
                        lam_error *error);
 
-// Rows of `stride` bytes each: in memory, or at an offset of the file if `memory` is NULL.
+// Rows of `stride` bytes each: in memory, or at `offset` in the file if `memory` is NULL.
 struct row_bytes {
     const uint8_t *memory;
     size_t offset, stride, count;
 };
 
-// As parallel_rows_task, for the bytes of the chunk's rows. In parts of a file, they are a thread's buffer.
+// Like parallel_rows_task, with the bytes of the chunk's rows. If the file is read in parts, `rows` points to a buffer
+// of the thread.
 typedef bool parallel_bytes_task(void *user, size_t index, const uint8_t *rows, lam_error *error);
 
-// Runs the task for each chunk of the rows, which must be in the file.
+// Runs the task for each chunk of the rows. The rows must lie within the file.
 bool parallel_rows_read(const struct import_source *source, const struct row_bytes *rows, parallel_bytes_task *task,
                         void *user, lam_error *error);
 
-// Returns the bytes from `offset` to the end of the file: in memory already, or read into `arena`. Returns NULL on
-// error.
+// Returns the bytes from `offset` to the end of the file. If they are not in memory, they are read into `arena`.
+// Returns NULL on error.
 const uint8_t *parallel_rows_rest(const struct import_source *source, size_t offset, struct arena *arena,
                                   lam_error *error);
 

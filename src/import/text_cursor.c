@@ -34,7 +34,7 @@ size_t text_line(const uint8_t *bytes, const uint8_t *at)
 
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE])
 {
-    // Examines more bytes than messages show.
+    // Examines more bytes than a message shows, so that shown_name_of can shorten the word.
     const uint8_t *near = end - at < SHOWN_NAME_SIZE ? end : at + SHOWN_NAME_SIZE, *stop = text_skip_word(at, near);
     char shown[SHOWN_NAME_SIZE];
     if (stop > at)

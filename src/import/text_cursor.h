@@ -40,11 +40,12 @@ bool text_is_word(const uint8_t *at, const uint8_t *end, const char *word);
 // Returns how often the word occurs in the text.
 size_t text_count_word(const uint8_t *at, const uint8_t *end, const char *word);
 
-// Returns the line number of `at`, from 1; lines end in "\n", "\r\n" or "\r". It takes linear time, so use it only for
-// messages.
+// Returns the line number of `at`, from 1; lines end in "\n", "\r\n" or "\r". The function takes linear time, so use it
+// only for messages.
 size_t text_line(const uint8_t *bytes, const uint8_t *at);
 
-// Formats the word at `at` for a message: in quotes, shortened by shown_name, or "the end of the file". Returns `out`.
+// Formats the word at `at` for a message, in quotes and shortened by shown_name. If there is no word, writes "white
+// space" or "the end of the file". Returns `out`.
 enum { TEXT_FOUND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE]);
 

@@ -1,4 +1,4 @@
-// json_line.c: finds the line of a value in JSON text that was parsed before, and is therefore well formed.
+// json_line.c: finds the line of a value in JSON text. The text has been parsed before, so it is well formed.
 #include "json_reader.h"
 
 #include <string.h>
@@ -44,8 +44,8 @@ static void skip_value(struct cursor *c)
     } while (depth > 0);
 }
 
-// Moves the cursor from an object or a list to one of its members. In an object, this is the member's key. Returns
-// false if it is missing.
+// Moves the cursor from an object or a list to one of its members. In an object, the cursor is then at the member's
+// key. Returns false if the member does not exist.
 static bool enter(struct cursor *c, const struct place *step, const char **found)
 {
     skip_space(c);

@@ -28,7 +28,7 @@ static bool fail_as(const struct parser *p, lam_code code, const char *at, const
             line++;
             column = 0;
         }
-        column += (*c & 0xc0) != 0x80; // characters, not bytes
+        column += (*c & 0xc0) != 0x80; // columns are counted in characters, not bytes
     }
     return fail(p->error, code, "%s:%zu: column %zu: %s", p->file, line, column, sentence);
 }
@@ -38,7 +38,7 @@ static bool fail_at(const struct parser *p, const char *at, const char *sentence
     return fail_as(p, LAM_CANNOT_READ, at, sentence);
 }
 
-// Fails at an opening bracket that is nested too deep.
+// Reports an opening bracket that is nested too deeply.
 static bool fail_depth(const struct parser *p)
 {
     char sentence[120];
@@ -47,7 +47,7 @@ static bool fail_depth(const struct parser *p)
     return fail_as(p, LAM_LIMIT, p->at, sentence);
 }
 
-// Names the unexpected text: a run of characters without punctuation, or one character.
+// Reports the unexpected text: the characters up to the next space or punctuation mark, or one character.
 static bool fail_found(const struct parser *p, const char *expected)
 {
     static const char *const ends = " \t\r\n{}[]:,\"";
@@ -131,7 +131,8 @@ static char *put_utf8(char *to, int c)
     return to;
 }
 
-// Decodes the escape at the backslash, which is never shorter than its character in UTF-8. Returns NULL on error.
+// Decodes the escape sequence at the backslash. An escape sequence is never shorter than its character in UTF-8, so
+// `to` has enough space. Returns NULL on error.
 static char *read_escape(struct parser *p, char *to)
 {
     static const char letters[] = "\"\\/bfnrt", characters[] = "\"\\/\b\f\n\r\t";
@@ -155,7 +156,7 @@ static char *read_escape(struct parser *p, char *to)
     return put_utf8(to, unit);
 }
 
-// Decodes a string at its opening quote, from malloc. Returns NULL on error.
+// Decodes the string at an opening quote. The caller frees the result with free(). Returns NULL on error.
 static char *read_text(struct parser *p, size_t *length)
 {
     const char *start = p->at++, *close = p->at;

@@ -1,5 +1,6 @@
-// json_reader.h: values of a JSON file, checked on access. Each error names the file, the position in it, the value
-// found and the value expected. Scene files and shader contracts are read with it.
+// json_reader.h: gets values of a JSON file and checks each value on access. Each error names the file, the position in
+// the file, the value found and the value expected. The readers of scene files and shader contracts use these
+// functions.
 #ifndef JSON_READER_H
 #define JSON_READER_H
 
@@ -12,7 +13,7 @@
 
 struct json_reader {
     const char *file; // the file's name for messages
-    // LAM_CANNOT_READ with "FILE: PLACE: sentence", or "FILE:LINE: PLACE: sentence" if `text` is set
+    // receives LAM_CANNOT_READ with "FILE: PLACE: sentence", or with "FILE:LINE: PLACE: sentence" if `text` is set
     lam_error *error;
     const char *text; // the file's text, of `size` bytes; if NULL, errors name no line
     size_t size;
@@ -27,11 +28,11 @@ struct place {
 #define KEY_OF(parent, name)       (&(struct place){.within = (parent), .key = (name)})
 #define ELEMENT_OF(parent, number) (&(struct place){.within = (parent), .index = (number)})
 
-// Writes "objects[1].material.shininess"; a longer position is cut.
+// Writes "objects[1].material.shininess"; a position that does not fit is truncated.
 void json_place(const struct place *place, char *out, size_t capacity);
 
-// Returns the line, from 1, of a value or its key, or of the innermost enclosing value that exists. Returns 0 if none
-// of them exists or the position is NULL.
+// Returns the line, from 1, of a value or its key, or of the innermost enclosing value that exists. Returns 0 if no
+// such value exists or `place` is NULL.
 int json_line_of(const char *text, size_t size, const struct place *place);
 
 // Reports an error. Returns false.
@@ -41,29 +42,29 @@ bool json_vfail(const struct json_reader *r, const struct place *place, const ch
 // Reports "found KIND, expected …". Returns false.
 bool json_unexpected(const struct json_reader *r, const struct place *place, const json_t *found, const char *expected);
 
-// Describes a value for sentences: "a number", "a text", "a list of 3", ….
+// Describes the kind of a value for error messages: "a number", "a text", "a list of 3", ….
 enum { JSON_KIND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *json_kind(const json_t *value, char out[JSON_KIND_SIZE]);
 
-// Checks the keys of an object. Another key is an error whose message suggests the nearest allowed one. The list ends
-// with NULL.
+// Checks the keys of an object. An unknown key is an error; the message suggests the nearest allowed key. The list
+// `keys` ends with NULL.
 bool json_check_keys(const struct json_reader *r, const struct place *place, const json_t *object,
                      const char *const *keys);
 
-// These functions check a value itself and store it. Numbers must be in [min, max]; a list has `min` to `max` of them.
-// *count may be NULL.
+// These functions check a value and store it. A number must be in [min, max]; a list must contain `min` to `max`
+// numbers. `count` may be NULL.
 bool json_number_of(const struct json_reader *r, const struct place *place, const json_t *value, double min, double max,
                     double *out);
 bool json_numbers_of(const struct json_reader *r, const struct place *place, const json_t *list, size_t min, size_t max,
                      double *out, size_t *count);
 
-// These functions check the value of a key of `object` and store it. *out is unchanged if the key is missing. They
-// return false if the value is wrong.
+// These functions check the value of a key of `object` and store the value. If the key is missing, *out is unchanged.
+// The functions return false if the value is wrong.
 bool json_take_number(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
                       double min, double max, double *out);
 bool json_take_bool(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
                     bool *out);
-// Gets a string that is not empty; it belongs to `object`.
+// Gets a string, which must not be empty. The string belongs to `object`.
 bool json_take_text(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,
                     const char **out);
 
@@ -71,7 +72,7 @@ struct json_choice {
     const char *name;
     int value;
 };
-// Checks that a value is one of several names, at most 16. The list ends with a NULL name.
+// Checks that a value is one of at most 16 names. The list `words` ends with a NULL name.
 bool json_choice_of(const struct json_reader *r, const struct place *place, const json_t *value,
                     const struct json_choice *words, int *out);
 bool json_take_word(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,

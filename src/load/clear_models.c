@@ -1,4 +1,4 @@
-// clear_models.c: makes a fully transparent scene visible, because its picture would be empty.
+// clear_models.c: makes a fully transparent scene visible, because its picture would otherwise be empty.
 #include "clear_models.h"
 
 #include <stdio.h>
@@ -17,8 +17,8 @@ static bool colors_are_clear(const lam_mesh *mesh)
     return clear;
 }
 
-// Iterates over the materials of an object's front, part by part, then of its back. `next` returns false after the last
-// one.
+// Iterates over the parts of an object, with the materials of their front and back faces. next_shown returns false
+// after the last part.
 struct shown {
     uint32_t part;
     lam_material *front, *back; // a NULL back uses the front's material
@@ -41,7 +41,7 @@ static bool is_clear(struct lam_scene *scene, const lam_object *object)
     struct shown shown = {0};
     while (next_shown(scene, object, &shown)) {
         bool materials = !(shown.front->diffuse.a > 0) && (!shown.back || !(shown.back->diffuse.a > 0));
-        if (!materials) // the mesh's colours determine its opacity
+        if (!materials) // the material is opaque, so the mesh's colours decide
             return colors_are_clear(scene_mesh(scene, object->mesh));
     }
     return true;
@@ -58,7 +58,7 @@ static void make_opaque(struct lam_scene *scene, const lam_object *object)
     const lam_mesh *mesh = scene_mesh(scene, object->mesh);
     if (!colors_are_clear(mesh))
         return;
-    void *colors = (void *)(uintptr_t)mesh->colors; // in the scene's arena
+    void *colors = (void *)(uintptr_t)mesh->colors; // the colours are in the scene's arena, so they may be changed
     for (uint32_t i = 0; i < mesh->color_count; i++) {
         if (mesh->colors_format == LAM_COLORS_LINEAR_F32)
             ((float *)colors)[4 * (size_t)i + 3] = 1;

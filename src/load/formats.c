@@ -105,7 +105,7 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
         return NULL;
     }
     if (by_ending)
-        return by_ending; // its importer reports the error
+        return by_ending; // the importer of this format reports the error
     fail(error, LAM_CANNOT_READ, "%s: unknown model format; lambent reads %s", name, format_list(list));
     return NULL;
 }
@@ -118,7 +118,8 @@ const struct importer *importer_for_parts(const char *name, const uint8_t *head,
         const struct importer *importer = importer_for(name, NULL, wanted, NULL);
         return importer && reads_parts(importer) ? importer : NULL;
     }
-    for (int i = 0; i < COUNT; i++) // these importers probe the head only
+    // importers that read files in parts examine only the head, so they may get the whole size
+    for (int i = 0; i < COUNT; i++)
         if (importers[i]->probe(head, reads_parts(importers[i]) ? size : FILE_HEAD) == 2)
             return reads_parts(importers[i]) ? importers[i] : NULL;
     return NULL;

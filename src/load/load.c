@@ -62,7 +62,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     if (!importer->is_scene_file && !scene_give_colors_white(scene, error))
         return false;
     show_clear_scene(scene, source->name);
-    // A scene file records the origin of each of its models itself.
+    // The importer of scene files has already recorded the origin of each model.
     struct scene_origin origin = {.normals = params->normals, .crease_angle_rad = params->crease_angle_rad};
     if (!importer->is_scene_file && source->path) {
         origin.path = arena_string(&scene->arena, source->path);
@@ -99,7 +99,8 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     return true;
 }
 
-// If a path cannot be opened, adds an explanation to its error: it is an address, or a format of another program.
+// Adds an explanation to the error of a path that cannot be opened, if the path is a web address or the file's format
+// is not supported.
 static void explain_path(const char *path, lam_error *error)
 {
     char list[FORMAT_LIST_SIZE];
@@ -116,8 +117,8 @@ static void explain_path(const char *path, lam_error *error)
                  foreign ? ": export the model as " : "", foreign ? foreign->instead : "");
 }
 
-// Reads a large file in parts. Returns false without an error if it must be read as a whole; otherwise *scene is the
-// result, or NULL if reading failed.
+// Reads a large file in parts. Returns false without an error if the file must be read as a whole. Otherwise, *scene is
+// the loaded scene, or NULL if reading failed.
 static bool load_in_parts(struct import_source *source, const struct importer **importer, struct lam_scene **scene,
                           lam_error *error)
 {
@@ -129,7 +130,7 @@ static bool load_in_parts(struct import_source *source, const struct importer **
         source->size = file.size;
         source->parts = &file;
         call_add_input(source->call, file.size);
-        // The reader of whole files reports a file that is too large.
+        // If the file is too large, load reports that after this function returns.
         if (call_check_file(source->call, source->name, file.size, NULL))
             *importer = importer_for_parts(source->name, head, file.size, source->params->format);
         in_parts = *importer && (*importer)->in_parts && (*importer)->in_parts(source);
@@ -141,7 +142,7 @@ static bool load_in_parts(struct import_source *source, const struct importer **
             lam_scene_free(*scene);
             *scene = NULL;
         }
-        if (!in_parts && !done) // the file is read as a whole later, and counted then
+        if (!in_parts && !done) // the file will be read as a whole, and its size is counted then
             call_add_input(source->call, 0 - file.size);
         file_close_parts(&file);
         source->bytes = NULL;
@@ -152,7 +153,7 @@ static bool load_in_parts(struct import_source *source, const struct importer **
     return in_parts || done;
 }
 
-// Loads from `path`, or from `bytes` if it is NULL.
+// Loads from `path`, or from `bytes` if `path` is NULL.
 static lam_scene *load(const char *path, const void *bytes, size_t size, const char *name, const lam_load_params *given,
                        const lam_control *control, lam_error *error)
 {
@@ -163,7 +164,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     uint64_t state = float_state_enter(), start_ns = now_ns();
     struct call_control call;
     call_start(&call, control);
-    // The folder of the path as given, with its '/'.
+    // The folder of `path`, spelled as the caller wrote it, including the final '/'.
     char *folder = path ? strndup(path, (size_t)(path_name(path) - path)) : NULL;
     struct file_list files;
     file_list_start(&files);

@@ -5,7 +5,8 @@
 #include <string.h>
 #include <strings.h>
 
-// A file is of the first kind whose `magic` is at `offset` and whose `within` occurs in it (NULL if not required).
+// The first matching row determines the kind of a file. A row matches if `magic` is at `offset`, and `within` (NULL if
+// not required) occurs in the file.
 static const struct kind {
     struct unsupported_format kind;
     unsigned offset, length;
@@ -54,7 +55,8 @@ static const struct kind {
     {{"a web page", NULL}, 0, 5, "<html", NULL},
 };
 
-// Text formats without a magic number: recognised by the first character after white space, and a later word.
+// Text formats without a magic number: they are recognised by the first character after white space and by a later
+// word.
 static const struct text_kind {
     struct unsupported_format kind;
     char first;
@@ -69,7 +71,7 @@ static const struct text_kind {
     {{"a MTL file (materials only; give the .obj that names it)", NULL}, 'n', "newmtl "},
 };
 
-// Formats by their file extensions, separated by blanks.
+// Formats by their file extensions, which are separated by spaces.
 static const struct named_kind {
     const char *endings;
     struct unsupported_format kind;
@@ -112,7 +114,7 @@ static bool holds(const uint8_t *bytes, size_t size, const char *word)
     return memmem(bytes, size, word, strlen(word)) != NULL;
 }
 
-// A 3DS file is one chunk: 0x4d4d and the total length.
+// A 3DS file is a single chunk, which begins with 0x4d4d and the length of the whole file.
 static bool is_3ds(const uint8_t *bytes, size_t size)
 {
     return size >= 6 && bytes[0] == 0x4d && bytes[1] == 0x4d &&

@@ -7,7 +7,7 @@
 
 struct unsupported_format {
     const char *name;    // "a PNG picture"
-    const char *instead; // extension of a format to export instead; NULL if not a 3D format
+    const char *instead; // extension of a format to export instead; NULL if the file is not a 3D model
 };
 
 // Returns NULL if the content is not recognised.

@@ -5,9 +5,9 @@
 
 // A model is a terrain if it is much thinner along z than along x and y, and its area faces +z almost everywhere.
 #define THIN     0.3
-#define NOT_FLAT 0.01 // a flat picture usually stands upright
+#define NOT_FLAT 0.01 // thinner models are flat pictures, which usually stand upright
 #define FACING   0.6
-#define EVEN     0.999 // stacked cards have no slopes
+#define EVEN     0.999 // a larger share means that there are no slopes, as with stacked cards
 
 // A model with fewer triangles may be an upright sheet.
 enum { TRIANGLES_MIN = 1000 };

@@ -8,8 +8,8 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// The fraction of the picture's width or height that the scene fills. With a ground, the rest leaves space for the
-// shadow.
+// The fraction of the picture's width or height that the scene fills. If a ground is drawn, the rest leaves space for
+// the shadow.
 #define FILL           0.92
 #define FILL_ON_GROUND 0.8
 
@@ -29,14 +29,14 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, la
     };
 }
 
-// The input of a fit.
+// The parameters of a fit.
 struct fitting {
     struct view_axes axes;
     double aspect, fill, fovy, zoom;
     bool orthographic;
 };
 
-// Returns the extents that a perspective fit finds, for this fraction of the picture.
+// Returns empty extents with the slopes kx and ky of a perspective view, for this fraction of the picture.
 static struct view_extents extents_of(const struct fitting *fitting, double fraction)
 {
     double ky = math_tan(fitting->fovy / 2) * fraction;
@@ -50,8 +50,8 @@ static lam_vec3 to_world(const struct view_axes *axes, double x, double y, doubl
     return v3_add(axes->centre, v3_add(across, v3_scale(axes->back, z)));
 }
 
-// An orthographic camera is centred on the box of the view extents. Its half height is half of the box divided by the
-// fill.
+// An orthographic camera is centred on the box of the view extents. The camera's half height is half the size of the
+// box, divided by the fill.
 static lam_camera fit_orthographic(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;
@@ -69,9 +69,9 @@ static lam_camera fit_orthographic(const struct fitting *fitting, const struct v
                         .ortho_half_height = size / fill};
 }
 
-// Centres the horizontal (vertical) axis for an eye at ez. It finds the k at which the points touch x = ex ± k·(ez − z)
-// on both sides. That k is the root of R(k) + L(k) − 2k·ez, a convex function whose slope is given by the points with
-// the maxima R and L; for vertices it is piecewise linear. This is a step of Newton's method:
+// Centres the horizontal (vertical) axis for an eye at ez. The function finds the k at which the points touch x = ex ±
+// k·(ez − z) on both sides. That k is the root of R(k) + L(k) − 2k·ez. This function is convex, and piecewise linear
+// for vertices; the points with the maxima R and L determine its slope. A step of Newton's method is:
 //
 //  k = (x_R − x_L) / (2ez − z_R − z_L)
 //
@@ -102,8 +102,8 @@ static void centre_axis(const struct view_points *points, bool horizontal, doubl
 //
 //  ex = (R − L)/2,   ez = (R + L)/(2k)
 //
-// The result is exact and takes one pass over the points. The axis with the larger ez determines the distance. The
-// other axis is centred with the smaller k at which it would touch the frame at this ez.
+// The result is exact, and computing it needs one pass over the points. The axis with the larger ez determines the
+// distance. The other axis is centred with the smaller k at which it would touch the frame at this ez.
 static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;
@@ -157,7 +157,7 @@ static bool start(struct fitting *fitting, const lam_scene *scene, int width, in
     return true;
 }
 
-// Zoom narrows the view instead of moving the eye, which could enter the model.
+// Zooming narrows the field of view. Moving the eye instead could place the eye inside the model.
 static void apply_zoom(const struct fitting *fitting, lam_camera *camera)
 {
     if (camera->ortho_half_height > 0)
@@ -168,11 +168,11 @@ static void apply_zoom(const struct fitting *fitting, lam_camera *camera)
 
 // --- a rotating scene
 
-// The number of angles that are tested for a rotating scene. Between two of them a vertex moves outwards by at most 1 −
-// cos(π/48) = 0.2 % of its distance from the axis.
+// The number of angles that are tested for a rotating scene. Between two tested angles, a vertex moves outwards by at
+// most 1 − cos(π/48) = 0.2 % of its distance from the axis.
 enum { TURNS = 48 };
 
-// Returns whether the camera sees all points, with this fraction of the picture.
+// Returns whether all points are within this fraction of the camera's picture.
 static bool holds(const struct fitting *fitting, const lam_camera *camera, const struct view_points *points,
                   double fraction)
 {
@@ -211,12 +211,13 @@ static void fit_turning(const struct fitting *fitting, const lam_scene *scene, l
                                      .back = mat4_vector(&turn, fitting->axes.back),
                                      .centre = centre};
     }
-    // A quarter of the margin remains, which is larger than the change between two angles.
+    // A quarter of the margin remains, which is larger than any change between two tested angles.
     if (!holds(fitting, camera, &points, fitting->fill + 0.75 * (1 - fitting->fill)))
         *camera = fit(fitting, &points, fitting->fill);
 }
 
-// Implements lam_camera_fit, and with an axis lam_camera_fit_turning; `fill` is used if the view sets none.
+// Implements lam_camera_fit and, if `axis` is not NULL, lam_camera_fit_turning. `fill` is used if the view sets no
+// fill.
 static lam_camera fit_view(const lam_scene *scene, int width, int height, const lam_view *view, lam_vec3 centre,
                            const lam_vec3 *axis, double fill)
 {
@@ -246,7 +247,7 @@ lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_v
 lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
                                  const lam_view *view, lam_vec3 centre, const lam_vec3 *axis)
 {
-    // such pictures show no ground
+    // a picture of lines alone shows no ground
     bool lines_alone = params && params->no_surfaces && params->output == LAM_OUTPUT_PICTURE;
     bool ground = params && params->ground && !lines_alone;
     return fit_view(scene, width, height, view, centre, axis, ground ? FILL_ON_GROUND : FILL);

@@ -59,7 +59,7 @@ lam_camera lam_orbit_camera(const lam_orbit *orbit)
                          .up = axes.above,
                          .fovy_rad = orbit->fovy_rad,
                          .ortho_half_height = orbit->ortho_half_height};
-    for (int i = 0; i < 8; i++) // a field that this version does not know: every call rejects the camera
+    for (int i = 0; i < 8; i++) // sets a field that this version does not know, so that every call rejects the camera
         camera.reserved[0] |= orbit->reserved[i];
     float_state_leave(state);
     return camera;

@@ -57,7 +57,8 @@ static bool read_hex(const char *text, uint32_t *rgba)
     return true;
 }
 
-// Parses one number for all three channels, "r/g/b" or "r/g/b/a". Numbers are not negative, and a is at most 1.
+// Parses one number for all three channels, "r/g/b" or "r/g/b/a". The numbers must not be negative, and a must be at
+// most 1.
 static bool read_numbers(const char *text, lam_rgba *color)
 {
     float part[4] = {0, 0, 0, 1};
@@ -89,7 +90,7 @@ enum { NAMES = sizeof names / sizeof names[0] };
 const char *lam_color_name(int index) { return index >= 0 && index < NAMES ? names[index].name : NULL; }
 
 // Converts a colour in the notation of other programs ("ff8800", "0xff8800", "255,136,0" or "rgb(255, 136, 0)") to
-// hexadecimal. Returns false if it is none of these.
+// hexadecimal. Returns false if the text is in none of these notations.
 static bool hex_of(const char *text, char hex[16])
 {
     static const char digits[] = "0123456789abcdef";

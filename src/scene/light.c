@@ -5,7 +5,7 @@
 
 #include <lambent/light.h>
 
-// Sets the fields of other types too, because a program may change the type later.
+// Also sets the fields of other light types, because a program may change the type later.
 lam_light lam_light_default(lam_light_type type)
 {
     lam_light light = {.type = type};
@@ -38,7 +38,7 @@ static bool fail_field(lam_error *error, const lam_light *light, const char *fie
                 expected);
 }
 
-// Checks the relations between a spot's angles; their ranges are checked before.
+// Checks the relations between a spot's angles; their ranges have already been checked.
 static bool check_cone(const lam_light *light, lam_error *error)
 {
     double inner = (double)light->inner_rad, outer = (double)light->outer_rad, cutoff = (double)light->cutoff_rad;
@@ -84,22 +84,22 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
 }
 
 // Makes the default rig. The key light is near: 3.2 times half the box's diagonal from the centre, in front and to the
-// left, so that the light varies across a flat face. Its strength ranges from 1.3 on the side of the model that faces
-// it to 0.75 on the other side. The rim light comes from above and behind. Tops are brightest, left sides darker and
+// left, so that the light varies across a flat face. The key light's strength ranges from 1.3 on the near side of the
+// model to 0.75 on the far side. The rim light comes from above and behind. Tops are brightest, left sides darker and
 // right sides darkest, so that the three visible faces of a cube differ at each azimuth. At the corner of the box that
 // is nearest to the key light, a point reflects ka or kd times at most
 //
-//  0.66·1.33 (key) + 0.19 (sky, there) = 1.07
+//  0.66·1.33 (key) + 0.19 (sky) = 1.07
 //
-// Only the key light casts shadows (--shadows, --ground), and they are soft. The other lights represent large surfaces,
-// whose shadows are the ambient occlusion.
+// Only the key light casts shadows (--shadows, --ground), and these shadows are soft. The other lights represent large
+// bright surfaces; ambient occlusion approximates the shadows of their light.
 static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);
     lights[0].name = "key";
     lights[0].frame = LAM_FRAME_VIEW;
     lights[0].position = v3(-1.23, 1.29, 2.66);
-    lights[0].attenuation = (lam_attenuation){0.527f, 0, 0.0462f}; // 1 at the centre
+    lights[0].attenuation = (lam_attenuation){0.527f, 0, 0.0462f}; // the attenuation is 1 at the centre
     lights[0].diffuse = (lam_rgb){0.66f, 0.66f, 0.66f};
     lights[0].specular = (lam_rgb){0.9f, 0.9f, 0.9f};
     lights[0].occluded = 0.6f;

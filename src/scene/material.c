@@ -15,7 +15,7 @@ struct named_material {
 // The published shininess is a fraction of OpenGL's maximum exponent, 128.
 #define SHININESS(share) ((float)((share) * 128.0))
 
-// The numbers of SGI's demo teapots.c, unchanged. Its colours were chosen on displays of the time (sRGB).
+// The numbers of SGI's demo teapots.c, unchanged. The demo's colours were chosen on displays of its time (sRGB).
 static const struct named_material named[LAM_MATERIAL_COUNT] = {
     [LAM_MATERIAL_EMERALD] = {"emerald",
                               {0.0215f, 0.1745f, 0.0215f},
@@ -100,8 +100,8 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
         {"yellow-rubber", {0.05f, 0.05f, 0.0f}, {0.5f, 0.5f, 0.4f}, {0.7f, 0.7f, 0.04f}, SHININESS(0.078125)},
 };
 
-// Returns a grey that ranges from sRGB 60 to 230 under the studio rig, with headroom for a highlight that shows the
-// shape but does not look like metal or wet clay.
+// Returns a grey that ranges from sRGB 60 to 230 under the studio rig. This leaves headroom for a highlight that shows
+// the shape but does not look like metal or wet clay.
 lam_material lam_material_default(void)
 {
     lam_material material = {.illum = -1};
@@ -137,7 +137,8 @@ lam_material lam_material_named(lam_material_id id, lam_color_mode color)
 
 const char *lam_material_name(lam_material_id id) { return known(id) ? named[id].name : NULL; }
 
-// Converts a letter to the spelling of the table. It converts only ASCII letters, independently of the locale.
+// Converts a character to the spelling of the table: lower case, with '-' for a space or '_'. Only ASCII letters are
+// converted, independently of the locale.
 static char canonical_letter(char c)
 {
     if (c >= 'A' && c <= 'Z')

@@ -31,7 +31,7 @@ static void mark_chunk(void *user, size_t index, int thread)
         __atomic_store_n(&used[indices[i]], 1, __ATOMIC_RELAXED);
 }
 
-// Builds the list of used vertices if some are unused. Returns false if memory runs out.
+// Builds the list of used vertices if some vertices are unused. Returns false if memory runs out.
 static bool find_used(struct lam_scene *scene, const lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                       lam_error *error)
 {
@@ -107,7 +107,7 @@ struct shifting {
     double by[3];
 };
 
-// Vertices that no triangle uses may be anywhere, so the result is clamped to finite numbers.
+// The result is clamped to finite numbers, because vertices that no triangle uses may be anywhere.
 static float shifted(float value, double by)
 {
     double moved = (double)value - by;
@@ -126,10 +126,10 @@ static void shift_chunk(void *user, size_t index, int thread)
             shifting->to[3 * i + axis] = shifted(shifting->from[3 * i + axis], shifting->by[axis]);
 }
 
-// Gives a mesh far from zero an origin, because drawing computes in floats and would lose the detail of its positions.
-// The new positions are exact: they and the origin are multiples of the last bits of the old positions, and smaller.
-// The scene owns the mesh's arrays; if several meshes share them, the mesh gets its own copy. Returns false if memory
-// runs out.
+// If a mesh is far from zero, stores its positions relative to an origin, because drawing uses floats and would lose
+// detail. The new positions are exact, because they are smaller than the old positions and multiples of the same last
+// bits. The origin is also a multiple of these bits. The scene owns the mesh's arrays; if several meshes share them,
+// the mesh gets its own copy. Returns false if memory runs out.
 static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool,
                         lam_error *error)
 {

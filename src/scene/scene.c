@@ -98,7 +98,8 @@ int scene_append(struct lam_scene *scene, struct scene_list *list, const void *i
     return list->count++;
 }
 
-// A scene built by a program has no limit of its own, but drawing has one.
+// Only loading limits the number of items here. The items of a scene that a program builds are limited when the scene
+// is drawn.
 static bool check_items(const struct lam_scene *scene, const char *what, uint64_t items, lam_error *error)
 {
     return !scene->arena.call ||

@@ -1,4 +1,5 @@
-// scene_add.c: public functions that add to a scene or change it; they check and copy their arguments.
+// scene_add.c: public functions that add something to a scene or change the scene. These functions check and copy their
+// arguments.
 #include "scene_internal.h"
 
 #include "fail.h"
@@ -26,8 +27,8 @@ static bool indices_below(const uint32_t *indices, size_t count, uint32_t limit)
     return true;
 }
 
-// Checks an attribute of a mesh: its values and its indices `own`. If `own` is NULL, the indices of the positions
-// apply.
+// Checks the values of a mesh's attribute, and its indices `own`. If `own` is NULL, the attribute uses the indices of
+// the positions.
 static bool check_attribute(const char *name, const float *values, uint32_t count, int width, const uint32_t *own,
                             const lam_mesh *mesh, lam_error *error)
 {

@@ -1,7 +1,7 @@
 // scene_colors.c: materials for surfaces with vertex colours but without a material.
 #include "scene_internal.h"
 
-// Returns the index of a white material, which is made on first use, or −1 if memory runs out.
+// Returns the index of a white material, which is created on first use. Returns −1 if memory runs out.
 static int white_of(struct lam_scene *scene, int *white, lam_error *error)
 {
     if (*white < 0) {
@@ -19,7 +19,8 @@ bool scene_give_colors_white(struct lam_scene *scene, lam_error *error)
     for (int m = 0; m < scene->meshes.count; m++) {
         const lam_mesh *mesh = scene_mesh(scene, m);
         for (uint32_t p = 0; mesh->colors && p < mesh->part_count; p++) {
-            lam_part *part = (lam_part *)(uintptr_t)mesh->parts + p; // in the scene's arena
+            // the parts are in the scene's arena, so they may be changed
+            lam_part *part = (lam_part *)(uintptr_t)mesh->parts + p;
             if (part->material < 0 && (part->material = white_of(scene, &white, error)) < 0)
                 return false;
         }

@@ -30,8 +30,8 @@ bool scene_keep_meshes(struct lam_scene *scene, lam_error *error)
     return true;
 }
 
-// A new mesh may get the addresses of freed arrays. A new token prevents device caches from confusing it with the old
-// one.
+// A new mesh may get the addresses of freed arrays. A new token prevents device caches from confusing the new mesh with
+// the old mesh.
 static void change_token(struct lam_scene *scene, struct scene_token *token)
 {
     __atomic_store_n(&scene->token->gone, 1, __ATOMIC_RELEASE);
@@ -56,8 +56,7 @@ static void note_edit(const struct lam_scene *scene, int mesh)
         origin->edited = true;
 }
 
-// Copies a mesh into an arena of its own and measures it there. Returns false on error; the arena can then be
-// discarded.
+// Copies a mesh into its own arena and computes its extent. Returns false on error; the arena can then be discarded.
 static bool build_mesh(lam_scene *scene, const lam_mesh *mesh, struct arena *own, lam_mesh *copy,
                        struct scene_extent *extent, lam_error *error)
 {

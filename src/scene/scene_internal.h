@@ -16,15 +16,15 @@ struct scene_list {
     int count, capacity;
 };
 
-// Bounds of a mesh's triangles, lines or points.
+// The bounds of a mesh's triangles, lines or points.
 struct scene_extent {
-    lam_vec3 minimum, maximum; // mesh coordinates, origin included
+    lam_vec3 minimum, maximum; // in mesh coordinates, including the origin
     // The vertices that triangles use, in order; NULL means all vertices.
     const uint32_t *used;
     uint32_t used_count;
-    struct aabb_tree boxes; // the tree of the used vertices
-    bool translucent;       // some colour has an alpha below 1
-    struct arena *own;      // owner of the mesh's arrays and this extent's; NULL means the scene's arena
+    struct aabb_tree boxes; // tree of bounding boxes of the used vertices
+    bool translucent;       // at least one colour has an alpha below 1
+    struct arena *own;      // owner of the arrays of the mesh and of this extent; NULL means the scene's arena
 };
 
 // The source of meshes, for writing a scene file: a model file, a built-in shape or a formula, with its load
@@ -52,8 +52,8 @@ struct scene_origin {
     bool edited;
 };
 
-// Identifies a scene in device caches. A token is unique, unlike the scene's address, which a later scene may reuse,
-// and it outlives the scene.
+// Identifies a scene in device caches. A token is unique and outlives the scene. The address of the scene is not
+// enough, because a later scene may reuse it.
 struct scene_token {
     int references; // atomic
     int gone;       // atomic; whether the scene was freed
@@ -69,61 +69,62 @@ struct lam_scene {
     struct arena arena;
     struct scene_token *token;
     struct scene_list meshes;    // lam_mesh
-    struct scene_list extents;   // struct scene_extent, one for each measured mesh, in the same order
+    struct scene_list extents;   // struct scene_extent: one element for each measured mesh, in the order of the meshes
     struct scene_list materials; // lam_material
     struct scene_list objects;   // lam_object
     struct scene_list lights;    // lam_light
     struct scene_list cameras;   // struct scene_camera
-    struct scene_list textures;  // lam_texture *: one reference each
-    struct scene_list kept;      // struct arena *: memory of meshes that the mark may restore
+    struct scene_list textures;  // lam_texture *: each element is one reference
+    struct scene_list kept;      // struct arena *: memory of meshes that lam_scene_reset may restore
     struct scene_list warnings;  // const char *
     struct scene_list files;     // const char *: paths
     struct scene_list origins;   // struct scene_origin, in the order of their meshes
-    // The number of fully transparent materials in MTL files, and a sentence about the first one, with its position, or
-    // NULL.
+    // The number of fully transparent materials in MTL files, and a message that names the first of them and its
+    // position. The message is NULL if there is no such material.
     int clear_materials;
     const char *first_clear;
-    const lam_picture_settings *settings; // a scene file's settings, or NULL
+    const lam_picture_settings *settings; // the settings of a scene file; NULL for other files
     lam_up up;
     lam_mat4 placement; // the product of all lam_scene_transform calls
     lam_rgb ambient;
-    lam_material default_material;   // the material of parts without one
-    lam_environment *environment;    // shared with others, or NULL
+    lam_material default_material;   // for parts without a material
+    lam_environment *environment;    // may be shared with other scenes; NULL if there is none
     double environment_rotation_rad; // rotation about the up axis
-    struct lazy_environment *studio; // used if there is no other light (scene_lit_by_environment)
+    struct lazy_environment *studio; // the built-in studio environment (scene_lit_by_environment)
     lam_color_mode color;            // the encoding of the file's colours
     const char *format;
     lam_file_info file; // information about a glTF file
     double read_ms, prepare_ms;
-    uint64_t input_bytes;  // total bytes of the files it was read from, or 0
+    uint64_t input_bytes;  // total size in bytes of the files that the scene was read from, or 0
     uint64_t object_items; // triangles, lines and points of all added objects
-    // The crease angle of meshes whose normals are left to the device; 0 means all meshes have normals.
+    // The crease angle of meshes whose normals the device computes; 0 means that all meshes have normals.
     double deferred_crease_rad;
     struct scene_mark *mark; // the state for lam_scene_reset, or NULL
-    bool shared_arrays;      // meshes may share arrays, so none is changed in place
+    bool shared_arrays;      // meshes may share arrays, so no array is changed in place
 };
 
-// Works like lam_scene_make, but charges allocations to `call` (may be NULL) until scene_built.
+// Works like lam_scene_make, but charges allocations to `call` (may be NULL) until scene_built is called.
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
-// Returns whether a scene contains no lights, but at least one lit physical material of its own. It is then lit by its
-// environment, or by the built-in studio if it has none, instead of a rig.
+// Returns whether a scene contains no lights, at least one lit physical material, and no lit classic material. Such a
+// scene is lit by its environment, or by the built-in studio environment if it has none, instead of a rig.
 bool scene_lit_by_environment(const struct lam_scene *scene);
 
 struct scene_token *scene_token_make(lam_error *error); // NULL if memory runs out
 struct scene_token *scene_token_hold(struct scene_token *token);
 void scene_token_release(struct scene_token *token); // `token` may be NULL
 
-// Add an item whose arrays and strings are already in the scene's arena, without copying them and without computing
-// normals. Return its index, or −1 for LAM_LIMIT: memory runs out, or a load exceeds the call's triangle limit.
+// These functions add an item whose arrays and strings are already in the scene's arena. These functions neither copy
+// the arrays nor compute normals. They return the index of the item, or −1 with LAM_LIMIT if memory runs out or a load
+// exceeds the call's triangle limit.
 int scene_adopt_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 int scene_adopt_material(struct lam_scene *scene, const lam_material *material, lam_error *error);
 int scene_adopt_object(struct lam_scene *scene, const lam_object *object, lam_error *error);
 int scene_adopt_light(struct lam_scene *scene, const lam_light *light, lam_error *error);
 
-// Adds a reference to a texture that one of its materials uses. The scene releases the reference when it is freed.
-// Returns false if memory runs out.
+// Adds a reference to a texture that one of the scene's materials uses. The scene releases the reference when it is
+// freed. Returns false if memory runs out.
 bool scene_share_texture(struct lam_scene *scene, const lam_texture *texture, lam_error *error);
 // Takes over the caller's reference to a texture, also on failure.
 bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_error *error);
@@ -131,14 +132,16 @@ bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_erro
 // Appends an item to a list. Returns its index, or −1 if memory runs out.
 int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error);
 
-// Adds a formatted warning. At most SCENE_WARNINGS_MAX are kept; the last one says that more were omitted.
+// Adds a formatted warning. At most SCENE_WARNINGS_MAX warnings are kept; the last one says that others were omitted.
 enum { SCENE_WARNINGS_MAX = 64 };
 void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Counts a fully transparent material and keeps the sentence of the first one. The load ends with a warning about them.
+// Counts a fully transparent material, and keeps the message about the first one. At the end of the load,
+// show_clear_scene warns of these materials.
 void scene_note_clear(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Records the origin of the meshes and materials from origin.first_… on. Returns false if memory runs out.
+// Records the origin of the meshes and materials that begin at origin.first_mesh and origin.first_material. Returns
+// false if memory runs out.
 bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);
 
 // Adds a built-in shape as a mesh, charged to the call of the scene's arena. Returns its index, or −1 on failure.
@@ -146,47 +149,49 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
                     struct call_control *call, lam_error *error);
 int scene_add_formula(struct lam_scene *scene, const lam_formula *formula, struct call_control *call, lam_error *error);
 
-// Prepares every mesh for drawing: computes missing normals, or all of them if `normals` requests it.
+// Prepares every mesh for drawing: computes missing normals, or all normals if `normals` requests that.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
                    struct call_control *call, lam_error *error);
 // Prepares every mesh for drawing, but leaves smooth normals to the device.
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
 
-// Returns whether some mesh has a material with a normal map and no tangents.
+// Returns whether some mesh has no tangents, although its material uses a normal map.
 bool scene_needs_tangents(const struct lam_scene *scene);
 
-// Gives surfaces with vertex colours but without a material a white one, since the default grey would darken their
-// colours. Call it for a scene that was just read. Returns false if memory runs out.
+// Assigns a white material to surfaces that have vertex colours but no material, because the default grey would darken
+// the colours. Call this function directly after a scene is read. Returns false if memory runs out.
 bool scene_give_colors_white(struct lam_scene *scene, lam_error *error);
-// Computes MikkTSpace tangents for meshes that scene_needs_tangents finds, or with `all` for every mesh that has
-// normals and texture coordinates but no tangents. They use the texture coordinates of the normal map. Memory is
-// charged to `call`.
+// Computes MikkTSpace tangents for meshes without tangents whose material uses a normal map. If `all` is set, computes
+// them for every mesh that has normals and texture coordinates but no tangents. The tangents follow the texture
+// coordinates of the normal map. Memory is charged to `call`.
 bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error);
 
 // Checks a mesh, copies it to the scene's arena and computes its missing normals. Fails with LAM_BAD_ARGUMENT or
 // LAM_LIMIT.
 bool scene_copy_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_mesh *copy, lam_error *error);
-// Computes the extent of one mesh; this may give the mesh an origin.
+// Computes the extent of one mesh. If the mesh is far from zero, this also moves its positions relative to an origin.
 bool scene_measure_mesh(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                         lam_error *error);
-// Makes the scene keep the memory of all meshes until it is freed, because a mark may restore them. Returns false if
-// memory runs out.
+// Makes the scene keep the memory of all meshes until the scene is freed, because lam_scene_reset may restore them.
+// Returns false if memory runs out.
 bool scene_keep_meshes(struct lam_scene *scene, lam_error *error);
 
 // Computes the extents of new meshes, and gives distant meshes an origin (origin.h), which changes their positions in
-// place. Every public function that adds meshes calls it at its end, so that read access never writes. Returns false if
-// memory runs out.
+// place. Every public function that adds meshes calls scene_measure at its end, so that functions that only read a
+// scene never change it. Returns false if memory runs out.
 bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error);
 
 // Returns the largest distance of a used vertex from a point, in world space.
 double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
 
-// Adds the areas of the triangles `first`, `first + step` …, doubled: the sum, and the signed sum that faces `axis`. A
-// front face whose normal is `axis` counts as positive. `transform` may be NULL.
+// Adds twice the areas of the triangles `first`, `first + step`, … to *all. Adds the components of the triangles' area
+// vectors along `axis` to *facing. These components are positive for front faces whose normal is `axis`. `transform`
+// may be NULL.
 void mesh_add_areas(const lam_mesh *mesh, size_t first, size_t step, const lam_mat4 *transform, lam_vec3 axis,
                     double *all, double *facing);
 
-// Returns whether the visible objects are a terrain: an open surface with slopes, most of which faces up. It samples
+// Returns whether the visible objects are a terrain: an open surface with slopes, most of which faces up. The test
+// samples
 // a few hundred triangles. `scene` may be NULL.
 bool scene_is_terrain(const struct lam_scene *scene);
 
@@ -197,7 +202,7 @@ int rig_light_from_side(lam_light lights[LAM_RIG_LIGHTS_MAX]);
 // meshes.
 static inline bool mesh_is_strokes(const lam_mesh *mesh) { return mesh->line_count || mesh->point_count; }
 
-// Return the number of triangles, lines or points, and of their corners.
+// These functions return the number of triangles, lines or points, and the number of their corners.
 static inline uint32_t mesh_items(const lam_mesh *mesh)
 {
     return mesh->line_count ? mesh->line_count : mesh->point_count ? mesh->point_count : mesh->triangle_count;
@@ -221,7 +226,7 @@ static inline const lam_object *scene_object(const struct lam_scene *scene, int 
 {
     return (const lam_object *)scene->objects.items + i;
 }
-// Returns whether an object is drawn: neither it nor its mesh is hidden.
+// Returns whether an object is drawn: neither the object nor its mesh is hidden.
 static inline bool scene_shows(const struct lam_scene *scene, int i)
 {
     return !scene_object(scene, i)->hidden && !scene_mesh(scene, scene_object(scene, i)->mesh)->hidden;

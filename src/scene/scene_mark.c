@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-// The restored lists, with the size of their items. Cameras and origins come from files and are never removed.
+// The lists that are restored, with the size of their items. Cameras and origins come from files and are never removed.
 static const struct {
     size_t list, item;
 } lists[] = {
@@ -81,7 +81,8 @@ bool lam_scene_reset(lam_scene *scene, lam_error *error)
     if (!scene || !scene->mark)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_reset: %s", scene ? "no state is marked" : "the scene is NULL");
     const struct scene_mark *mark = scene->mark;
-    for (int i = 0; i < LISTS; i++) { // lists never shrink, so each has space for its earlier elements
+    // the capacity of a list never shrinks, so there is space for its earlier elements
+    for (int i = 0; i < LISTS; i++) {
         struct scene_list *list = list_of(scene, i);
         list->count = mark->saved[i].count;
         if (list->count)

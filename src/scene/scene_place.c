@@ -155,7 +155,7 @@ bool scene_lit_by_environment(const struct lam_scene *scene)
     return physical && !classic;
 }
 
-// Moves a light of a rig for a scene of radius 1 to its position in this scene.
+// Moves a light of a rig, which is defined for a scene of radius 1, to its position in this scene.
 static void place_rig_light(const lam_scene *scene, lam_light *light)
 {
     lam_vec3 low, high, centre = v3(0, 0, 0);
@@ -164,7 +164,7 @@ static void place_rig_light(const lam_scene *scene, lam_light *light)
         return;
     if (light->frame == LAM_FRAME_WORLD)
         lam_scene_sphere(scene, -1, &centre, &radius);
-    // relative to the box, which needs no pass over the vertices
+    // uses half the diagonal of the bounding box, which needs no pass over the vertices
     else if (scene && lam_scene_bounds(scene, &low, &high))
         radius = 0.5 * v3_length(v3_sub(high, low));
     if (radius == 0)

@@ -4,18 +4,18 @@
 #include "linear.h"
 #include "up_axis.h"
 
-// A scene is a terrain if it is open, and its area faces up: the vertical part of the sum of all area vectors is at
-// least FACING of the whole area. A closed surface faces all sides equally, so its sum is 0. A level plane has nothing
-// that light from the side could show.
+// A scene is a terrain if it is open and its area faces up: the vertical component of the sum of all area vectors must
+// be more than FACING times the whole area. A closed surface faces all sides equally, so its sum is 0. A level plane is
+// not a terrain, because light from the side would show nothing on it.
 #define FACING 0.6
 #define LEVEL  0.98
 
 enum {
-    TRIANGLES_MIN = 1024, // with fewer, it is a model of a few faces
+    TRIANGLES_MIN = 1024, // a model with fewer triangles is not a terrain
     SAMPLES = 256,        // sampled triangles
 };
 
-// Multiplies by the upper 3×3.
+// Multiplies a vector by the upper left 3×3 matrix.
 static lam_vec3 turned(const lam_mat4 *m, lam_vec3 v)
 {
     return v3(m->m[0][0] * v.x + m->m[0][1] * v.y + m->m[0][2] * v.z,
@@ -51,7 +51,7 @@ bool scene_is_terrain(const struct lam_scene *scene)
     const size_t step = (size_t)(count / SAMPLES);
     const lam_vec3 up = from_y_up(lam_scene_up(scene), v3(0, 1, 0));
     double all = 0, facing = 0;
-    size_t first = 0; // of the samples in the next mesh
+    size_t first = 0; // index of the first sampled triangle in the next mesh
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
         if (mesh_is_strokes(mesh) || !scene_shows(scene, i))
@@ -63,8 +63,9 @@ bool scene_is_terrain(const struct lam_scene *scene)
     return facing > FACING * all && facing < LEVEL * all;
 }
 
-// Places the studio's lights as cartographers shade relief: the key light grazes the surface from the left, and there
-// is no light from behind, which would light all slopes alike. Slopes that face right get the fill light.
+// Places the studio's lights like the light of a shaded relief map. The key light grazes the surface from the left, and
+// the fill light reaches slopes that face right. There is no light from behind, because it would light all slopes
+// alike.
 int rig_light_from_side(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0].position = v3(-2.7, 0.8, 1.2);

@@ -17,8 +17,8 @@ static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int m
                                                : m->maps[LAM_MAP_ANISOTROPY];
 }
 
-// Returns the map that uses a mesh's tangents: the first such map of its parts, or else of the first object that has
-// one in its material. Returns NULL if there is none.
+// Returns the map that uses a mesh's tangents: the first such map in the materials of its parts, otherwise in the
+// materials of its objects. Returns NULL if there is no such map.
 static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int mesh)
 {
     const lam_mesh *m = scene_mesh(scene, mesh);
@@ -33,7 +33,7 @@ static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int m
 
 // Tangents follow the texture coordinates after the map's transform, so that the slopes of a rotated or mirrored map
 // still describe the same bumps. glTF says "the texture coordinates associated with the normal texture" (section
-// 3.7.2.1), which leaves KHR_texture_transform undefined; three.js and Khronos' sample renderer also use the
+// 3.7.2.1), and does not say whether KHR_texture_transform applies. three.js and Khronos' sample renderer also use the
 // transformed coordinates. `t_down` means that the second transformed coordinate grows downwards in the picture. A
 // transform that only shifts and scales needs no new coordinates.
 static bool transformed_texcoords(lam_mesh *seen, const lam_texture_map *map, struct arena *arena, bool *t_down)
@@ -57,7 +57,8 @@ static bool transformed_texcoords(lam_mesh *seen, const lam_texture_map *map, st
     return out != NULL;
 }
 
-// Computes tangents of one mesh, for the texture coordinates of the map that uses them, or else for the first set.
+// Computes the tangents of one mesh, for the texture coordinates of `map`, or for the first set of texture coordinates
+// if `map` is NULL.
 static bool make_tangents(struct lam_scene *scene, lam_mesh *mesh, const lam_texture_map *map,
                           struct call_control *call, lam_error *error)
 {

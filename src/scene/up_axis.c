@@ -5,7 +5,7 @@
 
 #include <strings.h>
 
-// Components are permuted and negated, so nothing is rounded.
+// The components are only permuted and negated, so nothing is rounded.
 lam_vec3 from_y_up(lam_up up, lam_vec3 d)
 {
     switch (up) {

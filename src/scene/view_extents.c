@@ -1,6 +1,7 @@
 // view_extents.c: extents of a scene's vertices along the axes of a view.
 //
-// Each vertex is measured by the same operations; the tree of boxes only skips vertices that cannot change the extents.
+// The tree of boxes does not affect the result. The tree only skips vertices that cannot change the extents. All other
+// vertices are measured by the same operations.
 #include "view_extents.h"
 
 #include "linear.h"
@@ -22,7 +23,7 @@ struct search {
 
 static double absolute(double a) { return a < 0 ? -a : a; }
 
-// Sets the directions of the extents in the axes of the view.
+// Computes the directions along which the extents are measured, in the axes of the view.
 static void set_across(const struct view_extents *extents, lam_vec3 across[EXTENT_DIRECTIONS])
 {
     across[EXTENT_RIGHT] = v3(1, 0, extents->kx);
@@ -43,7 +44,7 @@ static void set_directions(struct search *s)
         far[a] = absolute((double)box[a]) + absolute((double)box[a + 3]);
     for (int d = s->first; d < s->end; d++) {
         const double f[3] = {across[d].x, across[d].y, across[d].z};
-        double steps = 0; // the sum of the absolute values of all terms
+        double steps = 0; // upper bound of the sum of the absolute values of all terms
         s->offset[d] = f[0] * s->shift[0] + f[1] * s->shift[1] + f[2] * s->shift[2];
         double sum[3] = {0};
         for (int i = 0; i < 3; i++) {
@@ -75,7 +76,8 @@ static void extend(const struct search *s, lam_vec3 q)
         }
 }
 
-// Searches the vertices of a block. Most are skipped by their upper bound, which is cheaper than their extents.
+// Searches the vertices of a block. Most vertices are skipped because of an upper bound, which is cheaper to compute
+// than their extents.
 static void search_block(const struct search *s, size_t block, int d)
 {
     const struct aabb_tree *tree = &s->extent->boxes;
@@ -148,7 +150,7 @@ static void search_object(const lam_scene *scene, const lam_object *object, cons
                        .end = end};
     if (!s.extent->used_count)
         return;
-    // The view axes are multiplied by the transform once, so that each vertex takes three dot products.
+    // The view axes are multiplied by the transform once, so that each vertex needs three dot products.
     const lam_mat4 *t = &object->transform;
     lam_vec3 rows[3] = {axes->right, axes->above, axes->back};
     lam_vec3 origin = mat4_point(t, v3(s.mesh->origin[0], s.mesh->origin[1], s.mesh->origin[2]));
@@ -180,7 +182,7 @@ static void search(const struct view_points *points, struct view_extents *extent
         if (points->ball_radius > 0)
             find_ball(points->ball_radius, extents, d);
     }
-    // The extents found with one pair of axes exclude most vertices for the next.
+    // The extents found for one set of axes exclude most vertices for the next set.
     for (int a = 0; a < points->axes_count && !(points->ball_radius > 0); a++)
         for (int i = 0; i < points->scene->objects.count; i++)
             if (scene_shows(points->scene, i))

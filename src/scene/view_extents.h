@@ -4,9 +4,9 @@
 
 #include <lambent/scene.h>
 
-// The axes of the view as world directions: to the right and to the top of the picture, and from the model to the eye.
-// x, y and z of a vertex are measured along them from `centre`, a point near the scene, so that the numbers keep their
-// precision for any position of the scene.
+// The axes of the view as directions in world space: to the right and to the top of the picture, and from the model to
+// the eye. The coordinates x, y and z of a vertex are measured along these axes from `centre`. This point is near the
+// scene, so the coordinates are precise for any position of the scene.
 struct view_axes {
     lam_vec3 right, above, back;
     lam_vec3 centre;
@@ -19,7 +19,7 @@ struct view_points {
     // seen along several axes.
     const struct view_axes *axes;
     int axes_count;
-    double ball_radius; // if it is above 0, a ball around the axes' centre is measured instead
+    double ball_radius; // if above 0, a ball of this radius around the centre of the axes is measured instead
 };
 
 // The maxima over all points of ±x + kx·z, ±y + ky·z and z, in the axes of the view. With k = 0 this is the bounding
@@ -29,17 +29,17 @@ enum extent_direction { EXTENT_RIGHT, EXTENT_LEFT, EXTENT_TOP, EXTENT_BOTTOM, EX
 struct view_extents {
     double kx, ky;
     double value[EXTENT_DIRECTIONS];
-    lam_vec3 point[EXTENT_DIRECTIONS]; // the point with the maximum: its x, y and z
+    lam_vec3 point[EXTENT_DIRECTIONS]; // x, y and z of the point with the maximum
 };
 
-// Gets a point of the scene: the middle of the box of the first object that has triangles. If there is none, it returns
-// false and sets the point to zero.
+// Gets a point of the scene: the middle of the box of the first object that has triangles. If no object has triangles,
+// returns false and sets the point to zero.
 bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre);
 
 // Sets all extents for the given kx and ky.
 void view_extents_find(const struct view_points *points, struct view_extents *extents);
 
-// Set kx (ky) and update the extents that depend on it.
+// These functions set kx or ky, and update the extents that depend on it.
 void view_extents_horizontal(const struct view_points *points, double kx, struct view_extents *extents);
 void view_extents_vertical(const struct view_points *points, double ky, struct view_extents *extents);
 

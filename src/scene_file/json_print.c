@@ -16,8 +16,8 @@ static int take_chunk(const char *bytes, size_t size, void *user)
 
 static size_t flags(int digits) { return JSON_ENCODE_ANY | JSON_REAL_PRECISION(digits); }
 
-// Prints a value on one line. Numbers have fifteen digits if they are enough, otherwise sixteen or seventeen: 0.1, not
-// 0.10000000000000001.
+// Prints a value on one line. Numbers are printed with fifteen digits if these identify the double, otherwise with
+// sixteen or seventeen. The double 0.1 is therefore printed as 0.1, not as 0.10000000000000001.
 static void add_line(struct text *text, const json_t *value)
 {
     if (json_is_array(value)) {

@@ -1,4 +1,5 @@
-// scene_environment.c: reads the environment of a scene file: pictures beside it, or a built-in one.
+// scene_environment.c: reads the environment of a scene file: pictures beside the scene file, or a built-in
+// environment.
 #include "companion.h"
 #include "cube_map.h"
 #include "fail.h"
@@ -41,7 +42,7 @@ static bool read_built_in(struct scene_reader *r, const struct place *place, con
                       near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
 }
 
-// The pictures during reading: their names, and the settings that receive their full paths.
+// The names of the pictures, and the members of the settings that receive their full paths.
 struct pictures {
     struct scene_reader *r;
     const char *const *names;
@@ -54,7 +55,7 @@ static bool open_picture(void *user, int index, struct call_control *call, struc
     struct pictures *pictures = user;
     const struct import_source *source = pictures->r->source;
     struct companion companion;
-    (void)call; // the source contains its own call
+    (void)call; // unused, because the source contains the call
     if (!source->open_of_scene(source, pictures->names[index], &pictures->r->scene->arena, &companion, error))
         return false;
     *file = companion.file;
@@ -64,7 +65,7 @@ static bool open_picture(void *user, int index, struct call_control *call, struc
     return pictures->paths[index] || call_memory_error(source->call, strlen(pictures->names[index]), error);
 }
 
-// Reads the pictures. Errors name the key.
+// Reads the pictures. Error messages name the key of the scene file.
 static struct lam_environment *read_pictures(struct scene_reader *r, const struct place *place,
                                              const char *const *names, int count, const char **paths)
 {

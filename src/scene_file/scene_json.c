@@ -9,12 +9,13 @@
 #include <stdio.h>
 #include <string.h>
 
-// The maximum number of operations for all implicit surfaces of a file together; they take a few seconds.
+// The maximum number of operations for all implicit surfaces of a file together. This many operations take a few
+// seconds.
 enum { FORMULA_OPERATIONS = 200000000 };
 
 // --- recognising scene files
 
-// Recognises an object whose first kilobytes contain the key "lambent".
+// Recognises a JSON object whose first 64 kilobytes contain the key "lambent".
 static int scene_probe(const uint8_t *bytes, size_t size)
 {
     static const char key[] = "\"lambent\"";
@@ -38,7 +39,8 @@ static bool read_image(struct scene_reader *r, const json_t *root)
     int color = LAM_COLOR_SRGB;
     if (!image)
         return true;
-    // The colour mode is read first, since it determines how colours are read. Its former key is `color`.
+    // The colour mode is read first, because it determines how colours are read. Older files use the key `color` for
+    // it.
     bool mode = json_object_get(image, "color_mode"), former = json_object_get(image, "color");
     if (!check_keys(r, place, image, keys))
         return false;
@@ -128,7 +130,7 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
     return true;
 }
 
-// Reads a list of words and sets their bits.
+// Reads a list of keywords and sets one bit for each keyword.
 static bool read_words(struct scene_reader *r, const json_t *root, const lam_setting *setting, int *bits)
 {
     const json_t *list = json_object_get(root, setting->key);
@@ -205,7 +207,7 @@ static bool read_setting(struct scene_reader *r, const json_t *root, const lam_s
     return true;
 }
 
-// Lighting by vertex implies Gouraud shading, unless the file sets another method.
+// Lighting per vertex implies Gouraud shading, unless the file sets another method.
 static bool check_stage(struct scene_reader *r)
 {
     lam_picture_settings *s = r->settings;
@@ -224,7 +226,7 @@ static bool check_stage(struct scene_reader *r)
     return true;
 }
 
-// Reads the keys at the top of the file, including the settings of the table.
+// Reads top-level keys of the file, including those in the table of settings.
 static bool read_settings(struct scene_reader *r, const json_t *root)
 {
     int up = LAM_UP_Y;
@@ -268,7 +270,8 @@ static bool read_root(struct scene_reader *r, const json_t *root)
         return fail(r->error, LAM_UNSUPPORTED, "%s: lambent: the format's version is %d, this program reads version 1",
                     r->source->name, version);
     r->has_lights = json_object_get(root, "lights");
-    // The order matters: the colour mode comes before colours, and objects before the lights attached to them.
+    // The order matters: the colour mode must be read before colours, and objects before the lights that are attached
+    // to them.
     return read_image(r, root) && read_camera(r, root) && read_settings(r, root) && read_environment(r, root) &&
            read_materials(r, root) && read_objects(r, root) && read_lights(r, root);
 }

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// Keys that are not fields, or that set several fields.
+// Keys that are not fields of a light, or that set several fields.
 static const struct {
     const char *name;
     unsigned light_types;
@@ -42,7 +42,8 @@ static lam_rgb scaled(lam_rgb c, double s)
     return (lam_rgb){(float)((double)c.r * s), (float)((double)c.g * s), (float)((double)c.b * s)};
 }
 
-// Sets `color` times `intensity`: the ambient light of an ambient light, or else diffuse and specular.
+// Multiplies `color` by `intensity`. The product is the ambient colour of an ambient light, and the diffuse and
+// specular colours of other lights.
 static bool read_color(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     bool ambient = light->type == LAM_LIGHT_AMBIENT;
@@ -70,7 +71,8 @@ static bool read_fields(struct scene_reader *r, const struct place *place, const
     return true;
 }
 
-// Reads three numbers, or four homogeneous ones; w = 0 means a direction towards the light.
+// Reads a position of three numbers, or of four homogeneous coordinates. If the fourth coordinate w is 0, the other
+// three are a direction towards the light.
 static bool read_position(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     const json_t *position = json_object_get(value, "position");
@@ -121,7 +123,7 @@ static bool check_attenuation(struct scene_reader *r, const struct place *place,
                       "all three numbers are 0, expected a + b d + c d^2 to be more than 0");
 }
 
-// Checks that the cone uses one of two laws: cutoff and exponent, or inner and outer.
+// Checks that the cone uses only one of two pairs of keys: cutoff and exponent, or inner and outer.
 static bool check_cone(struct scene_reader *r, const struct place *place, const json_t *value, lam_light *light)
 {
     const json_t *inner = json_object_get(value, "inner"), *outer = json_object_get(value, "outer"),

@@ -22,7 +22,7 @@ bool read_material_keys(struct scene_reader *r, const struct place *place, const
     for (int i = 0; i < count; i++)
         if (material_field(i)->reader != FIELD_NEVER && !take_field(r, place, value, lam_material_field(i), material))
             return false;
-    // by default a surface reflects ambient light as it reflects other light
+    // by default, the ambient colour is the diffuse colour
     if (whole && !json_object_get(value, "ambient"))
         material->ambient = (lam_rgb){material->diffuse.r, material->diffuse.g, material->diffuse.b};
     double opacity = 1;
@@ -32,7 +32,7 @@ bool read_material_keys(struct scene_reader *r, const struct place *place, const
     return true;
 }
 
-// Returns the index of a material of the file by its name, or −1 if there is none.
+// Returns the index of the file's material with this name, or −1 if there is none.
 static int named(const struct scene_reader *r, const char *name)
 {
     const char *key;

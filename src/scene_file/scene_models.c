@@ -1,9 +1,9 @@
 // scene_models.c: loads the models of a scene file's objects: built-in shapes, formulas, and files that other importers
 // read.
 //
-// A model is read once for each kind of normals, for any number of objects and however they write its name. Objects
-// that do not change the model share its meshes and materials, and so do objects that make the same changes. An object
-// with changes of its own gets its own list of parts and materials, and shares the arrays of vertices.
+// A model is read once for each kind of normals, even if several objects use it or spell its file name differently.
+// Objects that do not change the model share its meshes and materials, and so do objects that make the same changes. An
+// object that makes other changes gets its own list of parts and materials, but shares the arrays of vertices.
 #include "scene_models.h"
 
 #include "companion.h"
@@ -22,11 +22,11 @@ struct variant {
 };
 
 struct model {
-    struct lam_scene inner;            // the scene as read; its lists and arrays are in the outer scene's arena
+    struct lam_scene inner;            // the model as it was read; its lists and arrays are in the outer scene's arena
     struct scene_origin origin;        // the origin without its counts and copies
     double crease_angle_rad;           // the angle for its normals; 0 means the default
     struct variant variants[VARIANTS]; // the most recent variants
-    int variant_count;                 // number of variants made so far
+    int variant_count;                 // number of variants created so far
 };
 
 static bool no_memory(const struct scene_reader *r, size_t bytes)
@@ -36,7 +36,7 @@ static bool no_memory(const struct scene_reader *r, size_t bytes)
 
 // --- reading
 
-// Makes the shape in model->inner, within the outer scene's arena.
+// Builds the shape or formula surface in model->inner, whose memory comes from the outer scene's arena.
 static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted, struct model *model)
 {
     lam_error reason = {0};
@@ -139,7 +139,7 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
     model->inner.arena = r->scene->arena;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
     r->scene->arena = model->inner.arena;
-    for (int i = 0; i < model->inner.textures.count; i++) { // also after an error, since the scene frees them
+    for (int i = 0; i < model->inner.textures.count; i++) { // also after an error, because the outer scene frees them
         lam_texture *texture = ((lam_texture **)model->inner.textures.items)[i];
         ok = scene_adopt_texture(r->scene, texture, ok ? r->error : NULL) && ok;
     }
@@ -153,7 +153,7 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
 
 // --- finding
 
-// Makes the key that identifies a formula's surface. Returns false if it is too long.
+// Makes the key that identifies the surface of a formula. Returns false if the key is too long.
 static bool key_of_formula(const struct model_wanted *wanted, char key[KEY_SIZE])
 {
     const lam_formula *f = wanted->formula;
@@ -274,7 +274,7 @@ static bool add_items(struct scene_reader *r, const struct model *model, bool fi
     return ok && scene_note_origin(scene, origin, objects, r->error);
 }
 
-// Adds the objects again, with the same meshes and materials.
+// Adds copies of the model's objects, with the same meshes and materials.
 static bool add_objects(struct scene_reader *r, int origin_index)
 {
     const struct scene_origin *origin = (const struct scene_origin *)r->scene->origins.items + origin_index;

@@ -6,8 +6,9 @@
 
 // The model that an object refers to, and its parameters.
 struct model_wanted {
-    const struct place *place; // position of the object
-    const char *file, *shape;  // either one of these or the formula is given; the file name is unchanged
+    const struct place *place; // the position of the object in the file
+    // one of these is set unless the formula is; the file name is spelled as in the scene file
+    const char *file, *shape;
     const lam_formula *formula;
     lam_shape_params segments; // the parameters of a shape
     lam_normals normals;
@@ -18,9 +19,9 @@ struct model_wanted {
     const json_t *materials, *parts; // the object's changes to the model, or NULL
 };
 
-// Adds the objects of a model to the scene. Equal requests share meshes and materials. Sets *origin to the index of its
-// record in scene->origins, and *own to whether the meshes and materials are new, so that the object's changes can be
-// applied.
+// Adds the objects of a model to the scene. Equal requests share meshes and materials. Sets *origin to the index of the
+// model's record in scene->origins. Sets *own to whether the meshes and materials are new, so that the caller must
+// apply the object's changes.
 bool add_model(struct scene_reader *r, const struct model_wanted *wanted, int *origin, bool *own);
 
 #endif

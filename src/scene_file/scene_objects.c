@@ -1,4 +1,4 @@
-// scene_objects.c: reads the objects of a scene file: the keys beside the model (scene_models.c).
+// scene_objects.c: reads the objects of a scene file: all keys except the model itself (scene_models.c).
 #include "scene_models.h"
 
 #include "fail.h"
@@ -47,7 +47,7 @@ static bool change_materials(struct scene_reader *r, const struct place *place, 
     return true;
 }
 
-// Reads "parts": a material for each part of the model, in order; null keeps the model's own.
+// Reads "parts": a material for each part of the model, in order; null keeps the part's own material.
 static bool replace_parts(struct scene_reader *r, const struct place *place, const json_t *value,
                           const struct scene_origin *origin)
 {
@@ -62,7 +62,8 @@ static bool replace_parts(struct scene_reader *r, const struct place *place, con
                           json_kind(list, kind), origin->part_count);
     for (int i = origin->first_mesh; i < origin->first_mesh + origin->mesh_count; i++)
         for (uint32_t k = 0; k < scene_mesh(r->scene, i)->part_count; k++, n++) {
-            lam_part *part = (lam_part *)(uintptr_t)&scene_mesh(r->scene, i)->parts[k]; // in the scene's arena
+            // the parts are in the scene's arena, so they may be changed
+            lam_part *part = (lam_part *)(uintptr_t)&scene_mesh(r->scene, i)->parts[k];
             const json_t *material = json_array_get(list, n);
             int index = part->material;
             if (!json_is_null(material) && !read_material_value(r, ELEMENT_OF(here, n), material, NULL, &index))
@@ -72,7 +73,8 @@ static bool replace_parts(struct scene_reader *r, const struct place *place, con
     return true;
 }
 
-// Returns the material that supplies a back side's missing keys: the object's, or else its first part's.
+// Returns the material that supplies the missing keys of a back side: the material of the object, otherwise of its
+// first part.
 static lam_material front_of(const struct lam_scene *scene, const lam_object *object)
 {
     const lam_mesh *mesh = scene_mesh(scene, object->mesh);
@@ -121,7 +123,8 @@ static void place_lights_and_cameras(struct lam_scene *scene, const struct entry
     }
 }
 
-// Applies the keys that shapes and files share to the items of an entry.
+// Applies keys such as "transform" and "material" to the objects, lights and cameras of an entry. Shapes and files
+// share these keys.
 static bool finish(struct scene_reader *r, const struct place *place, const json_t *value, const struct entry *entry,
                    const char *name)
 {
@@ -152,7 +155,7 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
 
 // Reads "shape": {"parametric": {"formula": "x=…; y=…; z=…", "u": "0..2pi", "v": "0..pi", "segments": [64, 32], "flip":
 // true}}, or {"implicit": {"formula": "x^2+…", "x": "-1..1", "y": "-1..1", "z": "-1..1", "segments": 96, "flip":
-// true}}. A string instead of the inner object is the formula alone.
+// true}}. If the inner object is a string, it is the formula, and all other keys have their defaults.
 static bool read_formula(struct scene_reader *r, const struct place *place, const json_t *value, lam_formula *formula)
 {
     static const char *const outer[] = {"parametric", "implicit", NULL};

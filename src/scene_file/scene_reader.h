@@ -1,5 +1,6 @@
-// scene_reader.h: shared by the readers of a scene file: positions in it, and values that are checked on access.
-// docs/scene-file.md describes the format for users, `lambent generate scene-schema` for programs.
+// scene_reader.h: functions that all readers of scene files share: positions in the file, and values that are checked
+// on access. docs/scene-file.md describes the format for users; `lambent generate scene-schema` prints it as a schema
+// for programs.
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
 
@@ -26,12 +27,12 @@ struct scene_reader {
 bool fail_place(struct scene_reader *r, const struct place *place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// Checks the keys of an object. Another key is an error whose message suggests the nearest allowed one. The list ends
-// with NULL.
+// Checks the keys of an object. An unknown key is an error; the message suggests the nearest allowed key. The list
+// `keys` ends with NULL.
 bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
 
-// These functions check the value of a key of `object` and store it. *out is unchanged if the key is missing. They
-// return false if the value is wrong. Numbers must be in [min, max].
+// These functions check the value of a key of `object` and store it. *out is unchanged if the key is missing. The
+// functions return false if the value is wrong. Numbers must be in [min, max].
 bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double min,
                  double max, double *out);
 bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int min,
@@ -44,11 +45,11 @@ bool take_direction(struct scene_reader *r, const struct place *place, const jso
 // Gets a nonempty string, copied into the scene's arena.
 bool take_text(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                const char **out);
-// Get a colour: "#rrggbb", a colour name, or linear numbers. The alpha is allowed only if `alpha` is true.
+// These functions get a colour: "#rrggbb", a colour name, or linear numbers. Only take_rgba allows an alpha.
 bool take_rgb(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgb *out);
 bool take_rgba(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, lam_rgba *out);
 
-// Gets one of several words; the list ends with a NULL name.
+// Gets one of several keywords. The list `words` ends with a NULL name.
 bool take_word(struct scene_reader *r, const struct place *place, const json_t *object, const char *key,
                const struct json_choice *words, int *out);
 extern const struct json_choice color_words[], normals_words[], cull_words[], up_words[], frame_words[],
@@ -56,7 +57,7 @@ extern const struct json_choice color_words[], normals_words[], cull_words[], up
 
 void light_type_words(struct json_choice words[LAM_LIGHT_TYPE_COUNT + 1]);
 void tone_words(struct json_choice words[LAM_TONE_COUNT + 1]);
-// Gets the words of a setting of type LAM_SETTING_WORD, which has fewer than WORDS_MAX.
+// Gets the keywords of a setting of type LAM_SETTING_WORD, at most WORDS_MAX − 1 of them.
 enum { WORDS_MAX = 32 };
 void setting_words(const lam_setting *setting, struct json_choice words[WORDS_MAX]);
 
@@ -64,25 +65,26 @@ void setting_words(const lam_setting *setting, struct json_choice words[WORDS_MA
 bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,
                 void *out);
 
-// Gets the numbers of a list, `min` to `max` of them. *count may be NULL.
+// Gets the numbers of a list, which must contain `min` to `max` numbers. `count` may be NULL.
 bool numbers_of(struct scene_reader *r, const struct place *place, const json_t *list, size_t min, size_t max,
                 double *out, size_t *count);
 
-// Read the sections of the file into the scene.
+// These functions read the sections of the file into the scene.
 bool read_materials(struct scene_reader *r, const json_t *root);
 bool read_environment(struct scene_reader *r, const json_t *root);
 bool read_objects(struct scene_reader *r, const json_t *root);
 bool read_lights(struct scene_reader *r, const json_t *root);
 
-// Reads a material by name (from the file, or a classic one) or with its keys. Missing keys are taken from `base`; if
-// it is NULL, each key has its own default. Sets *index to the material's index in the scene.
+// Reads a material. `value` is the name of a material of the file, the name of a classic material, or an object with
+// keys. Missing keys are copied from `base`; if `base` is NULL, missing keys have their defaults. Sets *index to the
+// material's index in the scene.
 bool read_material_value(struct scene_reader *r, const struct place *place, const json_t *value,
                          const lam_material *base, int *index);
 // Reads the keys of a material and sets them in `material`.
 bool read_material_keys(struct scene_reader *r, const struct place *place, const json_t *value, bool whole,
                         lam_material *material);
 
-// Reads a list of steps, or 16 numbers.
+// Reads a transform: a list of steps, or a matrix of 16 numbers.
 bool read_transform(struct scene_reader *r, const struct place *place, const json_t *value, lam_mat4 *out);
 
 #endif

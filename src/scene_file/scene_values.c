@@ -1,4 +1,4 @@
-// scene_values.c: gets values of a scene file, each checked on access, with messages for wrong ones.
+// scene_values.c: gets values of a scene file, checks each value on access, and reports wrong values.
 #include "scene_reader.h"
 
 #include "fail.h"
@@ -245,7 +245,7 @@ bool take_field(struct scene_reader *r, const struct place *place, const json_t 
     case LAM_FIELD_NUMBER:
     case LAM_FIELD_ANGLE:
         if (field->light_types && field->max == 1 && json_is_boolean(json_object_get(object, field->key)))
-            numbers[0] = json_is_true(json_object_get(object, field->key)); // a flag sets a fraction to 0 or 1
+            numbers[0] = json_is_true(json_object_get(object, field->key)); // true or false sets a fraction to 1 or 0
         else if (!take_number(r, place, object, field->key, min, max, numbers))
             return false;
         break;

@@ -1,8 +1,8 @@
-// scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. Every number is written
-// so that it reads back as the same bits.
+// scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. A reader gets every
+// number with the same bits.
 //
-// The file is longer than 600 lines because it contains one function for each section of a file, in the order of the
-// file.
+// This source file is longer than 600 lines, because it contains one function for each section of a scene file, in the
+// order of these sections.
 #include "scene_write.h"
 
 #include "fail.h"
@@ -30,7 +30,7 @@ static json_t *number(double x)
     return whole ? json_integer((json_int_t)x) : json_real(x);
 }
 
-// Makes the number with the fewest decimals that is the same float.
+// Makes the number with the fewest decimals that converts to the same float.
 static json_t *number_float(float f)
 {
     double x = (double)f, size = x < 0 ? -x : x, power = 1;
@@ -60,8 +60,8 @@ static json_t *color(struct scene_writer *w, const float *parts, int count)
     return list;
 }
 
-// Makes an angle in degrees that converts back to the same radians: with few decimals if possible, else the nearest
-// double that does.
+// Makes an angle in degrees that converts back to the same radians: with few decimals if possible, otherwise the
+// nearest double that converts back.
 static json_t *degrees(double radians)
 {
     double plain = math_degrees(radians), power = 1, best = plain, error = 1e300;
@@ -94,7 +94,7 @@ static json_t *word(const struct json_choice *words, int value)
     return json_string(words->name ? words->name : "");
 }
 
-// Omits names that are not UTF-8, since JSON cannot store them.
+// Omits names that are not UTF-8, because JSON cannot store them.
 static void put_name(struct scene_writer *w, json_t *object, const char *key, const char *name)
 {
     json_t *text = name && *name ? json_string(name) : NULL;
@@ -177,8 +177,8 @@ static void put_field(struct scene_writer *w, json_t *out, const lam_field *fiel
     }
 }
 
-// With `whole`, missing keys would take another material's values, so every field is written; otherwise missing keys
-// mean the default.
+// If `whole` is set, writes every field, because a reader would copy missing keys from another material. Otherwise,
+// fields with default values are omitted.
 static json_t *material_json(struct scene_writer *w, const lam_material *m, bool whole)
 {
     json_t *out = json_object();
@@ -211,7 +211,7 @@ static bool is_only_name(const struct scene_origin *origin, const char *name)
     return count <= 1;
 }
 
-// Writes changes of the model's own materials since it was read.
+// Writes the changes to the model's own materials since the model was read.
 static bool put_changes(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *changes = NULL;
@@ -236,7 +236,8 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
     return true;
 }
 
-// Writes the parts whose material differs from the file's: one entry for each part, null for the file's own.
+// Writes the materials of all parts if some part's material differs from the model file. Parts with unchanged materials
+// are written as null.
 static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *list = json_array();
@@ -281,7 +282,7 @@ static bool is_identity(const lam_mat4 *m)
 
 // The changes to an object since it was read.
 struct change {
-    lam_mat4 transform;          // applied after the file's own
+    lam_mat4 transform;          // applied after the object's transform in the file
     int material, back_material; // −1 means unchanged
     int one_sided, cull;         // −1 means unchanged
 };
@@ -290,7 +291,8 @@ static struct change change_of(const struct scene_writer *w, const lam_object *o
 {
     struct change change = {.transform = object->transform, .material = -1, .back_material = -1};
     lam_mat4 inverse, placed = mat4_mul(&w->scene->placement, &own->transform);
-    // The file's own transform stays in the file. Applying the scene's placement to it gives the same bits again.
+    // The model file still contains the object's own transform. A reader that applies the scene's placement to this
+    // transform gets the same bits again.
     if (memcmp(&object->transform, &own->transform, sizeof own->transform) == 0)
         change.transform = lam_mat4_identity();
     else if (memcmp(&object->transform, &placed, sizeof placed) == 0)
@@ -306,7 +308,8 @@ static struct change change_of(const struct scene_writer *w, const lam_object *o
     return change;
 }
 
-// Gets the change that all objects of a file share, so that one entry can describe them. Returns false if they differ.
+// Gets the change that all objects of a file share, so that one entry can describe them. Returns false if the changes
+// differ.
 static bool common_change(const struct scene_writer *w, const struct scene_origin *origin, int first,
                           struct change *common)
 {
@@ -363,7 +366,7 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
     append(w, list, entry);
     if (!entry)
         return true;
-    // The key would set the name of all unnamed objects of a file.
+    // The key "name" would set the name of all unnamed objects of a file.
     const char *own_name = origin->object_count > 1 ? origin->objects[0].name : NULL;
     if (!own_name || !object->name || strcmp(own_name, object->name) != 0)
         put_name(w, entry, "name", object->name);
@@ -432,7 +435,8 @@ static bool put_objects(struct scene_writer *w, json_t *root)
                         "scene file cannot describe it",
                         w->path, i, shown_name(object->name ? object->name : "", shown));
         const lam_object plain = lam_object_default();
-        bool several = origin->object_count > 1; // one entry describes all objects of a file
+        // a single entry in the scene file describes all objects of a model file
+        bool several = origin->object_count > 1;
         int hidden = hidden_from(w->scene, i, several ? origin->object_count : 1);
         if (hidden == (several ? origin->object_count : 1)) {
             i += hidden - 1;
@@ -462,7 +466,7 @@ static bool put_objects(struct scene_writer *w, json_t *root)
 static json_t *light_json(struct scene_writer *w, const lam_light *given)
 {
     lam_light placed_light = *given, *l = &placed_light;
-    // The model in the file keeps its original position, so the light is moved instead.
+    // The model in the file keeps its original position, so the light is moved with the scene's placement instead.
     if (l->frame == LAM_FRAME_MODEL) {
         const lam_mat4 *m = &w->scene->placement;
         l->frame = LAM_FRAME_WORLD;
@@ -592,7 +596,8 @@ static json_t *words_of(struct scene_writer *w, const lam_setting *setting, int 
     return list;
 }
 
-// Writes a row of the table of settings. Defaults that are not words are omitted, since reading them changes nothing.
+// Writes a row of the table of settings. Default values that are not keywords are omitted, because reading them would
+// change nothing.
 static void put_setting(struct scene_writer *w, json_t *root, const lam_setting *setting, const lam_draw_params *draw)
 {
     const void *member = (const char *)draw + setting->offset;

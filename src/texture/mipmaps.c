@@ -1,8 +1,8 @@
 // mipmaps.c: makes the levels of a texture: each texel is the average of the area that it covers in the previous level.
 //
-// A side of n texels becomes n/2, rounded down. If n is even, a texel covers two texels; if it is odd, it covers
-// n/(n/2), slightly more than two, and the texels at its ends are weighted by their covered share. Rows and columns are
-// averaged together, in a fixed order.
+// A side of n texels is reduced to n/2 texels, rounded down. If n is even, each new texel covers two texels of the
+// previous level. If n is odd, it covers slightly more than two, and the texels at both ends of this range are weighted
+// by their covered share. Rows and columns are averaged together, in a fixed order.
 #include "texture_levels.h"
 
 #include <stddef.h>
@@ -24,7 +24,7 @@ static struct cover cover_of(int from, int to, int i)
     return cover;
 }
 
-// With three channels, the fourth number overwrites the next texel, which is stored later.
+// With three channels, the fourth number is written into the next texel, which is stored later.
 static void store_texel(float *out, texel t) { *(texel_memory *)out = t; }
 
 // Makes level 1 from bytes. `channels` is a constant after inlining.

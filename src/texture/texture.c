@@ -22,10 +22,12 @@ static int levels_of(int width, int height)
 
 static int side_of(int side, int level) { return side >> level ? side >> level : 1; }
 
-// Levels of this size or more get pages of their own, which are huge pages and faster to touch.
+// Levels whose total size is at least this many bytes are allocated in separate huge pages, whose first access is
+// faster.
 #define PAGES_FROM ((size_t)2 << 20)
 
-// Allocates a texture of this size with all its levels, except a level 0 of bytes. Fails with LAM_LIMIT.
+// Allocates a texture of this size with all its levels, except for level 0 if it consists of bytes. Fails with
+// LAM_LIMIT.
 static struct lam_texture *allocate(const lam_image *image, int channels, const char *name, struct call_control *call,
                                     lam_error *error)
 {
@@ -88,7 +90,8 @@ void lam_texture_free(lam_texture *texture)
 
 static size_t pixels_of(const lam_image *image) { return (size_t)image->width * (size_t)image->height; }
 
-// Removes the alphas from a picture of bytes if all are 255, which saves a quarter of its memory.
+// Removes the alpha channel from a picture of bytes if all its alphas are 255. This saves a quarter of the picture's
+// memory.
 static void drop_opaque_alpha(lam_image *image, struct call_control *call)
 {
     uint8_t *bytes = image->pixels;
@@ -179,7 +182,7 @@ struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values
 
 // --- pictures from files
 
-// Decodes the sRGB-encoded 16-bit numbers of a picture to linear ones.
+// Decodes the sRGB-encoded 16-bit numbers of a picture to linear numbers.
 static bool decode_wide(lam_image *image, lam_error *error)
 {
     size_t count = (size_t)image->width * (size_t)image->height;

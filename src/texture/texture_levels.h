@@ -11,21 +11,22 @@
 
 enum { TEXTURE_SIDE_MAX = 16384, TEXTURE_LEVELS_MAX = 15 };
 
-// A texel of four channels, which are computed together. GCC and Clang compile this for any instruction set, with the
-// same bits.
+// A texel of four channels, which are computed together. GCC and Clang compile this type for any instruction set, with
+// identical results.
 typedef float texel __attribute__((vector_size(16)));
 typedef float texel_memory __attribute__((vector_size(16), aligned(4), may_alias));
 
 struct texture_level {
     int width, height;
-    const float *floats; // floats in rows from the top; NULL if `bytes` is used
+    const float *floats; // texels of floats, row by row from the top; NULL if `bytes` is used
 };
 
 struct lam_texture {
     int references; // accessed atomically
     int level_count;
     lam_texture_values values;
-    // Channels per texel; 3 if every alpha is 1. If the texels are floats, one number after the last texel can be read.
+    // Channels per texel; 3 if every alpha is 1. If the texels are floats, it is safe to read one number after the last
+    // texel.
     int channels;
     // No texel has an alpha below 1.
     bool opaque;
@@ -38,8 +39,8 @@ struct lam_texture {
     const float *decode; // the 256 values of a byte of red, green and blue; alpha is byte ÷ 255
     struct texture_level levels[TEXTURE_LEVELS_MAX];
     void *storage;
-    float *pages; // the large levels; NULL means all levels follow this struct
-    size_t held;  // bytes of those pages
+    float *pages; // the large levels; NULL means that all levels follow this struct
+    size_t held;  // size of `pages` in bytes
 };
 
 // Expands texels of `channels` numbers to four channels.

@@ -4,7 +4,7 @@
 
 #include "texture_levels.h"
 
-// Returns whether a map can be used. `name` begins the sentence.
+// Checks whether a map can be used. The error message begins with `name`.
 bool texture_map_check(const lam_texture_map *map, const char *name, lam_error *error);
 
 // Returns whether two maps have the same texel everywhere: they may differ in channel, scale and offset.
@@ -16,17 +16,18 @@ static inline bool texture_map_translucent(const lam_texture_map *map)
     return map && map->texture && !map->texture->opaque;
 }
 
-// Gets approximate bounds of a map's numbers after channel, scale and offset (rounding makes them inexact); −1e30 and
-// 1e30 if the texture was not made from bytes. They are computed once per texture, by any thread.
+// Gets approximate bounds of a map's numbers after channel, scale and offset are applied; rounding makes the bounds
+// inexact. The bounds are −1e30 and 1e30 if the texture was not made from bytes. Any thread may call this function; the
+// bounds of a texture are computed once.
 void texture_map_range(const lam_texture_map *map, float out[2]);
 
-// The texture coordinates of `count` points in the mesh, and the derivatives of the coordinates by the pixel's x and y.
+// The texture coordinates of `count` points in the mesh, and their derivatives with respect to the pixel's x and y.
 struct texture_points {
     const float *s, *t, *ds_dx, *dt_dx, *ds_dy, *dt_dy;
 };
 
-// The texels that points use (texture_taps.h): four of a level, and four of the next if its share is not 0.
-enum { TAPS_ROW = 528 }; // most points at a time
+// The texels that points use (texture_taps.h): four of a level, and four of the next level if its weight is not 0.
+enum { TAPS_ROW = 528 }; // the maximum number of points at a time
 
 struct texture_taps {
     int32_t level[TAPS_ROW];
@@ -44,7 +45,7 @@ bool texture_map_same_taps(const lam_texture_map *a, const lam_texture_map *b);
 // Fetches the filtered texels of points into four rows: the map's numbers before scale and offset.
 void texture_fetch(const struct lam_texture *texture, const struct texture_taps *taps, int count, float *const out[4]);
 
-// Does the same for points whose footprints are filtered with up to `anisotropy` > 1 probes along the longer axis.
+// Like texture_fetch, but filters the footprint of each point with up to `anisotropy` > 1 probes along its longer axis.
 // `level` receives the level of detail of each point.
 void texture_map_anisotropic(const lam_texture_map *map, const struct texture_points *points, int count, int anisotropy,
                              float *const out[4], float *level);

@@ -1,7 +1,7 @@
 // texture_range.c: computes bounds of the numbers of a texture.
 #include "texture_map.h"
 
-// The number of texels that are compared together. Their bytes fill whole registers with three or four channels.
+// The number of texels that are compared together. With three or four channels, their bytes fill whole registers.
 enum { TOGETHER = 16, CHANNELS = 4 };
 
 struct byte_ranges {
@@ -38,7 +38,8 @@ static void ranges_of_bytes(const uint8_t *bytes, size_t texels, size_t channels
     }
 }
 
-// Returns the smallest bytes of the channels in the low bytes, followed by the largest ones.
+// Returns the smallest byte of each channel in the low half of the result, and the largest byte of each channel in the
+// high half.
 static uint64_t ranges_of(const struct lam_texture *texture)
 {
     uint64_t *kept = (uint64_t *)(uintptr_t)&texture->ranges;

@@ -1,7 +1,7 @@
 // texture_sample.c: fetches and filters the texels of points (docs/textures.md).
 //
-// texture_taps.h finds the texels of LANES points at a time. This file fetches and mixes them, four channels at a time,
-// in plain C that every instruction set calls.
+// texture_taps.h finds the texels of LANES points at a time. This file fetches and mixes these texels, four channels at
+// a time. This file is plain C; the code for every instruction set calls it.
 #define LANES 1
 #include "texture_taps.h"
 
@@ -18,8 +18,8 @@ static texel mix_four(const texel four[4], float right, float lower)
     return mix(mix(four[0], four[1], right), mix(four[2], four[3], right), lower);
 }
 
-// Returns the mix of a level's texels at a tap. `channels` is a constant after inlining; with 3 the fourth number is
-// arbitrary.
+// Returns the mix of a level's texels at a tap. `channels` is a constant after inlining; if it is 3, the fourth number
+// of the result is arbitrary.
 static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_texture *texture, int channels, int level,
                                                              int32_t first, int32_t across, int32_t down, float right,
                                                              float lower)
@@ -40,7 +40,7 @@ static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_te
         right, lower);
 }
 
-// Prefetches the texels of a later point, since pictures are larger than the processor's caches.
+// Prefetches the texels of a later point, because pictures are larger than the processor's caches.
 static inline __attribute__((always_inline)) void prefetch_tap(const struct lam_texture *texture, int channels,
                                                                int level, int32_t first, int32_t down)
 {

@@ -1,15 +1,15 @@
 // texture_taps.h: finds the texels that a point uses, and their weights, for LANES points at a time (docs/textures.md).
 // Define LANES before including it.
 //
-// Every lookup uses four texels of a level and four of the next, mixed with three weights. Lookups of fewer texels use
-// weights of 0, which do not change any bit.
+// Every lookup mixes four texels of a level and four texels of the next level, with three weights. Lookups of fewer
+// texels use weights of 0, which do not change any bit.
 #ifndef TEXTURE_TAPS_H
 #define TEXTURE_TAPS_H
 
 #include "functions.h"
 #include "texture_map.h"
 
-// Larger coordinates have no fraction. They count as 0, like NaN.
+// Coordinates beyond this limit have no fraction. Such coordinates are treated as 0, like NaN.
 #define COORDINATE_MAX 2.0e9f
 
 // Four texels of a level, in the form of the rows of texture_taps.
@@ -37,7 +37,8 @@ LANE_FN num wrapped_of(num s, lam_wrap wrap)
     return wrap == LAM_WRAP_MIRROR ? pick((whole & 1) == 1, 1.0f - part, part) : part;
 }
 
-// Two neighbours along a side of `size` texels: the first, the step from it to the second, and the second's weight.
+// Two neighbouring texels along a side of `size` texels: the first texel, the step to the second texel, and the weight
+// of the second texel.
 struct neighbours {
     inum first, step;
     num share;
@@ -78,8 +79,8 @@ LANE_FN struct tap_lanes tap_of(const lam_texture_map *map, num s, num t, inum w
 
 // --- level of detail
 
-// Returns the side length at given levels: `side` texels at level 0, halved and rounded down, at least 1. It is exact,
-// because side lengths have at most 15 bits.
+// Returns the side length at given levels: `side` texels at level 0, halved and rounded down, at least 1. The result is
+// exact, because side lengths have at most 15 bits.
 LANE_FN inum side_at(int side, inum level)
 {
     return imax_of(floor_of((float)side * num_of_bits(shift_left(127 - level, 23))), inum_of(1));
@@ -119,7 +120,7 @@ struct texture_matrix {
     float m[2][3];
 };
 
-// Returns the transform from the mesh's texture coordinates to the picture's.
+// Returns the transform from the mesh's texture coordinates to coordinates in the picture.
 static inline struct texture_matrix texture_matrix_of(const lam_texture_map *map)
 {
     struct texture_matrix matrix = {{{1, 0, 0}, {0, 1, 0}}};
@@ -133,8 +134,8 @@ static inline struct texture_matrix texture_matrix_of(const lam_texture_map *map
 
 LANE_FN num row_of(const float m[3], num s, num t) { return m[0] * s + m[1] * t; }
 
-// Positions in the picture, the footprints of their pixels in texels of level 0 (squares of the two lengths), and the
-// level of detail. Footprints of zero or unknown size are magnified.
+// Positions in the picture, the squared lengths of the two axes of each pixel's footprint in texels of level 0, and the
+// level of detail. Footprints of zero or unknown size are treated as magnified.
 struct footprints {
     num s, t, longer, shorter, detail;
 };
@@ -151,7 +152,7 @@ LANE_FN struct footprints footprints_of(const lam_texture_map *map, const struct
     num ys = row_of(m[0], ds_dy, dt_dy) * width, yt = row_of(m[1], ds_dy, dt_dy) * height;
     num x_square = xs * xs + xt * xt, y_square = ys * ys + yt * yt;
     num longer = max_of(x_square, y_square);
-    // The square root is part of the logarithm: log2 √longer.
+    // The factor 0.5 is the square root within the logarithm: log2 √longer.
     num detail = pick(longer > 1.0e-30f, 0.5f * log2_of(min_of(longer, num_of(1.0e30f))), num_of(-50.0f));
     return (struct footprints){row_of(m[0], s, t) + m[0][2], row_of(m[1], s, t) + m[1][2], longer,
                                min_of(x_square, y_square), detail};

@@ -1,4 +1,4 @@
-// camera_words.c: parses cameras, and lists the named sides of a scene.
+// camera_words.c: parses descriptions of cameras, and lists the named sides of a scene.
 #include <lambent/camera.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// light_words.c: parses lights.
+// light_words.c: parses descriptions of lights: lists of key=value pairs.
 #include <lambent/words.h>
 
 #include <stdio.h>
@@ -10,8 +10,8 @@
 #include "up_axis.h"
 #include "word_values.h"
 
-// Numbers of the keys. The number of a field is its index in the table of lam_light_field (the first row of its key);
-// these numbers follow.
+// The numbers of the keys. A key that is a field has the index of its first row in the table of lam_light_field. The
+// keys below follow the fields.
 enum { TARGET = LAM_FIELDS_MAX, COLOR, INTENSITY, FRAME, NAME, KEYS };
 _Static_assert((int)KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
@@ -92,8 +92,8 @@ static bool seen(const struct parser *parser, const char *name) { return key_see
 
 // --- values of keys
 
-// Parses a point in the model's units, or in radii of its sphere (a 0 needs no r). If `w` is NULL, it expects exactly
-// three numbers.
+// Parses a point in the model's units, or in radii of the model's bounding sphere (a coordinate of 0 needs no r). If
+// `w` is NULL, the point must consist of exactly three numbers.
 static bool point_for(const char *key, const char *value, lam_vec3 *out, bool *in_radii, double *w, lam_error *error)
 {
     double numbers[4];
@@ -149,8 +149,8 @@ static bool read_range(const char *value, struct parser *parser, lam_error *erro
     return true;
 }
 
-// Parses the radius of a sphere, or the angular radius of a disc in degrees. The last key determines which of the two
-// it is.
+// Parses the radius of a sphere, or the angular radius of a disc in degrees. set_size decides between the two when all
+// keys are known.
 static bool read_size(const char *value, struct parser *parser, lam_error *error)
 {
     double *number = parser->numbers[field_index("radius")];
@@ -248,7 +248,8 @@ static bool read_pair(struct parser *parser, char *pair, lam_error *error)
 
 // --- making the light from its values
 
-// Sets a colour that has no key of its own.
+// Multiplies the colour `name` of the light by a factor. If `by_color` is set and the text does not set this colour,
+// the value of the key `color` replaces it first.
 static void set_color(struct parser *parser, const char *name, bool by_color, double factor)
 {
     lam_light *light = &parser->light;
@@ -313,7 +314,7 @@ static bool set_cone(struct parser *parser, lam_error *error)
     return true;
 }
 
-// Sets position and direction; w = 0 and directional lights have special rules.
+// Sets the position and the direction. Special rules apply to directional lights and to positions with w = 0.
 static bool set_place(struct parser *parser, lam_error *error)
 {
     lam_light *light = &parser->light;
@@ -420,7 +421,7 @@ static int find_object(const lam_scene *scene, const char *name, lam_error *erro
     return -1;
 }
 
-// Gets the sphere in the light's frame.
+// Gets the model's bounding sphere in the light's frame.
 static bool sphere_in_frame(const lam_light *light, const lam_light_text_params *params, const lam_scene *scene,
                             struct sphere *out, lam_error *error)
 {
@@ -441,8 +442,8 @@ static bool sphere_in_frame(const lam_light *light, const lam_light_text_params 
     return true;
 }
 
-// Rotates a default, defined for y up, to the axes of the scene, so that a light in the world frame is in front of the
-// model for every up axis.
+// Rotates a default direction or position, which is defined for y up, to the axes of the scene. A light in the world
+// frame is then in front of the model for every up axis.
 static lam_vec3 turned(const lam_light *light, const lam_scene *scene, lam_vec3 v)
 {
     return light->frame == LAM_FRAME_WORLD || light->frame == LAM_FRAME_MODEL ? from_y_up(lam_scene_up(scene), v) : v;

@@ -1,4 +1,4 @@
-// material_words.c: parses materials.
+// material_words.c: parses descriptions of materials.
 #include <lambent/words.h>
 
 #include <string.h>
@@ -9,12 +9,12 @@
 #include "spelling.h"
 #include "word_values.h"
 
-// Numbers of the keys: first the fields, by their index in the table of lam_material_field; then a factor for each
-// field (the factors of colours are named ka, kd, ks and kr); then the shorthands.
+// The numbers of the keys: first the fields, by their index in the table of lam_material_field, then a factor for each
+// field, then the shorthands. The factors of colours are named ka, kd, ks and kr.
 enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
 _Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
-// Names that the classic table lacks, and their words.
+// Names of materials that are not in the table of classic materials, and the descriptions that define them.
 static const struct {
     const char *name, *words;
 } others[] = {{"glass", "white,roughness=0,transmission=1"}};
@@ -22,10 +22,10 @@ static const struct {
 enum { OTHERS = sizeof others / sizeof *others };
 
 struct parser {
-    lam_material_id id; // a named material, or LAM_MATERIAL_COUNT if none is given
-    const char *words;  // the words of one of `others`, or NULL
+    lam_material_id id; // a named material, or LAM_MATERIAL_COUNT if the text names none
+    const char *words;  // the description of one of `others`, or NULL
     bool given[MATERIAL_KEYS];
-    bool ambient_is_diffuse; // whether ambient=diffuse was given
+    bool ambient_is_diffuse; // whether the text contains ambient=diffuse
     double numbers[MATERIAL_KEYS][4];
 };
 
@@ -33,7 +33,7 @@ static bool given(const struct parser *parser, int key) { return parser->given[k
 
 static bool is_color(const lam_field *field) { return field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA; }
 
-// Colours that are shares of light have a symbol; emission has none.
+// Returns whether a field is a colour that scales light. Such fields have a symbol; the emission has none.
 static bool is_share(const lam_field *field) { return is_color(field) && field->symbol; }
 
 static int factor_of(int field) { return LAM_FIELDS_MAX + field; }
@@ -57,7 +57,7 @@ const char *lam_material_key(int index)
     return NULL;
 }
 
-// Flags may omit their value.
+// Returns whether a key is a flag. The value of a flag may be omitted.
 static bool is_flag(const char *name, size_t length)
 {
     for (int i = 0; lam_material_field(i); i++) {
@@ -94,8 +94,8 @@ static bool read_pair(char *pair, lam_color_mode mode, struct parser *parser, la
     return word_field(&color, value, mode, parser->numbers[key], error);
 }
 
-// Detects a colour without a key: #rrggbb, r/g/b or a name. A single number is more likely a value whose key was
-// forgotten.
+// Detects a colour without a key: #rrggbb, r/g/b or a name. A single number is not treated as a colour, because it is
+// more likely a value whose key was forgotten.
 static bool is_color_alone(const char *word, lam_color_mode mode)
 {
     lam_rgba color;
@@ -168,7 +168,7 @@ static lam_material apply(const struct parser *parser, lam_color_mode mode, lam_
             material_note_written(&m, i);
             word_set_field(lam_material_field(i), &m, parser->numbers[i]);
             if (strcmp(lam_material_field(i)->key, "opacity") == 0 && m.alpha_mode == LAM_ALPHA_OPAQUE)
-                m.alpha_mode = LAM_ALPHA_BLEND; // an opaque material would ignore it
+                m.alpha_mode = LAM_ALPHA_BLEND; // an opaque material would ignore the alpha
         }
     for (int i = 0; lam_material_field(i); i++)
         if (given(parser, factor_of(i)))

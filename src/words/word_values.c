@@ -1,4 +1,4 @@
-// word_values.c: parses the values of pairs key=value.
+// word_values.c: parses the values of key=value pairs.
 #include "word_values.h"
 
 #include <stdio.h>

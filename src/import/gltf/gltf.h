@@ -4,8 +4,9 @@
 // gltf_views.c, gltf_meshopt.c) and typed arrays in them (gltf_accessors.c, gltf_numbers.c). The arrays become meshes
 // (gltf_primitives.c, gltf_triangles.c, gltf_draco.c). The tree of nodes (gltf_nodes.c) places the meshes
 // (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_cameras.c). Materials (gltf_materials.c) read
-// textures, whose pictures are decoded together (gltf_textures.c). An animation sets the nodes (gltf_animation.c)
-// first; morph targets and skins (gltf_deform.c, gltf_skins.c) give a mesh positions of its own.
+// textures, whose pictures are decoded together (gltf_textures.c). Before the nodes are placed, an animation sets their
+// transforms (gltf_animation.c). For morph targets and skins (gltf_deform.c, gltf_skins.c), a mesh gets its own copy of
+// the positions.
 //
 // Every count and index of the file is checked on reading, and an error names its position: "ship.gltf:
 // meshes[3].primitives[0].attributes.POSITION: found 12, …". Section numbers refer to the specification,
@@ -16,19 +17,19 @@
 #include "importer.h"
 #include "json_reader.h"
 
-// A buffer: the file's own bytes, a file beside it, or a data URI. It is read on first use.
+// A buffer: the file's own bytes, a file beside it, or a data URI. The buffer is read on first use.
 struct gltf_buffer {
     const uint8_t *data; // NULL if not read yet
     size_t size;
-    struct file_bytes file; // the owner of `data`, unless that is the model file itself
-    bool kept;              // the scene's arrays point into it
+    struct file_bytes file; // the owner of `data`, unless the model file owns it
+    bool kept;              // the scene's arrays point into the buffer
 };
 
 // A bufferView: a range of a buffer's bytes.
 struct gltf_view {
     const uint8_t *data; // NULL if not read yet
     size_t size, stride; // stride 0: the elements are contiguous
-    int buffer;          // −1 if there is none; the bytes were decoded into the scene's memory
+    int buffer;          // −1 if the bytes were decoded into the scene's memory
 };
 
 // componentType (section 3.6.2.2).
@@ -46,7 +47,7 @@ struct gltf_accessor {
     int width;           // numbers per element
     const char *type;    // "VEC3"
     bool normalized;
-    // Elements that replace others (sparse accessors, section 3.6.2.3).
+    // Elements that replace elements of `data` (sparse accessors, section 3.6.2.3).
     size_t sparse_count;
     int sparse_component;
     const uint8_t *sparse_indices, *sparse_values;
@@ -54,7 +55,7 @@ struct gltf_accessor {
     const float *floats[2];  // `width` per element; [0]: kept until the load ends, [1]: kept as long as the scene
     const uint32_t *indices; // one per element
     uint32_t max_index;
-    const void *colors[2]; // the colours in a format of lam_mesh; the second array has an alpha of 1
+    const void *colors[2]; // the colours in a format of lam_mesh; in the second array, alpha is 1
 };
 
 struct gltf {
@@ -63,7 +64,7 @@ struct gltf {
     struct arena *scratch; // freed after the load
     struct json_reader json;
     json_t *root;
-    size_t json_bytes;     // charged to the call for `root`
+    size_t json_bytes;     // size of the memory of `root`, charged to the call
     const uint8_t *binary; // the .glb's BIN chunk, or NULL
     size_t binary_size;
     bool source_kept; // the scene's arrays point into the model file's own bytes
@@ -71,26 +72,29 @@ struct gltf {
     struct gltf_buffer *buffers;
     struct gltf_view *views;
     struct gltf_accessor *accessors;
-    void *meshopt;        // the library, once a view needs it; NULL if not opened
-    void *draco;          // the module, once a primitive needs it; NULL if not opened
+    void *meshopt;        // the library, opened when a bufferView needs it; NULL until then
+    void *draco;          // the module, opened when a primitive needs it; NULL until then
     int first_material;   // index in the scene of the file's first material
-    int default_material; // used by primitives that name none; −1 if not made yet
+    int default_material; // index in the scene, for primitives that name no material; −1 if not created yet
     int variant;          // the requested variant, or −1
-    size_t cut_factors;   // numbers outside the standard's range (gltf_take_factors), and the first of them
+    // the number of clamped factors (gltf_take_factors); the next members describe the first clamped factor
+    size_t cut_factors;
     char cut_factor[160];
     double cut_from, cut_to;
 
-    lam_file_image *file_images;   // one for each image (gltf_file_info.h)
-    struct gltf_picture *pictures; // gltf_textures.h: two for each of the file's images
+    lam_file_image *file_images;   // one element for each image (gltf_file_info.h)
+    struct gltf_picture *pictures; // gltf_textures.h: two for each image of the file
     struct gltf_map *maps;         // the maps of materials, latest first
-    int (*texcoord_sets)[2];       // for each material, the file's sets used as its first and second set; −1 if unused
+    // for each material, the file's texture coordinate sets that are its first and second set; −1 if unused
+    int (*texcoord_sets)[2];
 
     struct gltf_node *nodes; // gltf_nodes.h
     int node_count;
     const int *node_order;    // parents before children, children in the file's order
     struct gltf_mesh *meshes; // gltf_primitives.h
 
-    // Skipped primitives: for one warning of each kind, and for the error of a file that contains nothing else.
+    // The numbers of skipped primitives: for one warning of each kind, and for the error if a file contains no other
+    // primitives.
     size_t without_positions, flattened;
     uint64_t morphed; // morphed vertices, counted once per target
 };

@@ -22,7 +22,7 @@ static bool read_perspective(struct gltf *gltf, const struct place *place, const
                          near_plane);
     camera->fovy_rad = yfov;
     camera->near_plane = near_plane;
-    camera->far_plane = far_plane; // 0 if zfar is missing; lam_scene_camera then fits the plane
+    camera->far_plane = far_plane; // 0 if zfar is missing; lam_scene_camera then fits the far plane to the scene
     return true;
 }
 

@@ -37,7 +37,7 @@ static const struct {
     {"KHR_node_visibility", READ},
     {"KHR_materials_diffuse_transmission", IGNORED},
     {"KHR_materials_dispersion", IGNORED},
-    {"KHR_texture_basisu", SILENT}, // its textures have a fallback picture, or the load fails
+    {"KHR_texture_basisu", SILENT}, // textures with this extension have a fallback picture, or the load fails
     {"KHR_texture_transform", READ},
     {"KHR_xmp", SILENT},
     {"KHR_xmp_json_ld", SILENT},
@@ -77,7 +77,7 @@ bool gltf_check_asset(struct gltf *gltf)
     if (version[0] != 2)
         return fail(gltf->json.error, LAM_UNSUPPORTED, "%s: asset.version: this is glTF %d.%d, expected version 2",
                     gltf->source->name, version[0], version[1]);
-    // A file of version 2.1 that does not require more is read as 2.0 (section 3.2).
+    // A file of version 2.1 is read as 2.0, unless minVersion requires a later version (section 3.2).
     if (minimum[0] != 2 || minimum[1] > 0)
         return fail(gltf->json.error, LAM_UNSUPPORTED,
                     "%s: asset.minVersion: the file needs glTF %d.%d, expected at most 2.0", gltf->source->name,
@@ -85,7 +85,8 @@ bool gltf_check_asset(struct gltf *gltf)
     return true;
 }
 
-// Returns a list of strings, or NULL if it is missing or, with *ok false, wrong.
+// Returns the list of strings under `key`. Returns NULL if the key is missing; if its value is wrong, also sets *ok to
+// false.
 static const json_t *take_names(struct gltf *gltf, const char *key, bool *ok)
 {
     const json_t *list = json_object_get(gltf->root, key);

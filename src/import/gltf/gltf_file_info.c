@@ -9,7 +9,7 @@
 
 #define NEW(gltf, count, type) ((type *)arena_alloc_zeroed(&(gltf)->scene->arena, (size_t)(count) * sizeof(type)))
 
-// Copies a string; *out is NULL if there is none. Returns false if memory runs out.
+// Copies a string; *out is NULL if the key is missing or the string is empty. Returns false if memory runs out.
 static bool take(struct gltf *gltf, const json_t *object, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(object, key));
@@ -29,7 +29,7 @@ static bool take_names(struct gltf *gltf, const json_t *list, const char *const 
     return names;
 }
 
-// Returns the time of the last key of a channel's sampler, which its accessor must state.
+// Returns the time of the last keyframe of a channel's sampler: the maximum that the input accessor must declare.
 static double last_key(const struct gltf *gltf, const json_t *sampler)
 {
     const json_t *accessors = json_object_get(gltf->root, "accessors"), *input = json_object_get(sampler, "input");
@@ -103,7 +103,7 @@ static bool holds(const json_t *list, const char *name)
     return false;
 }
 
-// Both lists contain only strings: gltf_check_extensions checked them.
+// Both lists contain only strings, as gltf_check_extensions has checked.
 static bool take_extensions(struct gltf *gltf, lam_file_info *info)
 {
     const json_t *lists[2] = {json_object_get(gltf->root, "extensionsUsed"),

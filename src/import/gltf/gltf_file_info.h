@@ -4,8 +4,8 @@
 
 #include "gltf.h"
 
-// Stores the file's information in the scene; gltf_nodes_read stores the index of its scene. No buffers are read.
-// Returns false if memory runs out.
+// Stores the file's information in the scene; gltf_nodes_read stores the index of the selected scene. No buffers are
+// read. Returns false if memory runs out.
 bool gltf_file_info_note(struct gltf *gltf);
 
 #endif

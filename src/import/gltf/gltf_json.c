@@ -14,8 +14,8 @@ bool gltf_no_memory(struct gltf *gltf, size_t bytes)
     return call_memory_error(gltf->source->call, bytes, gltf->json.error);
 }
 
-// Returns the bytes that Jansson needs for the text: for each value, which follows one of these characters, and for the
-// strings.
+// Estimates the memory in bytes that Jansson needs for the text. Every value follows one of the counted characters, and
+// the strings are at most as long as the text.
 static size_t tree_bytes(const uint8_t *text, size_t size)
 {
     enum { BYTES_OF_A_VALUE = 96 };

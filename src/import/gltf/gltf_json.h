@@ -8,47 +8,48 @@
 bool gltf_json_parse(struct gltf *gltf, const uint8_t *text, size_t size);
 void gltf_json_free(struct gltf *gltf);
 
-// Return the length of a list of the file ("accessors"), and one of its elements.
+// These functions return the length of a top-level list of the file ("accessors"), and one of its elements.
 size_t gltf_list_size(const struct gltf *gltf, const char *list);
 const json_t *gltf_list_item(const struct gltf *gltf, const char *list, int index);
 
-// Returns the extension of an object, or NULL if it does not have it.
+// Returns the extension with this name of an object, or NULL if the object does not use it.
 const json_t *gltf_extension(const json_t *object, const char *name);
 
 // Gets a whole number in [min, max]. *out is unchanged if the key is missing. Returns false if the value is wrong.
 bool gltf_take_whole(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, double min,
                      double max, size_t *out);
-// Gets an index into a list of the file; −1 if the key is missing.
+// Gets an index into a top-level list of the file. *index is −1 if the key is missing.
 bool gltf_take_index(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                      const char *list, int *index);
-// Does the same for a value without a key.
+// Like gltf_take_index, for a value without a key.
 bool gltf_index_of(struct gltf *gltf, const struct place *place, const json_t *value, const char *list, int *index);
 
 // Gets `count` numbers. *out is unchanged if the key is missing.
 bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double *out);
 
-// Gets a factor of `count` numbers with a range in the standard. Numbers outside min…max are clamped, and the file gets
-// one warning if the difference exceeds rounding.
+// Gets a factor of `count` numbers whose range the standard limits. Numbers outside [min, max] are clamped. If a number
+// lies outside by more than a rounding error, the file causes one warning.
 bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double min, double max, double *out);
 
 // Gets the weights of morph targets; *out is NULL if there are none.
 bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_t *object, double **out, size_t *count);
 
-// Returns the value of the key, which must be an object (or a list of objects). Returns NULL if it is missing or, with
-// *ok false, wrong.
+// These functions return the value of a key, which must be an object, or a list of objects. They return NULL if the key
+// is missing. If the value is wrong, they also set *ok to false.
 const json_t *gltf_take_object(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                                bool *ok);
 const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                              bool *ok);
 
-// Returns the name of an object, copied into the scene. Returns NULL if it has none, or memory runs out (*ok becomes
-// false).
+// Returns the name of an object, copied into the scene. Returns NULL if the object has no name, or if memory runs out
+// (*ok becomes false).
 const char *gltf_name(struct gltf *gltf, const json_t *object, bool *ok);
 
-// Returns the index of the element of a list (NULL means an empty one) that the caller requests by its name, or else by
-// its index. Returns −1 with an error that lists the elements; `what` is the noun for one.
+// Returns the index of the element of `list` (NULL means empty) whose name is `wanted`; if there is none, `wanted` may
+// also be an index. If neither exists, returns −1 with an error that lists the elements; `what` is the noun for an
+// element.
 int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, const char *what);
 
 #endif

@@ -9,7 +9,7 @@
 static const struct json_choice type_words[] = {
     {"directional", LAM_LIGHT_DIRECTIONAL}, {"point", LAM_LIGHT_POINT}, {"spot", LAM_LIGHT_SPOT}, {NULL, 0}};
 
-// Gets the cone: half angles, clamped to 0 ≤ inner < outer ≤ 90°.
+// Gets the half angles of the cone, clamped to 0 ≤ inner < outer ≤ 90°.
 static bool take_cone(struct gltf *gltf, const struct place *place, const json_t *object, lam_light *light)
 {
     double inner = 0, outer = PI / 4;
@@ -41,8 +41,8 @@ static bool read_light(struct gltf *gltf, const struct place *place, const json_
         !json_take_number(&gltf->json, place, object, "range", -1e30, 1e30, &range))
         return false;
     *light = lam_light_default((lam_light_type)type);
-    // Intensities are candela and lux: in glTF, a white Lambertian surface returns 1/π of the light; here it returns
-    // all of it.
+    // glTF gives intensities in candela and lux, and a white Lambertian surface reflects 1/π of the light; in Lambent
+    // it reflects all of the light.
     light->diffuse = (lam_rgb){channel(color[0] * intensity / PI), channel(color[1] * intensity / PI),
                                channel(color[2] * intensity / PI)};
     light->specular = light->diffuse;

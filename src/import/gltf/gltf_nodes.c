@@ -44,7 +44,7 @@ static bool read_node(struct gltf *gltf, const struct place *place, const json_t
         return false;
     gltf_unit_quaternion(node->rotation);
     const double *m = node->matrix;
-    // Rounded numbers are accepted; gltf_nodes_place sets the exact ones.
+    // Rounded numbers in the last row are accepted; gltf_nodes_place sets the row to exactly 0 0 0 1.
     bool affine = m[3] * m[3] + m[7] * m[7] + m[11] * m[11] + (m[15] - 1) * (m[15] - 1) < 1e-10;
     if (node->has_matrix && !affine)
         return json_fail(&gltf->json, KEY_OF(place, "matrix"), "its last row is %.6g %.6g %.6g %.6g, expected 0 0 0 1",
@@ -52,7 +52,7 @@ static bool read_node(struct gltf *gltf, const struct place *place, const json_t
     return true;
 }
 
-// Sets the parents of a list of children.
+// Sets `parent` as the parent of each node in its list of children.
 static bool read_children(struct gltf *gltf, int parent)
 {
     const json_t *object = gltf_list_item(gltf, "nodes", parent), *list = json_object_get(object, "children");
@@ -72,7 +72,7 @@ static bool read_children(struct gltf *gltf, int parent)
     return true;
 }
 
-// Sets node_order: depth first, roots in the file's order. Nodes that no root reaches form a cycle.
+// Sets node_order: depth first, roots in the file's order. Nodes that are not reached from any root form a cycle.
 static bool order_nodes(struct gltf *gltf)
 {
     size_t count = (size_t)gltf->node_count;
@@ -102,8 +102,9 @@ static bool order_nodes(struct gltf *gltf)
     return true;
 }
 
-// Marks the roots of the requested scene: the caller's, else the file's default, else the first. A file without scenes
-// is drawn as a whole. Some files list nodes that are not roots; these nodes are placed by their parents.
+// Marks the roots of the scene to draw: the scene that the caller requests, otherwise the file's default scene,
+// otherwise the first scene. If a file contains no scenes, all of its nodes are drawn. Some files list nodes that are
+// not roots; the parents of such nodes still determine their transforms.
 static bool mark_roots(struct gltf *gltf)
 {
     const char *wanted = gltf->source->params->scene;

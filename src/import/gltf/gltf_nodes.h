@@ -12,9 +12,9 @@ struct gltf_node {
     double translation[3], rotation[4], scale[3];
     double *weights; // weights of morph targets; NULL means the mesh's weights
     size_t weight_count;
-    bool visible;   // KHR_node_visibility, of the node and all its ancestors
-    bool in_scene;  // part of the scene that is drawn
-    lam_mat4 world; // transform to the file's space
+    bool visible;   // KHR_node_visibility: the node and all its ancestors are visible
+    bool in_scene;  // the node belongs to the scene that is drawn
+    lam_mat4 world; // transform from the node's space to the file's space
 };
 
 // Reads all nodes, checks that they form trees, and marks the nodes of the requested scene.

@@ -11,8 +11,8 @@
 
 #include "linear.h"
 
-// Adds the primitives of a mesh with a transform. A singular transform, which flattens space to a line or a point,
-// shows nothing.
+// Adds the primitives of a mesh with a transform. If the transform flattens space to a line or a point, the primitives
+// are invisible and are not added.
 static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char *name, const lam_mat4 *transform)
 {
     double cofactors[3][3], determinant = mat4_determinant3(transform);
@@ -42,13 +42,13 @@ static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char
     return true;
 }
 
-// A node's instances: arrays with 3, 4 and 3 numbers for each. NULL means that the attribute is missing.
+// A node's instances: arrays with 3, 4 and 3 numbers for each instance. NULL means that the attribute is missing.
 struct instances {
     const float *translation, *rotation, *scale;
     size_t count;
 };
 
-// Returns whether all instances are within the call's limits; nothing is made before that.
+// Returns whether all instances are within the call's limits, before any of them is created.
 static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, size_t count)
 {
     struct call_control *call = gltf->source->call;
@@ -67,11 +67,11 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
         return false;
     if (!call_charge(call, objects * sizeof(lam_object)))
         return gltf_no_memory(gltf, objects * sizeof(lam_object));
-    call_refund(call, objects * sizeof(lam_object)); // each object is charged when it is made
+    call_refund(call, objects * sizeof(lam_object)); // each object is charged again when it is created
     return true;
 }
 
-// Returns false if the call must stop. The clock is read once per this many objects.
+// Returns false if the call is cancelled or out of time. This is checked once per 1024 objects.
 static bool continues(struct gltf *gltf, size_t number)
 {
     struct call_control *call = gltf->source->call;

@@ -4,7 +4,7 @@
 
 #include "gltf.h"
 
-// Adds an object for each primitive of each node of the scene that has a mesh, and for each of its instances
+// Adds objects for the scene's nodes with meshes: one for each primitive of each node, or of each instance of the node
 // (EXT_mesh_gpu_instancing).
 bool gltf_objects_add(struct gltf *gltf);
 

@@ -1,5 +1,5 @@
-// byte_masks.h: bit masks of the line ends, white space and special characters in 64 bytes of text. It uses SSE2 if the
-// compiler has it; the scalar version returns the same masks.
+// byte_masks.h: bit masks of the line ends, white space and special characters in 64 bytes of text. The masks are
+// computed with SSE2 if the compiler targets it. The scalar version returns the same masks.
 #ifndef BYTE_MASKS_H
 #define BYTE_MASKS_H
 
@@ -14,12 +14,13 @@
 // Bit i represents byte i.
 struct byte_masks {
     uint64_t newline; // '\n'
-    uint64_t white;   // all bytes up to the space, '\n' included
+    uint64_t white;   // all bytes up to the code of the space, including '\n'
     uint64_t slash;   // '/'
     uint64_t special; // '#' or '\\'
 };
 
-// Counts the set bits. Without the instruction, the compiler's builtin calls a function with a lookup table.
+// Counts the set bits. The builtin is used only if the processor has an instruction for it; otherwise it would call a
+// function with a lookup table.
 static inline unsigned byte_masks_count(uint64_t bits)
 {
 #if defined(__POPCNT__) || defined(__aarch64__)

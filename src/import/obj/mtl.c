@@ -23,15 +23,15 @@ struct reader {
     // The current material, and the statements that were read for it.
     lam_material material;
     bool open, ka, kd, d;
-    const uint8_t *opacity, *exponent; // the statements with d or Tr, and with Ns, or NULL
-    // The first occurrence of each kind that is warned of once per file: unknown statements, and statements before the
-    // first newmtl.
+    const uint8_t *opacity, *exponent; // the positions of the statement d or Tr, and of Ns; NULL if missing
+    // The first occurrence of each problem that is reported once per file: unknown statements, and statements before
+    // the first newmtl.
     const uint8_t *unknown, *stray, *wide; // wide: highlights with the exponent 0
     size_t unknown_count, stray_count, wide_count;
 };
 
-// Returns the line number of `at`, for warnings. It continues counting from the previous call, so that many warnings
-// take one pass over the file.
+// Returns the line number of `at`, for warnings. Counting continues from the previous call, so that many warnings need
+// only one pass over the file.
 static size_t line_of(struct reader *reader, const uint8_t *at)
 {
     if (at < reader->counted_to || !reader->counted_to) {
@@ -63,7 +63,7 @@ static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t 
     return -1;
 }
 
-// Clamps a number to a range, with a warning if it is outside.
+// Clamps a number to a range, and warns if the number is outside this range.
 static float within(struct reader *reader, const uint8_t *at, float x, float low, float high, const char *what)
 {
     if (x >= low && x <= high)
@@ -74,13 +74,13 @@ static float within(struct reader *reader, const uint8_t *at, float x, float low
     return to;
 }
 
-// Returns a channel as linear light. Values of 1 or more, outside the sRGB curve, are unchanged.
+// Returns a channel as linear light. Values of 1 or more are not changed, because the sRGB curve ends at 1.
 static float linear(const struct reader *reader, float c)
 {
     return reader->raw || c >= 1 ? c : (float)srgb_linear((double)c);
 }
 
-// Reads K… r [g b]; a single number sets all three channels. Returns false if the statement is ignored, with a warning.
+// Reads K… r [g b]; a single number sets all three channels. If the statement must be ignored, warns and returns false.
 static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)
 {
     at = text_skip_white(at, end);
@@ -103,8 +103,8 @@ static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *
 
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// Replaces the colour of a material whose colours are all 0: by white if a texture supplies the colour, otherwise by
-// the neutral grey, with a warning, since exporters write such materials by mistake.
+// Replaces the colour of a material whose colours are all 0, because exporters write such materials by mistake. The new
+// colour is white if a texture supplies the colour. Otherwise it is the neutral grey, with a warning.
 static void replace_black(struct reader *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
@@ -125,7 +125,7 @@ static void replace_black(struct reader *reader, lam_material *m)
 static void note_clear(struct reader *reader)
 {
     char shown[SHOWN_NAME_SIZE];
-    // position of the first one
+    // the line of the statement, which only the first warning needs
     size_t line = reader->scene->clear_materials ? 0 : text_line(reader->begin, reader->opacity);
     scene_note_clear(reader->scene, "%s:%zu: material '%s' is fully transparent (%s)", reader->name, line,
                      shown_name(reader->material.name, shown), reader->d ? "d 0" : "Tr 1");
@@ -154,7 +154,7 @@ static bool close_material(struct reader *reader, lam_error *error)
         m->diffuse.r = m->diffuse.g = m->diffuse.b = 1;
     if (!reader->ka)
         m->ambient = (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b};
-    if (m->illum == 0) { // the unlit colour
+    if (m->illum == 0) { // unlit: the surface emits its colour
         m->emission =
             (lam_rgb){m->emission.r + m->diffuse.r, m->emission.g + m->diffuse.g, m->emission.b + m->diffuse.b};
         m->diffuse.r = m->diffuse.g = m->diffuse.b = 0;
@@ -195,7 +195,7 @@ static const uint8_t *skip_options(const uint8_t *at, const uint8_t *end)
 {
     static const struct {
         const char *word;
-        int min, max; // number of arguments; optional ones must be numbers
+        int min, max; // the number of arguments; optional arguments must be numbers
     } options[] = {
         {"-blendu", 1, 1}, {"-blendv", 1, 1},     {"-boost", 1, 1},   {"-bm", 1, 1},   {"-cc", 1, 1},
         {"-clamp", 1, 1},  {"-colorspace", 1, 1}, {"-imfchan", 1, 1}, {"-mm", 2, 2},   {"-o", 1, 3},
@@ -244,7 +244,7 @@ enum statement {
     TR,
     ILLUM,
     MAP,                           // MAP + enum lam_map
-    NOTHING = MAP + LAM_MAP_COUNT, // known, but not supported by the classic models
+    NOTHING = MAP + LAM_MAP_COUNT, // a known statement that the classic models do not support
     OTHER_MAP,
     UNKNOWN,
     FIELD, // FIELD + the index of the material's field that the statement sets
@@ -273,8 +273,8 @@ static const struct {
     {"map_refl", MAP + LAM_MAP_REFLECTION},
     {"map_pm", MAP + LAM_MAP_METALLIC},
     {"map_pr", MAP + LAM_MAP_ROUGHNESS},
-    // Statements for refraction, the transmission filter and the sharpness of reflections, and extensions of physically
-    // based programs.
+    // Statements for refraction, for the transmission filter, for the sharpness of reflections, and for physically
+    // based materials.
     {"ni", NOTHING},
     {"tf", NOTHING},
     {"kt", NOTHING},
@@ -326,7 +326,7 @@ static void read_material_field(struct reader *reader, int index, const uint8_t 
     }
     lam_field_set(field, m, numbers);
     material_note_written(m, index);
-    if (field->offset == offsetof(lam_material, ambient)) // exporters write 1 1 1 by default
+    if (field->offset == offsetof(lam_material, ambient)) // Ka 1 1 1 is ignored, because exporters write it by default
         reader->ka = !(numbers[0] == 1 && numbers[1] == 1 && numbers[2] == 1);
     reader->kd |= field->offset == offsetof(lam_material, diffuse);
     reader->d |= field->offset == offsetof(lam_material, diffuse.a);

@@ -13,7 +13,7 @@ struct mtl_set {
 };
 
 // Reads a file's materials into the scene and the set; duplicate names are ignored. Errors in the file become warnings:
-// the call fails only if memory runs out or it is cancelled.
+// the function fails only if memory runs out or the call is cancelled.
 bool mtl_read(struct mtl_set *set, const struct import_source *source, struct lam_scene *scene,
               const struct companion *library, lam_error *error);
 

@@ -45,7 +45,7 @@ struct options {
     int slot;
 };
 
-enum { OPTION_MAX = 1000000 }; // larger texture coordinates have no digits left to select a texel
+enum { OPTION_MAX = 1000000 }; // larger texture coordinates are too imprecise to select a texel
 
 static void warn_option(const struct options *o, const char *found, const char *expected)
 {
@@ -69,7 +69,7 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
-// Reads numbers that affect the map. If one is out of range, all are ignored with a warning.
+// Reads numbers that affect the map. If a number is out of range, warns and ignores all numbers of the option.
 static int take_checked(struct options *o, float *out, int most)
 {
     float numbers[3];
@@ -110,7 +110,7 @@ static bool take_channel(struct options *o, int *channel)
     return known;
 }
 
-// In MTL, t points up; -s and -o apply before the flip.
+// In MTL, t points up. The options -s and -o apply before t is flipped.
 static void set_transform(lam_texture_map *map, const float scale[2], const float offset[2])
 {
     const float m[2][3] = {{scale[0], 0, offset[0]}, {0, -scale[1], 1 - offset[1]}};
@@ -201,12 +201,12 @@ static bool add_map(struct lam_scene *scene, const char *file, lam_material *mat
     // The opacity of a picture is its alpha, or its grey value if it has no alpha.
     if (slot == LAM_MAP_OPACITY && !channel_given)
         map->channel = picture->texture->opaque ? 0 : 3;
-    bool nothing = map->scale == 0 && map->offset == 0; // a scale of 0 would mean 1
+    bool nothing = map->scale == 0 && map->offset == 0; // lam_texture_map interprets a scale of 0 as 1
     if (nothing || (slot == LAM_MAP_OPACITY && map->channel == 3 && is_own_alpha(material)))
         return true; // the alpha of the diffuse map is already used
     material->maps[slot] = map;
     if (slot == LAM_MAP_DIFFUSE && material->illum == 0 && !material->map_names[LAM_MAP_EMISSION])
-        material->maps[LAM_MAP_EMISSION] = map; // the unlit colour
+        material->maps[LAM_MAP_EMISSION] = map; // unlit: the surface emits the map's colour
     return scene_share_texture(scene, picture->texture, error);
 }
 

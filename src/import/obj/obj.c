@@ -48,7 +48,7 @@ static int obj_probe(const uint8_t *bytes, size_t size)
     }
     if (unknown == 0)
         return typical ? 2 : known > 0 || comments;
-    return typical && known > unknown; // an unknown statement among known ones
+    return typical && known > unknown; // possibly OBJ: unknown statements among known statements
 }
 
 // --- reading

@@ -8,11 +8,11 @@
 //   obj_strokes.c              lines and points
 //   obj_libraries.c, mtl.c     material files
 //   obj_mesh.c                 the scene's mesh
-//   obj_stream.c               large files on disk: one pass, piece by piece
+//   obj_stream.c               large files on disk: one pass, chunk by chunk
 //
 // The file is split at line ends into chunks of about OBJ_CHUNK bytes, and each pass processes the chunks in parallel.
-// Pass one counts the elements of each chunk; prefix sums of the counts give each chunk's first index in every array,
-// so that pass two writes each number to its final position. The result does not depend on the number of threads.
+// Pass one counts the elements of each chunk. Prefix sums of the counts are each chunk's first index in every array, so
+// pass two can write each number to its final position. The result does not depend on the number of threads.
 #ifndef OBJ_H
 #define OBJ_H
 
@@ -23,7 +23,7 @@
 enum {
     OBJ_CHUNK = 256 << 10,    // bytes: about a hundred microseconds of work
     OBJ_MISSING = UINT32_MAX, // a corner without this attribute
-    OBJ_LIBRARIES_MAX = 256,  // the most names of material files that are tried
+    OBJ_LIBRARIES_MAX = 256,  // the maximum number of material files that are opened
 };
 
 // Kinds of statements.
@@ -39,19 +39,20 @@ enum obj_kind {
 struct obj_counts {
     uint64_t positions, texcoords, normals;
     uint64_t triangles, polygons; // polygons: faces with more than three corners
-    uint64_t others;              // statements of OBJ_OTHER
+    uint64_t others;              // number of statements of kind OBJ_OTHER
 };
 
 struct obj_chunk {
     const uint8_t *begin, *end; // complete lines
-    // The elements in this chunk. While a stream is parsed (obj_stream.c), the capacity of its arrays.
+    // The number of elements of each kind in this chunk. While obj_stream.c parses the chunk, these are the capacities
+    // of its arrays instead.
     struct obj_counts counts;
     struct obj_counts before; // elements in all previous chunks
     // Pass one: whether a vertex has a colour, and whether the text contains a '/'.
     bool colors, slashes;
-    // Pass two. Bounding box of the positions; low > high if there are none.
+    // Pass two. Bounding box of the positions; low > high if there are no positions.
     float low[3], high[3];
-    double low_exact[3], high_exact[3]; // the same bounds in double, if an origin is needed
+    double low_exact[3], high_exact[3]; // the same bounds as doubles, set only if an origin is needed
     float brightest;                    // the largest colour channel
     // Whether some corners have, or lack, a texture coordinate or a normal.
     bool texcoord_used, texcoord_missing, normal_used, normal_missing;
@@ -59,7 +60,7 @@ struct obj_chunk {
     bool texcoord_unknown, normal_unknown;
     uint64_t short_faces;                              // the number of faces with one or two corners
     uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
-    const uint8_t *first_short_face, *first_nonfinite; // the first of each
+    const uint8_t *first_short_face, *first_nonfinite; // the first such face, and the first such vector
 };
 
 // A statement of OBJ_OTHER, and the numbers of triangles, positions and texture coordinates before it.
@@ -82,8 +83,8 @@ struct obj_strokes {
 // The material files named so far.
 struct obj_libraries {
     struct name_table tried; // keys: confined names; values: 1 read, 0 missing
-    bool named, missing;     // whether any library was named, and whether some could not be opened or were skipped
-    bool left_out;           // there are more than OBJ_LIBRARIES_MAX
+    bool named, missing;     // the file names a library; some libraries could not be opened or were skipped
+    bool left_out;           // the file names more than OBJ_LIBRARIES_MAX libraries
 };
 
 struct obj {
@@ -107,7 +108,7 @@ struct obj {
     const uint8_t *inner_edges; // same as lam_mesh.inner_edges; NULL if not requested or there are no polygons
     lam_part *parts;
     uint32_t part_count;
-    const char *object_name;       // set if the file has exactly one object; else NULL
+    const char *object_name;       // the object's name if the file contains exactly one object; otherwise NULL
     struct obj_strokes strokes[2]; // points, lines
 
     double origin[3];
@@ -137,18 +138,18 @@ struct obj_reader {
     lam_error *error;
 };
 
-// obj_lines.c, compiled for several instruction sets: reads lines up to the first one with a continuation. Returns the
+// obj_lines.c, compiled for several instruction sets: reads lines up to the first line with a continuation. Returns the
 // start of the next line, at most `end`, or NULL on error.
 typedef const uint8_t *obj_lines_reader(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
 obj_lines_reader obj_read_lines_scalar, obj_read_lines_avx512;
 
-// obj_line.c. Reads one logical line of any kind and returns the start of the next, or NULL on error.
+// obj_line.c. Reads one logical line of any kind. Returns the start of the next line, or NULL on error.
 const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);
 // obj_parse.c
 bool obj_parse(struct obj *obj, lam_error *error); // pass two
-// Parses one chunk into the index ranges that its counts give. `error` may be NULL.
+// Parses one chunk. chunk->before and chunk->counts determine the index ranges of its elements. `error` may be NULL.
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error);
-// Chooses the origin; reads positions far from zero again, as doubles.
+// Chooses the origin. If the positions are far from zero, reads them again as doubles.
 bool obj_find_origin(struct obj *obj, lam_error *error);
 bool obj_convert_colors(struct obj *obj, lam_error *error);
 
@@ -159,16 +160,16 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 // obj_groups.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
 
-// obj_strokes.c. The first function returns the number of corners for a statement l (lines) or p, which is then
-// reserved along with the parts. Each statement is then read in turn, and finally both meshes are added to the scene.
-// `texcoords` are the texture coordinates of the file.
+// obj_strokes.c. obj_strokes_corners returns the number of corners of a statement l (`lines` is true) or p.
+// obj_strokes_reserve allocates the arrays of corners and parts, obj_strokes_read reads one statement, and
+// obj_strokes_add adds both meshes to the scene. `texcoords` are the texture coordinates of the file.
 size_t obj_strokes_corners(const struct obj *obj, const uint8_t *at, bool lines);
 bool obj_strokes_reserve(struct obj *obj, bool lines, size_t corners, size_t parts, lam_error *error);
 bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bool lines, lam_error *error);
 bool obj_strokes_add(struct obj *obj, const float *texcoords, lam_error *error);
 
-// obj_libraries.c. Reads the files of a mtllib statement at `at`: one name, possibly with spaces, or several names. A
-// file that cannot be opened is a warning.
+// obj_libraries.c. Reads the files of a mtllib statement at `at`: one name, possibly with spaces, or several names. If
+// a file cannot be opened, the function warns and continues.
 bool obj_read_libraries(struct obj *obj, const char *names, const uint8_t *at, lam_error *error);
 
 // obj_stream.c: the importer's load_stream.
@@ -190,7 +191,7 @@ static inline const uint8_t *obj_next_word(const uint8_t *at, const uint8_t *end
 {
     while (obj_white(*at)) // stops at the zero padding after the file
         at++;
-    // Digits, signs and '.' are above '#' in ASCII.
+    // In ASCII, digits, '-' and '.' have higher codes than '#', so most words take the fast path.
     return *at > '#' && *at != '\\' ? at : obj_next_word_slow(at, end);
 }
 
@@ -224,7 +225,7 @@ static inline const uint8_t *obj_skip_line(const uint8_t *at, const uint8_t *end
         while (at < end && !obj_at_word_end(at))
             at++;
         const uint8_t *next = obj_next_word(at, end);
-        at = next == at && !obj_at_line_end(at, end) ? at + 1 : next; // a zero byte
+        at = next == at && !obj_at_line_end(at, end) ? at + 1 : next; // skips a zero byte
     }
     return at < end ? at + 1 : end;
 }

@@ -21,7 +21,7 @@ static float *grow(struct obj *obj, const float *array, size_t count, size_t mor
     return larger;
 }
 
-// Gives (0, 0) to corners without texture coordinates.
+// Corners without texture coordinates get (0, 0).
 bool obj_complete_texcoords(struct obj *obj, lam_error *error)
 {
     bool used = false, missing = false;
@@ -56,8 +56,8 @@ static bool lacks_normal(const uint32_t *corners)
     return corners[0] == OBJ_MISSING || corners[1] == OBJ_MISSING || corners[2] == OBJ_MISSING;
 }
 
-// Computes smooth normals for the triangles that have a corner without a normal, from these triangles only, and appends
-// them to the file's normals.
+// Computes smooth normals for the triangles that have a corner without a normal, using only these triangles. Appends
+// these normals to the normals of the file.
 static bool make_missing_normals(struct obj *obj, lam_error *error)
 {
     const struct import_source *source = obj->source;
@@ -116,7 +116,7 @@ bool obj_complete_normals(struct obj *obj, lam_error *error)
     }
     if (used && missing && obj->source->params->normals == LAM_NORMALS_FILE)
         return make_missing_normals(obj, error);
-    if (!used || missing) { // the scene computes all normals
+    if (!used || missing) { // scene_prepare computes all normals
         obj->normals = NULL;
         obj->normal_indices = NULL;
         obj->total.normals = 0;

@@ -1,8 +1,8 @@
 // obj_groups.c: reads the statements between vertices and faces of an OBJ file, in file order: object, group, material,
 // smoothing group, material files, lines and points, and elements that are not drawn.
 //
-// A part is a range of triangles with the same object, group and material. Its name is "object/group", or the one of
-// the two that exists. A new object ends the group.
+// A part is a range of triangles with the same object, group and material. The part's name is "object/group"; if only
+// one of the two names exists, it is that name. A new object ends the group.
 #include "obj.h"
 
 #include "mtl_maps.h"
@@ -23,7 +23,7 @@ enum statement {
     LINES,
     POINTS,
     FREE_FORM, // curves and surfaces with their points and parameters
-    IGNORED,   // known, but without effect
+    IGNORED,   // known statements without effect
     UNKNOWN,
     STATEMENTS,
 };
@@ -59,8 +59,8 @@ struct state {
     uint32_t smoothing, smoothing_from;   // the smoothing group, and its first triangle
     uint32_t objects;
     struct stroke_part strokes[2];    // the parts of points and of lines
-    size_t counts[STATEMENTS];        // number of each kind
-    const uint8_t *first[STATEMENTS]; // first of each kind
+    size_t counts[STATEMENTS];        // number of statements of each kind
+    const uint8_t *first[STATEMENTS]; // first statement of each kind
     size_t unknown_materials;
     const char *unknown_material; // the name of the first unknown material
     const uint8_t *unknown_material_at;
@@ -95,7 +95,7 @@ static bool read_name(struct state *state, const uint8_t *at, const char **out, 
     char *name = text_name(&state->obj->scene->arena, at, (size_t)(end - at));
     if (!name)
         return no_memory(state, (size_t)(end - at), error);
-    // Line continuations, "\\\n", have become "\\?"; replace them by spaces.
+    // text_name has converted line continuations, "\\\n", to "\\?"; these are replaced by spaces.
     for (const uint8_t *c = at; c < end; c++) {
         if (*c == '\n') {
             for (char *back = name + (c - at); back >= name && (*back == '?' || *back == '\\'); back--)
@@ -110,7 +110,7 @@ static bool same_name(const char *a, const char *b) { return a == b || (a && b &
 
 // --- parts
 
-// Makes *name: "object/group", or the one that exists.
+// Sets *out to "object/group"; if only one of the two names exists, to that name.
 static bool join_names(const struct state *state, const char *object, const char *group, const char **out,
                        lam_error *error)
 {
@@ -129,7 +129,7 @@ static bool join_names(const struct state *state, const char *object, const char
     return true;
 }
 
-// Ends the range of triangles before `triangle` with the state's object, group and material.
+// Assigns the state's object, group and material to the triangles from the end of the last part up to `triangle`.
 static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
 {
     struct obj *obj = state->obj;
@@ -155,15 +155,15 @@ static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
     return true;
 }
 
-// Reads lines or points into their last part if it has the state's object, group and material, otherwise into a new
-// part.
+// Reads lines or points. They extend the last part if that part has the state's object, group and material; otherwise
+// they form a new part.
 static bool read_strokes(struct state *state, const struct obj_statement *s, bool lines, lam_error *error)
 {
     struct obj *obj = state->obj;
     struct obj_strokes *strokes = &obj->strokes[lines];
     struct stroke_part *of = &state->strokes[lines];
     size_t before = strokes->corners;
-    if (obj->streamed) { // vertex indices are only known for the whole text
+    if (obj->streamed) { // vertex indices are known only if the whole text is in memory
         obj->line_requested = true;
         return true;
     }
@@ -227,7 +227,7 @@ static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
     at = text_skip_white(text_skip_word(at, end), end);
     if (text_is_word(at, end, "on"))
         return 1;
-    return number_int(at, end, &group) ? (uint32_t)group : 0; // "off", or nothing
+    return number_int(at, end, &group) ? (uint32_t)group : 0; // 0 for "off" or a missing group
 }
 
 static bool apply_statement(struct state *state, enum statement statement, const struct obj_statement *s,
@@ -349,7 +349,7 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
             corners[kinds[i] == LINES] += obj_strokes_corners(obj, obj->statements[i].at, kinds[i] == LINES);
         // If all groups are off, the file defines no smoothing groups.
         smoothing |= kinds[i] == SMOOTHING && read_smoothing(obj, obj->statements[i].at) != 0;
-        // All material files are read first, because some programs name them after the first use.
+        // All material files are read first, because some programs write mtllib after the first usemtl.
         if (kinds[i] == LIBRARY && !read_libraries(&state, obj->statements[i].at, error))
             return false;
     }

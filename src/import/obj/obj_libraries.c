@@ -1,6 +1,6 @@
-// obj_libraries.c: reads the material files that an OBJ file names. Each file is read once, even if it is named several
-// times or in different forms. At most OBJ_LIBRARIES_MAX names are tried, so that a small file cannot make the program
-// read many large files.
+// obj_libraries.c: reads the material files that an OBJ file names. Each file is read once, even if the OBJ file names
+// it several times or in different spellings. At most OBJ_LIBRARIES_MAX names are tried, so that a small file cannot
+// make the program read many large files.
 #include "obj.h"
 
 #include "fail.h"
@@ -21,7 +21,7 @@ static bool note(struct obj *obj, const char *confined, bool read, lam_error *er
     return (kept && name_table_add(&obj->libraries.tried, kept, read)) || no_memory(obj, strlen(confined), error);
 }
 
-// Opens and reads one file. `why` receives the reason if it is missing.
+// Opens and reads one file. If the file cannot be opened, `why` receives the reason.
 static bool try_library(struct obj *obj, const char *name, enum attempt *attempt, lam_error *why, lam_error *error)
 {
     struct obj_libraries *libraries = &obj->libraries;
@@ -29,7 +29,7 @@ static bool try_library(struct obj *obj, const char *name, enum attempt *attempt
     struct companion file;
     bool cut;
     if (!companion_name(obj->source, name, confined, &cut))
-        confined[0] = 0; // all invalid names are treated alike
+        confined[0] = 0; // all invalid names share one entry in the table
     int before = name_table_find(&libraries->tried, confined);
     *attempt = before > 0 ? READ : before == 0 ? MISSING_BEFORE : LEFT_OUT;
     if (before >= 0 || libraries->tried.count == OBJ_LIBRARIES_MAX)

@@ -18,13 +18,13 @@ size_t obj_line_number(struct obj *obj, const uint8_t *at)
     return lines;
 }
 
-// The text that messages expect if pass two finds more elements than pass one counted.
+// The "expected" part of messages if pass two finds more elements than pass one counted.
 static const char changed[] = "the same text as before: the file changed while it was read";
 
 // Fills the reader's error: "found 'x', expected …". Returns NULL.
 static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at, const char *expected)
 {
-    if (!reader->error) // the line number takes a pass over the text
+    if (!reader->error) // skips the line number, which would need a pass over the text
         return NULL;
     char found[TEXT_FOUND_SIZE];
     struct obj *obj = reader->obj;
@@ -55,7 +55,8 @@ static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8
 
 static float non_negative(float x) { return x > 0 ? x : 0; } // NaN becomes 0
 
-// Reads the numbers after x y z, if there are any: w, which only rational curves use; or r g b and possibly more.
+// Reads the numbers after x y z, if there are any: a weight w, which only rational curves use, or a colour r g b, which
+// further numbers may follow.
 static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, float *color)
 {
     const uint8_t *end = reader->end;
@@ -94,7 +95,7 @@ static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at
         reader->high[i] = to[i] > reader->high[i] ? to[i] : reader->high[i];
         sum += to[i] - to[i];
     }
-    if (__builtin_expect(sum != 0, 0)) { // inf − inf and nan differ from 0
+    if (__builtin_expect(sum != 0, 0)) { // some number is infinite or NaN
         const uint8_t *word = begin + 1;
         for (int i = 0; i < 3; i++) {
             word = obj_next_word(word, reader->end);
@@ -195,8 +196,8 @@ static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t
     return next;
 }
 
-// Reads the index of a corner's texture coordinate or normal. If such elements are not kept (`kept` is false), it is
-// skipped and *unknown is set.
+// Reads the index of a corner's texture coordinate or normal. If such elements are not kept (`kept` is false), the
+// index is skipped and *unknown is set.
 static inline const uint8_t *read_further_index(struct obj_reader *reader, const uint8_t *at, bool kept, uint64_t total,
                                                 uint64_t so_far, const char *what, bool *unknown, uint32_t *out)
 {

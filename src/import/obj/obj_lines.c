@@ -1,6 +1,6 @@
-// obj_lines.c: a fast path for the most frequent lines, "v x y z" and "f a b c"; obj_line.c reads all others. Compiled
-// for several instruction sets (meson.build defines ISA) with identical results: numbers whose last bit is uncertain
-// are left to base/number.c.
+// obj_lines.c: a fast path for the most frequent lines, "v x y z" and "f a b c"; obj_line.c reads all other lines. The
+// file is compiled for several instruction sets (meson.build defines ISA). The results are identical, because numbers
+// whose last bit is uncertain are left to base/number.c.
 #include "byte_masks.h"
 #include "number_scan.h"
 #include "obj.h"
@@ -61,7 +61,7 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
 
 #endif
 
-// The output position of the fast path. As a local variable it stays in registers, unlike `reader`.
+// The output position of the fast path. A local variable of this type stays in registers, unlike `reader`.
 struct output {
     float *position, *positions_end;
     uint32_t *corners, *corners_end;

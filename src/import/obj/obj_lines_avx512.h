@@ -1,8 +1,8 @@
 // obj_lines_avx512.h: the line parsers of obj_lines.c for AVX-512 with VBMI, which moves bytes within a register.
 //
 // A line is loaded into one register, and bit masks of its digits, spaces and points are computed. The starts and ends
-// of the numbers, packed into bytes, give the index for permuting each byte of a lane: every number gets its own lane,
-// right-aligned with leading zeros.
+// of the numbers, packed into bytes, determine the index for permuting each byte. The permutation moves every number to
+// its own lane, right-aligned and padded with leading zeros.
 #ifndef OBJ_LINES_AVX512_H
 #define OBJ_LINES_AVX512_H
 
@@ -22,17 +22,17 @@ static inline uint64_t mask_bits(__mmask64 bytes)
 }
 static inline uint32_t pack(unsigned a, unsigned b, unsigned c) { return a | b << 8 | c << 16; }
 
-// Constants that stay in registers from line to line; the compiler would otherwise reload each before its use.
+// Constants that stay in registers from line to line; the compiler would otherwise reload each constant before its use.
 struct constants {
     __m512i newline, zero, nine, space, point, minus, one;
     __m512i lanes_of_8, lanes_of_16;       // shuffle: copies byte k of a packed number to each byte of lane k
-    __m512i back_8, back_16;               // each byte's offset from its lane's end, negative
-    __m512i tens, hundreds, ten_thousands; // pairs of weights
+    __m512i back_8, back_16;               // the (negative) offset of each byte from the end of its lane
+    __m512i tens, hundreds, ten_thousands; // weights of two adjacent values
     __m512d tenths_to_6, tenths_to_14;     // 10 to the power of 1 − i
     __m256i cut, middle, doubt;            // number_rounds_surely
     __m256i hundred_millions;
     __m128 sign;
-    __m128i one_32, index_limit; // index_limit: for faces
+    __m128i one_32, index_limit; // index_limit: the largest index in faces
 };
 static inline struct constants constants_of(uint32_t index_limit)
 {
@@ -101,7 +101,7 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
     __m256i from =
         _mm256_add_epi8(_mm256_shuffle_epi8(_mm256_set1_epi32((int)ends), lanes), _mm512_castsi512_si256(c->back_8));
     __mmask32 is = _mm256_cmpge_epi8_mask(from, _mm256_shuffle_epi8(_mm256_set1_epi32((int)begins), lanes));
-    // Adjacent values are combined: digits to pairs, pairs to fours, fours to numbers.
+    // Adjacent values are combined in three steps: into numbers of two, four and eight digits.
     __m256i pairs =
         _mm256_maddubs_epi16(_mm256_maskz_permutexvar_epi8(is, from, values), _mm512_castsi512_si256(c->tens));
     __m256i fours = _mm256_madd_epi16(pairs, _mm512_castsi512_si256(c->hundreds));
@@ -128,8 +128,8 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     uint64_t spaces = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->space)) & inside;
     uint64_t points = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->point)) & inside;
     uint64_t starts = spaces << 1 | 1, signs = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->minus)) & starts & inside;
-    // There must be no other bytes; digits begin only at the start of a number or after its sign or point; the
-    // separators are point, space, point, space, point.
+    // The line is invalid if it contains other bytes. Digits must begin at the start of a number or after its sign or
+    // point. The separators must be point, space, point, space, point.
     uint64_t between = spaces | points, invalid = (digits | signs | between) ^ inside;
     invalid |= (digits & ~(digits << 1)) ^ ((starts & ~signs) | (signs | points) << 1);
     if (invalid | (_pext_u64(points, between) ^ 21) | (_pext_u64(spaces, between) ^ 10))
@@ -138,7 +138,7 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     uint32_t ends = pack(lowest_bit(spaces), lowest_bit(without_lowest(spaces)), length);
     uint32_t middles = pack(lowest_bit(points), lowest_bit(points_2), lowest_bit(without_lowest(points_2)));
     uint32_t begins = (ends << 8) + 0x010100 + (uint32_t)_pdep_u64(negative, 0x010101);
-    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf0f0f0) // more than 15 digits, and the point
+    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf0f0f0) // a number is longer than 15 digits and the point
         return false;
     __m512i from = _mm512_add_epi8(_mm512_shuffle_epi8(_mm512_set1_epi32((int)ends), c->lanes_of_16), c->back_16);
     __m512i point_at = _mm512_shuffle_epi8(_mm512_set1_epi32((int)middles), c->lanes_of_16);
@@ -151,9 +151,9 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     __m256i whole = _mm256_add_epi64(_mm256_mul_epu32(eights, c->hundred_millions), _mm256_srli_epi64(eights, 32));
     __m512i decimals = _mm512_cvtepu8_epi64(_mm_cvtsi32_si128((int)(ends - middles))); // digits after the point, plus 1
     __m256d tenths = _mm512_castpd512_pd256(_mm512_permutex2var_pd(c->tenths_to_6, decimals, c->tenths_to_14));
-    __m256d product = _mm256_mul_pd(_mm256_cvtepi64_pd(whole), tenths); // as in number_float_quick
+    __m256d product = _mm256_mul_pd(_mm256_cvtepi64_pd(whole), tenths); // the same computation as in number_float_quick
     __m256i off = _mm256_sub_epi64(_mm256_and_si256(_mm256_castpd_si256(product), c->cut), c->middle);
-    if (_mm256_cmple_epu64_mask(off, c->doubt)) // number_rounds_surely; the unused fourth lane is 0
+    if (_mm256_cmple_epu64_mask(off, c->doubt)) // the test of number_rounds_surely; the unused fourth lane is 0
         return false;
     __m128 result = _mm256_cvtpd_ps(product);
     *out = _mm_mask_xor_ps(result, (__mmask8)negative, result, c->sign);

@@ -60,7 +60,8 @@ static bool add_mesh(struct obj *obj, lam_error *error)
 bool obj_complete(struct obj *obj, lam_error *error)
 {
     call_progress(obj->source->call, 0.7, "read");
-    const float *texcoords = obj->texcoords; // unused vertices are dropped
+    // obj_complete_texcoords drops the array if no face uses it, but lines may use it
+    const float *texcoords = obj->texcoords;
     uint32_t *const corners[3] = {obj->indices, obj->texcoord_indices, obj->normal_indices};
     if (!mesh_triangulate(obj->source, obj->scene, obj->positions, obj->polygons, (size_t)obj->total.polygons,
                           obj->total.triangles, corners, &obj->inner_edges, error) ||

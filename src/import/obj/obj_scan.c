@@ -1,4 +1,5 @@
-// obj_scan.c: pass one over an OBJ file: splits it into chunks and counts their elements, 64 bytes at a time.
+// obj_scan.c: pass one over an OBJ file: splits the file into chunks and counts the elements of each chunk, 64 bytes at
+// a time.
 #include "obj.h"
 
 #include "byte_masks.h"
@@ -43,7 +44,7 @@ const uint8_t *obj_next_word_slow(const uint8_t *at, const uint8_t *end)
             return newline_or(at, end);
         if (*at != '\\' || !obj_at_word_end(at))
             return at;
-        at = newline_or(at, end) + 1; // obj_at_word_end found the newline
+        at = newline_or(at, end) + 1; // obj_at_word_end has checked that a newline follows
     }
 }
 
@@ -60,7 +61,8 @@ bool obj_split(struct obj *obj, size_t chunk_bytes, lam_error *error)
         size_t nominal = (i + 1) * chunk_bytes;
         if (nominal >= size)
             at = obj->end;
-        else if (obj->begin + nominal > at) // otherwise a long line leaves this chunk empty
+        // otherwise the previous chunk's last line extends beyond this chunk, which stays empty
+        else if (obj->begin + nominal > at)
             at = obj_next_line(obj->begin + nominal, obj->end);
         // obj_next_line may have started after the backslash of a line continuation.
         while (at < obj->end && continued(obj->begin, at - 1))
@@ -78,7 +80,8 @@ static void count_face(struct obj_counts *counts, uint64_t corners)
     counts->polygons += corners > 3;
 }
 
-// Counts a statement that contains a comment or a continuation, or the last one. Returns the start of the next line.
+// Counts a statement that contains a comment or a continuation, or that is the last one of the file. Returns the start
+// of the next line.
 static const uint8_t *count_slowly(struct obj_chunk *chunk, const uint8_t *at, const uint8_t *end)
 {
     while (at < end && obj_white(*at))
@@ -101,7 +104,7 @@ static const uint8_t *count_slowly(struct obj_chunk *chunk, const uint8_t *at, c
             at++;
         const uint8_t *next = obj_next_word(at, end);
         if (next == at && !obj_at_line_end(at, end))
-            at++; // a zero byte is no word; pass two reports it
+            at++; // a zero byte is not a word; pass two reports it
         else
             at = next;
     }
@@ -121,13 +124,13 @@ static bool scan_chunk(void *user, size_t index, lam_error *error)
     struct obj *obj = user;
     struct obj_chunk *chunk = &obj->chunks[index];
     const uint8_t *line = chunk->begin, *end = chunk->end;
-    // A local copy that the compiler keeps in registers.
+    // This local copy of the counts stays in registers.
     struct obj_counts counts = {0};
     chunk->counts = counts;
     bool colors = false;
     uint64_t slashes = 0;
     while (line < end) {
-        // At the start of a line, the byte before counts as white space.
+        // At the start of a line, the previous byte is treated as white space.
         const uint8_t *block = line;
         uint64_t white_before = 1, special_before = 0;
         uint64_t words = 0, words_at_line = 0; // number of words that begin before the block, and before the line

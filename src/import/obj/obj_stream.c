@@ -1,11 +1,11 @@
 // obj_stream.c: reads large OBJ files chunk by chunk.
 //
 // Each thread reads a chunk of the text and parses it into scratch arrays, all within the second-level cache. Once the
-// previous chunks are counted, the indices of its elements are known, and it copies them to the final arrays. The text
-// is thus read once, and the file is never in memory as a whole. The final arrays reserve the address space that a file
-// of this size could fill; untouched pages are released. obj.c reads all other files: files with vertex colours, a mix
-// of corners with and without normals, relative indices, lines and points, or text lines longer than TAIL, and all
-// files with errors or with warnings that name a line.
+// previous chunks are counted, the thread knows the indices of its elements and copies the elements to the final
+// arrays. The text is thus read once, and the file is never in memory as a whole. The final arrays reserve the address
+// space that a file of this size could fill; untouched pages are released. obj.c reads all other files: with vertex
+// colours, relative indices, lines, points, corners both with and without normals, or text lines longer than TAIL. It
+// also reads files with errors, and files with warnings that name a line.
 #include "loop_status.h"
 #include "obj.h"
 #include "origin.h"
@@ -17,8 +17,8 @@
 enum {
     PIECE = 256 << 10,          // bytes
     TAIL = 16 << 10,            // bytes read after a chunk, for its last line
-    STATEMENTS = 4096,          // most statements per chunk
-    COUNT_MAX = UINT32_MAX - 1, // most elements of a kind
+    STATEMENTS = 4096,          // the maximum number of statements per chunk
+    COUNT_MAX = UINT32_MAX - 1, // the maximum number of elements of a kind
 };
 
 enum array { POSITIONS, TEXCOORDS, NORMALS, CORNERS, CORNER_TEXCOORDS, CORNER_NORMALS, POLYGONS, ARRAYS };
@@ -35,12 +35,12 @@ static const struct {
 
 // A thread's scratch memory.
 struct chunk_scratch {
-    struct obj obj; // parses into these arrays
+    struct obj obj; // refers to the arrays below while a chunk is parsed
     uint8_t *text;
     void *arrays[ARRAYS];
     struct obj_statement statements[STATEMENTS];
-    bool texcoords, normals; // faces use them
-    uint32_t index_max[3];   // largest index of a face: position, texture coordinate, normal
+    bool texcoords, normals; // whether faces use texture coordinates, and normals
+    uint32_t index_max[3];   // largest index in the faces: of a position, a texture coordinate and a normal
 };
 
 struct stream_statement {
@@ -52,7 +52,7 @@ struct stream {
     struct obj *obj;
     const struct file_parts *file;
     struct loop_status loop;
-    int unsupported; // atomic; obj.c must read the file
+    int unsupported; // atomic; set if obj.c must read the file instead
     struct chunk_scratch *scratch;
     uint8_t *arrays[ARRAYS];
     size_t reserved[ARRAYS];
@@ -138,8 +138,8 @@ static bool parse(struct chunk_scratch *scratch, struct obj_chunk *chunk)
             return false;
         if (!chunk->texcoord_unknown && !chunk->normal_unknown)
             break;
-        scratch->texcoords |= chunk->texcoord_unknown; // the thread's first faces use them, so the chunk is parsed
-                                                       // again
+        // the thread finds the first faces with texture coordinates or normals, so the chunk is parsed again
+        scratch->texcoords |= chunk->texcoord_unknown;
         scratch->normals |= chunk->normal_unknown;
     }
     return !chunk->colors && !chunk->short_faces && !chunk->nonfinite_numbers &&
@@ -185,7 +185,8 @@ static bool append_statements(struct stream *stream, const struct chunk_scratch 
     return true;
 }
 
-// Adds the chunk to the totals, in the order of the chunks. *before receives the totals of the previous chunks.
+// Waits until the previous chunks are counted, then adds the chunk's counts to the totals. *before receives the totals
+// of the previous chunks.
 static bool count_chunk(struct stream *stream, struct chunk_scratch *scratch, size_t index,
                         const struct obj_chunk *chunk, struct obj_counts *before)
 {
@@ -336,7 +337,7 @@ static bool indices_valid(const struct stream *stream)
            total->triangles <= call_triangle_limit(stream->obj->source->call);
 }
 
-// Trims the array to its elements and moves its ownership to the arena. Returns NULL if memory runs out.
+// Releases the unused end of the array and transfers its ownership to the arena. Returns NULL if memory runs out.
 static void *pass_to_arena(struct stream *stream, enum array kind, struct arena *arena)
 {
     size_t bytes = (size_t)count_of(&stream->total, kind) * array_kinds[kind].row;

@@ -1,5 +1,5 @@
-// obj_strokes.c: converts the statements `l` (lines: v or v/t for each vertex) and `p` (points) to meshes beside the
-// mesh of faces.
+// obj_strokes.c: converts the statements `l` (lines: v or v/t for each vertex) and `p` (points) to separate meshes: one
+// of lines and one of points.
 #include "obj.h"
 
 #include "fail.h"
@@ -25,7 +25,8 @@ static const uint8_t *fail_word(const struct stroke_parser *r, const uint8_t *at
     return NULL;
 }
 
-// Reads an index that counts from 1, or backwards from `so_far`. Returns NULL on error.
+// Reads an index: positive indices count from 1, and negative indices count backwards from `so_far`. Returns NULL on
+// error.
 static const uint8_t *read_index(const struct stroke_parser *r, const uint8_t *at, uint64_t total, uint64_t so_far,
                                  const char *name, uint32_t *out)
 {
@@ -51,7 +52,8 @@ static const uint8_t *read_index(const struct stroke_parser *r, const uint8_t *a
     return next;
 }
 
-// Returns the next vertex of a statement; *found is false if there are no more.
+// Reads the next vertex of a statement and returns the position after it. *found is false if there are no more
+// vertices. Returns NULL on error.
 static const uint8_t *read_vertex(const struct stroke_parser *r, const uint8_t *at, uint32_t *position,
                                   uint32_t *texcoord, bool *found)
 {
@@ -133,7 +135,7 @@ bool obj_strokes_read(struct obj *obj, const struct obj_statement *statement, bo
 
 // --- meshes
 
-// Builds the texture coordinates of every corner, (0, 0) for corners without any.
+// Builds the texture coordinates of all corners. Corners without texture coordinates get (0, 0).
 static bool take_texcoords(struct obj *obj, const struct obj_strokes *s, const float *texcoords, lam_mesh *mesh,
                            lam_error *error)
 {

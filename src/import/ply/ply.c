@@ -33,7 +33,7 @@ static bool fail_header(const struct reader *reader, const struct ply_element *e
                      expected);
 }
 
-// Edges refer to their ends by two numbers; other edges are not drawn.
+// Edges are drawn only if the integer properties vertex1 and vertex2 refer to their end vertices.
 static void check_edges(struct reader *reader)
 {
     static const char *const ends[] = {"vertex1", "vertex2"};
@@ -63,7 +63,7 @@ static bool choose_elements(struct reader *reader, lam_error *error)
         }
     }
     if (reader->elements[FACES])
-        reader->elements[STRIPS] = NULL; // strips repeat the surface of the faces
+        reader->elements[STRIPS] = NULL; // strips describe the same surface as the faces
     for (int kind = 0; kind < WANTED; kind++) {
         const struct ply_element *element = reader->elements[kind];
         reader->lists[kind] = -1;
@@ -132,7 +132,7 @@ static void warn_rest(const struct reader *reader, size_t at)
                    source->name, text_line(source->bytes, rest), text_found(rest, end, found));
 }
 
-// Reads the elements in the order of the file, up to the last used one.
+// Reads the elements in the order of the file, up to the last element that Lambent uses.
 static bool read_elements(struct reader *reader, lam_error *error)
 {
     int last = 0;
@@ -192,7 +192,8 @@ static bool build(struct reader *reader, lam_error *error)
     const struct import_source *source = reader->source;
     struct lam_scene *scene = reader->scene;
     char found[TEXT_FOUND_SIZE];
-    if (ply_probe(source->bytes, source->size) == 0) // the caller or the file's extension chose PLY
+    // the text lacks the first line of PLY, but the caller or the file's extension selected this importer
+    if (ply_probe(source->bytes, source->size) == 0)
         return fail_line(error, source, 1, "found %s, expected \"ply\"",
                          text_found(source->bytes, source->bytes + source->size, found));
     if (!ply_read_header(source, reader->scratch, &reader->header, error) || !choose_elements(reader, error) ||
@@ -236,7 +237,8 @@ static bool ply_load(const struct import_source *source, struct lam_scene *scene
     return done;
 }
 
-// Text has no rows of equal size. The header must be in the part of the file that is in memory.
+// Only binary files can be read in parts, because rows of text differ in size. The header must be within the bytes in
+// memory.
 static bool ply_in_parts(const struct import_source *source)
 {
     struct arena scratch;

@@ -9,9 +9,8 @@
 //  ply_faces.c      triangles from faces and strips
 //  ply_edges.c      lines from edges
 //
-// Rows of equal size stay in the file, and each pass over them reads them in chunks (parallel_rows_read), so that a
-// large file need not be in memory. Rows of a text file, and rows with lists of several lengths, are converted to rows
-// in memory.
+// Rows of equal size stay in the file. Each pass reads these rows in chunks (parallel_rows_read), so that a large file
+// need not be in memory. Rows of a text file, and rows with lists of several lengths, are converted to rows in memory.
 //
 #ifndef PLY_H
 #define PLY_H
@@ -34,9 +33,9 @@ struct ply_element {
     size_t line; // line in the header
     const struct ply_property *properties;
     int property_count;
-    int list_count;      // properties that are lists
-    size_t scalar_bytes; // bytes of a binary row without its lists
-    size_t min_bytes;    // bytes of a binary row with empty lists
+    int list_count;      // number of properties that are lists
+    size_t scalar_bytes; // size in bytes of a binary row without its lists
+    size_t min_bytes;    // size in bytes of a binary row whose lists are empty
 };
 
 struct ply_header {
@@ -44,7 +43,7 @@ struct ply_header {
     const struct ply_element *elements;
     int element_count;
     size_t body; // offset of the first byte after the header
-    // Unknown lines: their number, and the line number and first word of the first one.
+    // The number of unknown lines, and the line number and the first word of the first unknown line.
     size_t unknown_count, unknown_line;
     const uint8_t *unknown;
 };
@@ -56,15 +55,15 @@ void ply_warn_header(const struct import_source *source, struct lam_scene *scene
 bool ply_read_header(const struct import_source *source, struct arena *arena, struct ply_header *header,
                      lam_error *error);
 
-// Returns the bytes of a number: a digit of the constant for each type.
+// Returns the size in bytes of a number. Each hexadecimal digit of the constant is the size of one type.
 static inline size_t ply_type_size(enum ply_type type) { return 0x84442211 >> 4 * type & 15; }
 static inline bool ply_type_is_integer(enum ply_type type) { return type < PLY_F32; }
 
 // Returns the index of a property with this name, list or scalar, or −1 if there is none.
 int ply_find(const struct ply_element *element, bool list, const char *name);
 
-// The type of x, y and z in a table. The declared types of an ASCII file do not determine its decimals, so positions
-// are read as floats, and again as doubles if the model is far from zero.
+// The type of x, y and z in a table. The declared types of an ASCII file do not determine how many decimals its numbers
+// have, so positions are read as floats, and again as doubles if the model is far from zero.
 enum ply_positions_as { PLY_AS_DECLARED, PLY_AS_FLOAT, PLY_AS_DOUBLE };
 
 // An element's rows.
@@ -75,25 +74,26 @@ struct ply_table {
     const uint32_t *offsets;    // the offset of each scalar property in a row
     const enum ply_type *types; // the type of each property in `rows`
     enum ply_positions_as positions;
-    // The requested list with checked indices, from items[starts[r]] for row r; three items per row if `starts` is
-    // NULL. A row has room for its triangles: 3 (n − 2) items for n corners, of which the first n are set. It has none
-    // for fewer than three corners.
+    // The requested list, with checked indices. The items of row r begin at items[starts[r]], or at items[3 r] if
+    // `starts` is NULL. Each row reserves space for its triangles: 3 (n − 2) items for n corners, of which the first n
+    // are set. Rows of fewer than three corners reserve no items.
     uint32_t *items;
-    const uint32_t *starts; // a row more than the table has
+    const uint32_t *starts; // one more element than the table has rows
 };
 
-// The data to read from an element.
+// The data that a caller requests from an element.
 struct ply_request {
     bool scalars;
     int list;            // index of the property, or −1
-    uint32_t item_limit; // items must be below it
+    uint32_t item_limit; // items must be below this limit
     bool restarts;       // a strip: item −1 is valid and becomes PLY_RESTART
     enum ply_positions_as positions;
-    struct arena *keep, *scratch; // memory for items of lists, and for the rest
+    struct arena *keep, *scratch; // memory for items of lists, and for everything else
 };
 #define PLY_RESTART UINT32_MAX
 
-// Read the element at offset *at of the file, or skip it (`table` is NULL), and set *at to the byte after it.
+// These functions read the element at offset *at of the file, or skip it if `table` is NULL. They set *at to the byte
+// after the element.
 bool ply_read_binary(const struct import_source *source, const struct ply_header *header,
                      const struct ply_element *element, const struct ply_request *request, size_t *at,
                      struct ply_table *table, lam_error *error);
@@ -106,14 +106,14 @@ bool ply_plan_rows(const struct import_source *source, const struct ply_request 
 // Reports a file that ends within the element's row `row`, counted from 0.
 bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
                         lam_error *error);
-// Reports more elements than 32-bit indices can address: LAM_LIMIT.
+// Fails with LAM_LIMIT, because the file contains more elements than 32-bit indices can address.
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error);
 
 // Finds the scalar properties with these names (−1 if missing). Returns whether all exist.
 bool ply_find_all(const struct ply_table *table, const char *const *names, int count, int *properties);
 // Returns whether the properties are adjacent floats in the machine's byte order, so that memcpy can copy them.
 bool ply_contiguous(const struct ply_table *table, const int *properties, int count);
-// Finds red, green, blue and alpha by any of their usual names. Returns whether the first three exist.
+// Finds red, green, blue and alpha by any of their usual names. Returns whether red, green and blue exist.
 bool ply_find_colors(const struct ply_table *table, int properties[4]);
 // Copies a scalar property of `count` rows as floats, divided by `divisor`, to every `step`-th element of `out`.
 void ply_copy_column(const struct ply_table *table, int property, const uint8_t *rows, size_t count, float divisor,
@@ -124,7 +124,7 @@ void ply_copy_column(const struct ply_table *table, int property, const uint8_t 
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                    lam_mesh *mesh, bool *needs_doubles, lam_error *error);
 
-// Attributes beside the positions; NULL if the element does not have them.
+// All attributes except positions; NULL if the element does not have the attribute.
 enum { PLY_NORMALS = 1, PLY_TANGENTS = 2, PLY_TEXCOORDS = 4, PLY_COLORS = 8, PLY_ALL = 15 };
 struct ply_attributes {
     const float *normals, *tangents, *texcoords;

@@ -1,8 +1,8 @@
 // ply_ascii.c: converts the rows of one element of an ASCII PLY to a table of binary rows.
 //
-// Numbers are separated by white space, and a row may continue on the next line. It ends at the end of its last line;
-// further numbers on that line are ignored. A first, serial pass finds the start of each chunk of rows and the lengths
-// of its lists; then the chunks are read in parallel.
+// Numbers are separated by white space, and a row may continue on the next line. A row ends at the end of the line that
+// contains its last number; further numbers on that line are ignored. A first, serial pass finds the start of each
+// chunk of rows and the lengths of its lists; then the chunks are read in parallel.
 #include "fail.h"
 #include "number.h"
 #include "ply_rows.h"
@@ -23,7 +23,7 @@ static bool fail_number(const struct ply_reader *reader, size_t row, int propert
                      shown_name(reader->element->properties[property].name, shown[1]), expected);
 }
 
-// Reads a word that is an integer. Returns NULL if it is not one.
+// Reads a word as an integer. Returns NULL if the word is not an integer.
 static const uint8_t *read_integer(const struct ply_reader *reader, const uint8_t *at, int64_t *value)
 {
     const uint8_t *next = number_int(at, reader->end, value);
@@ -110,7 +110,7 @@ static bool fail_rest(const struct ply_reader *reader, size_t row, const uint8_t
                      shown_name(element->properties[element->property_count - 1].name, shown[1]));
 }
 
-// Runs the serial pass: sets the start of each chunk and the starts of the list, and *at to the end of the last row.
+// Runs the serial pass: finds the start of each chunk and of each row's list, and sets *at to the end of the last row.
 static bool index_rows(struct ply_reader *reader, const uint8_t **at, lam_error *error)
 {
     const struct ply_element *element = reader->element;
@@ -168,7 +168,7 @@ static const uint8_t *read_row(const struct ply_reader *reader, size_t row, cons
             continue;
         }
         int64_t count = 0;
-        at = read_integer(reader, at, &count); // index_rows has checked it
+        at = read_integer(reader, at, &count); // index_rows has checked the count
         bool kept = items && count >= 3;
         for (int64_t item = 0; at && item < count; item++) {
             at = text_skip_white(at, end);
@@ -184,7 +184,7 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
     const struct ply_reader *reader = user;
     size_t first, last;
     if (reader->element->property_count == 0)
-        return true; // empty rows have no start
+        return true; // rows without properties have no text
     parallel_rows_range(reader->table->rows.count, index, &first, &last);
     const uint8_t *at = reader->chunks[index];
     for (size_t row = first; at && row < last; row++)
@@ -193,7 +193,8 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
     return at != NULL;
 }
 
-// Called after an error of index_rows: an error in the numbers of earlier rows is the file's first one.
+// Called after an error of index_rows: an error in the numbers of an earlier row comes first in the file, so it is
+// reported instead.
 static void check_rows_before(const struct ply_reader *reader, lam_error *error)
 {
     const uint8_t *at = reader->first;
@@ -218,8 +219,8 @@ static bool read_rows(struct ply_reader *reader, struct arena *keep, struct aren
 bool ply_read_ascii(const struct import_source *source, const struct ply_element *element,
                     const struct ply_request *request, size_t *at, struct ply_table *table, lam_error *error)
 {
-    // Check the file's size before any allocation: a number takes at least two bytes, a digit and white space; only the
-    // last number may lack the white space.
+    // Check the file's size before any allocation: each number needs at least two bytes, a digit and white space. Only
+    // the last number may lack the white space.
     uint64_t left = (uint64_t)(source->size - *at) + 1, row_bytes = 2 * (uint64_t)element->property_count;
     if (row_bytes > 0 && element->count > left / row_bytes)
         return ply_fail_truncated(source, element, left / row_bytes, error);

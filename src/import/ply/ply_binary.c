@@ -1,14 +1,14 @@
 // ply_binary.c: reads the rows of one element of a binary PLY as a table.
 //
-// Rows without lists have a fixed stride and stay in the file. Rows with lists are indexed by a serial pass, which
-// needs them in memory; then chunks of them are read in parallel. In nearly all files, faces are one list of three
-// corners: if the number of remaining bytes suggests this layout, the rows are read with its fixed stride and checked.
+// Rows without lists have a fixed stride and stay in the file. Rows with lists must be in memory: a serial pass indexes
+// them, and then their chunks are read in parallel. In nearly all files, each face is a list of three corners. If the
+// number of remaining bytes matches this layout, the rows are read with its fixed stride, and checked.
 #include "fail.h"
 #include "shown_name.h"
 #include "ply_load.h"
 #include "ply_rows.h"
 
-// Reports item `item` of a row's list, which is at `items`, offset `offset` of the file.
+// Reports a wrong item of a row's list. The list is at `items` in memory, and at `offset` in the file.
 static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t *items, size_t offset, uint32_t item,
                       lam_error *error)
 {
@@ -21,7 +21,7 @@ static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t
                      (long long)reader->request->item_limit - 1);
 }
 
-// Reads and checks the items of one row's list. Returns the number of items before the first wrong one.
+// Reads and checks the items of one row's list. Returns the number of items before the first wrong item.
 static uint32_t read_items(const struct ply_reader *reader, const uint8_t *at, uint32_t count, uint32_t *items)
 {
     enum ply_type type = reader->element->properties[reader->request->list].type;
@@ -51,8 +51,8 @@ static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_er
     uint32_t *items = reader->items + 3 * first, limit = reader->request->item_limit;
     bool swapped = reader->table->swapped;
 
-    // The case of a one-byte count and three 32-bit items is branch-free. Negative items, as unsigned, exceed the limit
-    // too.
+    // The case of a one-byte count and three 32-bit items is branch-free. Read as unsigned numbers, negative items
+    // exceed the limit too.
     if (count_size == 1 && ply_type_size(list->type) == 4 && !swapped) {
         uint32_t other = 0, wrong = 0;
         for (size_t row = first; row < last; row++, at += stride, items += 3) {
@@ -84,7 +84,8 @@ static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_er
     return true;
 }
 
-// Returns whether the remaining bytes are exactly rows with three items each and the elements after them.
+// Returns whether the rest of the file has the right size for rows with three items each, followed by the remaining
+// elements.
 static bool may_be_triangles(const struct ply_reader *reader, const struct ply_header *header)
 {
     const struct ply_element *element = reader->element, *end = header->elements + header->element_count;
@@ -137,7 +138,8 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
     return true;
 }
 
-// Runs the serial pass: sets the start of each chunk and the starts of the list, and *at to the end of the last row.
+// Runs the serial pass: finds the start of each chunk and of each row's list, and sets *offset to the end of the last
+// row.
 static bool index_rows(struct ply_reader *reader, size_t *offset, lam_error *error)
 {
     const struct ply_element *element = reader->element;
@@ -242,7 +244,7 @@ bool ply_read_binary(const struct import_source *source, const struct ply_header
         return false;
     if (skip)
         return index_rows(&reader, at, error);
-    table->rows.stride = element->scalar_bytes; // try_triangles has changed it
+    table->rows.stride = element->scalar_bytes; // try_triangles may have changed the stride
     return ply_start_rows(&reader, scratch, error) && index_rows(&reader, at, error) &&
            ply_read_rows(&reader, read_chunk, keep, scratch, error);
 }

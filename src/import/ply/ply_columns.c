@@ -86,7 +86,8 @@ static void clean_vector(enum kind kind, float *v)
             v[c] = v[c] >= 0.0f ? (v[c] <= FLT_MAX ? v[c] : FLT_MAX) : 0.0f; // NaN becomes 0
             if (c == 3)
                 v[c] = v[c] < 1.0f ? v[c] : 1.0f;
-            else if (kind == COLORS && v[c] <= 1.0f) // sRGB is not defined above 1, so the value is linear
+            // the sRGB curve is not defined above 1, so such a value is used as linear
+            else if (kind == COLORS && v[c] <= 1.0f)
                 v[c] = (float)srgb_linear((double)v[c]);
         }
         return;
@@ -226,7 +227,7 @@ static bool add_colors(struct columns *columns, struct ply_attributes *out, lam_
     for (int c = 0; c < numbers; c++) {
         enum ply_type type = table->types[column.properties[c]];
         all_bytes &= type == PLY_U8;
-        // For colours of type int or uint, programs use 0…255.
+        // For colours of type int or uint, programs use the range 0…255.
         column.divisors[c] = type == PLY_I32 || type == PLY_U32 ? 255.0f : divisor_of(type);
     }
     column.kind = all_bytes ? COLORS_BYTES : column.kind;

@@ -1,4 +1,4 @@
-// ply_edges.c: reads lines from the element `edge`, whose rows contain the vertices of both ends.
+// ply_edges.c: reads lines from the element `edge`, whose rows contain the indices of both end vertices.
 #include "fail.h"
 #include "ply_load.h"
 #include "shown_name.h"
@@ -6,7 +6,7 @@
 struct edges {
     const struct import_source *source;
     const struct ply_table *table;
-    int ends[2]; // properties
+    int ends[2]; // the properties vertex1 and vertex2
     uint32_t vertices;
     uint32_t *indices;
 };

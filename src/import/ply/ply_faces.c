@@ -15,8 +15,8 @@ static bool check_count(const struct import_source *source, uint64_t triangles, 
     return call_check_triangles(source->call, source->name, triangles, "triangles", error);
 }
 
-// Splits the polygons, which already have the room for their triangles, and finds the face of each triangle if
-// `face_of` is not NULL.
+// Splits the polygons in place; their rows already reserve space for the triangles. If `face_of` is not NULL, stores
+// the face of each triangle in it.
 static bool split_polygons(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
                            struct arena *scratch, uint32_t *face_of, lam_mesh *mesh, lam_error *error)
 {
@@ -40,7 +40,7 @@ static bool split_polygons(const struct import_source *source, const struct ply_
                             (uint32_t *const[3]){faces->items}, &mesh->inner_edges, error);
 }
 
-// Uses the normals of the faces if the vertices have none: one normal per face, indexed by its corners.
+// Uses the normals of the faces if the vertices have no normals. The corners of a face refer to its normal by index.
 static bool face_normals(const struct import_source *source, const struct ply_table *faces, const uint32_t *face_of,
                          struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
@@ -62,7 +62,7 @@ static bool face_normals(const struct import_source *source, const struct ply_ta
     return true;
 }
 
-// Uses the colours of the faces if the vertices have none: one colour per triangle.
+// Uses the colours of the faces if the vertices have no colours: one colour per triangle.
 static bool face_colors(const struct import_source *source, const struct ply_table *faces, const uint32_t *face_of,
                         struct lam_scene *scene, struct arena *scratch, lam_mesh *mesh, lam_error *error)
 {
@@ -119,9 +119,9 @@ bool ply_faces(const struct import_source *source, const struct ply_table *faces
     return done;
 }
 
-// Writes the triangles of a row's strip to `out` (may be NULL) and returns their number. Each item from the third on
-// forms a triangle with the two items before it; the winding of every second triangle is reversed. Triangles with equal
-// corners only connect parts of a strip and are skipped.
+// Writes the triangles of a row's strip to `out` (may be NULL) and returns the number of triangles. Each item from the
+// third on forms a triangle with the two items before it; the winding of every second triangle is reversed. Triangles
+// with equal corners only connect parts of a strip and are skipped.
 static size_t strip_triangles(const struct ply_table *strips, size_t row, uint32_t *out)
 {
     const uint32_t *items = strips->items + strips->starts[row], room = strips->starts[row + 1] - strips->starts[row];

@@ -8,8 +8,8 @@
 //   property list uchar int corners     lists: type of the count, type of the items, name
 //   end_header
 //
-// Lines may be indented or blank. They end in "\n" or "\r\n", or in "\r" if the first line does. The body begins after
-// the last line's end.
+// A line may be indented or blank. Lines end in "\n" or "\r\n"; if the first line ends in "\r", all lines do. The body
+// begins after the line end of "end_header".
 #include "ply.h"
 #include "fail.h"
 #include "number.h"
@@ -61,7 +61,7 @@ static bool is_word(const uint8_t *word, const uint8_t *end, const char *expecte
     return (size_t)(end - word) == strlen(expected) && memcmp(word, expected, (size_t)(end - word)) == 0;
 }
 
-// Reads the next word of the line, which is empty at the end.
+// Reads the next word of the line; the word is empty at the end of the line.
 static void next_word(struct lines *lines, const uint8_t **word, const uint8_t **end)
 {
     *word = text_skip_white(lines->at, lines->end);
@@ -173,7 +173,7 @@ static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
     return UNKNOWN;
 }
 
-// Starts at the second line, after "ply".
+// Chooses the line ending from the first line, "ply", and skips this line.
 static struct lines start(const struct import_source *source, struct arena *arena)
 {
     struct lines lines = {.source = source, .arena = arena, .next = source->bytes, .ending = '\n'};
@@ -211,7 +211,7 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
             return fail_line(error, source, lines.number, "the file ends in its header, expected \"end_header\"");
         if (memchr(lines.at, 0, (size_t)(lines.end - lines.at)))
             return fail_line(error, source, lines.number, "found a zero byte in the header, expected text");
-        if (first) // "ply"
+        if (first) // skips the line "ply"
             continue;
         keyword = read_keyword(&lines, &word);
         struct ply_element *element = header->element_count > 0 ? &elements[header->element_count - 1] : NULL;

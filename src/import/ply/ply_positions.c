@@ -15,7 +15,7 @@ struct positions {
     struct box {
         double minimum[3], maximum[3];
         bool finite;
-    } *boxes; // one per chunk
+    } *boxes; // one box per chunk
     double origin[3];
 };
 
@@ -49,7 +49,7 @@ static bool copy_chunk(void *user, size_t index, const uint8_t *rows, lam_error 
     parallel_rows_range(table->rows.count, index, &first, &last);
     float *out = positions->out + 3 * first;
     size_t stride = table->rows.stride;
-    uint32_t nonfinite = 0; // bit 31: some number is NaN or infinite
+    uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
     bool only_floats = positions->contiguous && stride == 3 * sizeof(float);
     if (only_floats) {
         for (size_t i = 0; i < 3 * (last - first); i++) {
@@ -96,7 +96,8 @@ static bool copy_chunk(void *user, size_t index, const uint8_t *rows, lam_error 
     return true;
 }
 
-// Doubles and 32-bit integers take two passes: their bounding box, which determines the origin, then the rounding.
+// Doubles and 32-bit integers need two passes. The first pass computes their bounding box, which determines the origin.
+// The second pass rounds the positions to floats.
 static bool measure_chunk(void *user, size_t index, const uint8_t *at, lam_error *error)
 {
     const struct positions *positions = user;
@@ -132,7 +133,7 @@ static bool round_chunk(void *user, size_t index, const uint8_t *at, lam_error *
     return true;
 }
 
-// Unites the chunks' boxes and chooses the origin. Returns whether floats are not precise enough.
+// Merges the chunks' boxes and chooses the origin. Returns whether floats are not precise enough.
 static bool choose_origin(struct positions *positions, size_t chunks)
 {
     struct box all = positions->boxes[0];

@@ -13,25 +13,25 @@ struct ply_reader {
     struct ply_table *table;
     const uint8_t *first;     // row 0, if it is in memory
     const uint8_t **chunks;   // start of each chunk
-    uint32_t *items, *starts; // the contents of the requested list
+    uint32_t *items, *starts; // the contents of the requested list (ply_table)
     uint8_t *rows;            // scalars; NULL if not requested
     uint64_t total;           // items so far (ply_table.items)
     bool has_other_counts;    // a row has more or fewer than three items
     // ply_ascii.c
     const uint8_t *end; // the end of the file
-    size_t indexed;     // rows that passed index_rows
+    size_t indexed;     // number of rows that index_rows has read without error
     // ply_binary.c
     size_t offset; // the offset of row 0 in the file
     size_t list_offset;
-    int mixed; // atomic; in rows that should have three items each, one has another number
+    int mixed; // atomic; set if a row has more or fewer than the expected three items
 };
 
 // Allocates the arrays that the serial pass fills.
 bool ply_start_rows(struct ply_reader *reader, struct arena *scratch, lam_error *error);
 
-// Records the start of the chunk that begins with a row. Returns false if the call must stop.
+// Records the start of the chunk that begins with this row. Returns false if the call is cancelled or out of time.
 bool ply_index_chunk(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error);
-// Records the start of a row in the serial pass. Returns false if the call must stop.
+// Records the start of a row in the serial pass. Returns false if the call is cancelled or out of time.
 static inline bool ply_index_row(struct ply_reader *reader, size_t row, const uint8_t *at, lam_error *error)
 {
     if (reader->starts)

@@ -14,15 +14,15 @@ static uint32_t declared_facets(const uint8_t *bytes)
     return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 }
 
-enum { SAMPLE = 1024 }; // bytes that are inspected
+enum { SAMPLE = 1024 }; // number of bytes that are inspected
 
-// Text contains no zero byte. A binary STL does, because the number of facets contains a zero byte up to 16 million
-// facets.
+// Text contains no zero byte. A binary STL with fewer than 16 million facets contains one, because the high byte of its
+// number of facets is zero.
 static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
 // ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the start. "solid" alone is
-// not enough: many binary files begin with it too. A file with a zero byte counts as text if the byte is between the
-// words of a facet; the text reader then reports the byte.
+// not enough: many binary files begin with it too. A file with a zero byte is treated as text if the byte is between
+// the words of a facet; the text reader then reports the byte.
 static bool looks_ascii(const uint8_t *bytes, size_t size)
 {
     const uint8_t *end = bytes + (size < SAMPLE ? size : SAMPLE), *at = bytes;
@@ -38,8 +38,8 @@ static bool looks_ascii(const uint8_t *bytes, size_t size)
            (size < SAMPLE || text_count_word(at, end, "facet") || text_count_word(at, end, "endsolid"));
 }
 
-// Tests the size first. A text cannot have 84 + 50 · count bytes by chance, because its characters, read as the count,
-// give more than 10⁸.
+// Tests the size first. A text file cannot be 84 + 50 · count bytes long by chance, because its characters, read as a
+// binary count, give more than 10⁸.
 static enum kind detect_kind(const uint8_t *bytes, size_t size)
 {
     bool has_header = size >= STL_FACETS;

@@ -5,17 +5,17 @@
 #include "fail.h"
 #include "importer.h"
 
-// A binary STL consists of a header of 80 bytes, the number of facets (32 bits, little-endian), and 50 bytes per facet:
-// normal and three corners (three floats each) and an attribute of 16 bits.
+// A binary STL consists of a header of 80 bytes, the number of facets (32 bits, little-endian), and 50 bytes per facet.
+// A facet is a normal and three corners (three floats each), followed by an attribute of 16 bits.
 enum {
     STL_HEADER = 80,
     STL_FACETS = 84,
     STL_FACET = 50,
-    STL_CORNERS = 12,   // offset in a facet, after its normal
-    STL_ATTRIBUTE = 48, // offset in a facet
+    STL_CORNERS = 12,   // offset of the corners in a facet, after its normal
+    STL_ATTRIBUTE = 48, // offset of the attribute in a facet
 };
 
-// Each function sets all members of the mesh except its name; triangle_count stays 0 for a file without facets.
+// Each function sets all members of the mesh except its name; triangle_count remains 0 if the file contains no facets.
 bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
 bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error);
 

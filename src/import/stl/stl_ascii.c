@@ -8,8 +8,9 @@
 //    endfacet
 //  endsolid NAME
 //
-// Keywords may be in upper or lower case, with line breaks between any words, because programs differ; a name extends
-// to the end of the line. The facets' normals are ignored: they follow from the corners, and some programs write nan.
+// Keywords may be in upper or lower case, and line breaks may occur between any words, because programs differ. A name
+// extends to the end of the line. The facets' normals are ignored, because they follow from the corners and some
+// programs write nan.
 #include "stl.h"
 #include "fail.h"
 #include "number.h"
@@ -24,15 +25,15 @@ struct reader {
     struct lam_scene *scene;
     const uint8_t *start, *at, *end;
     float *positions;   // 3 per corner
-    double *exact;      // positions in the second pass, for a part far from zero; NULL in the first pass
+    double *exact;      // positions in the second pass, for models far from zero; NULL in the first pass
     bool needs_doubles; // first pass: a number exceeds the range of a float
     float minimum[3], maximum[3];
     lam_part *parts;
     uint32_t part_count;
     uint32_t facets;
     const uint8_t *solid; // the statement that began the current solid, or NULL
-    // Number of solids without an end. For the first of them: its statement, and the position at which "endsolid" was
-    // expected.
+    // The number of solids without "endsolid". For the first of them, the position of its statement, and the position
+    // at which "endsolid" was expected.
     uint32_t unclosed;
     const uint8_t *first_unclosed, *end_expected;
 };
@@ -51,7 +52,7 @@ static bool next_is(struct reader *reader, const char *word)
     return text_is_word(reader->at, reader->end, word);
 }
 
-// Skips the next word if it is `word`. Returns whether it was skipped.
+// Skips the next word if it is `word`. Returns whether the next word was skipped.
 static bool accept_word(struct reader *reader, const char *word)
 {
     if (!next_is(reader, word))
@@ -88,7 +89,7 @@ static bool read_corner(struct reader *reader, size_t corner, lam_error *error)
             reader->exact[3 * corner + (size_t)axis] = exact;
         } else {
             if (!(value >= -FLT_MAX && value <= FLT_MAX))
-                reader->needs_doubles = true; // the second pass reads or reports it
+                reader->needs_doubles = true; // the second pass reads the number as a double, or reports it
             if (value < reader->minimum[axis])
                 reader->minimum[axis] = value;
             if (value > reader->maximum[axis])
@@ -120,7 +121,8 @@ static bool read_facet(struct reader *reader, lam_error *error)
     return true;
 }
 
-// Reads a solid's name: the rest of the line, trimmed. In files of a single line, it ends before "facet normal".
+// Reads a solid's name: the rest of the line, trimmed. In files that consist of a single line, the name ends before
+// "facet normal".
 static void read_name(struct reader *reader, const uint8_t **name, size_t *length)
 {
     const uint8_t *line_end = text_line_end(reader->at, reader->end);
@@ -141,7 +143,7 @@ static void read_name(struct reader *reader, const uint8_t **name, size_t *lengt
 static bool begin_part(struct reader *reader, const uint8_t *name, size_t length, lam_error *error)
 {
     if (reader->part_count > 0 && reader->parts[reader->part_count - 1].first_triangle == reader->facets)
-        reader->part_count--; // a solid without facets
+        reader->part_count--; // drops a solid without facets
     lam_part *part = &reader->parts[reader->part_count++];
     *part = (lam_part){.first_triangle = reader->facets, .material = -1};
     if (length == 0)
@@ -150,7 +152,8 @@ static bool begin_part(struct reader *reader, const uint8_t *name, size_t length
     return part->name || call_memory_error(reader->source->call, length, error);
 }
 
-// Opens a solid at `at` (NULL means there is no statement). A solid that is still open has no end.
+// Opens a solid at `at` (NULL means there is no statement). If the previous solid is still open, its "endsolid" is
+// missing.
 static void open_solid(struct reader *reader, const uint8_t *at)
 {
     if (reader->solid && reader->unclosed++ == 0) {
@@ -259,8 +262,8 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
     if (zero)
         return fail_line(error, source, text_line(source->bytes, zero), "found a zero byte, expected text");
 
-    // Upper bounds: each corner has the word "vertex", and each part after the first one follows "solid" or "endsolid".
-    // Names may contain these words too.
+    // These are upper bounds: each corner begins with the word "vertex", and each part after the first one follows
+    // "solid" or "endsolid". Names may contain these words too.
     size_t corners = text_count_word(reader.start, reader.end, "vertex");
     size_t parts =
         1 + text_count_word(reader.start, reader.end, "solid") + text_count_word(reader.start, reader.end, "endsolid");

@@ -1,4 +1,4 @@
-// stl_binary.c: reads binary STL: positions from the facets, colours from their attribute words.
+// stl_binary.c: reads binary STL: the positions of the facets, and colours from their attribute words.
 //
 // Two dialects store a colour of 3 × 5 bits in a facet's attribute word:
 //
@@ -8,7 +8,7 @@
 //                      bit 15 clear: the facet has its own colour
 //                      the header contains "COLOR=" and four bytes RGBA, the colour of the other facets
 //
-// Other programs store counters or undefined words; colors_of decides which it is.
+// Other programs store counters or undefined values in these words; colors_of decides whether they are colours.
 #include "stl.h"
 #include "parallel_rows.h"
 #include "fail.h"
@@ -18,10 +18,10 @@
 
 // Statistics of the attribute words of a chunk.
 struct words {
-    uint32_t marked;          // words with bit 15 set
-    uint32_t unmarked_values; // distinct nonzero words without bit 15: 0, 1, or 2 for more
-    uint16_t unmarked;        // the first of them
-    bool any;                 // a word is not 0
+    uint32_t marked;          // number of words with bit 15 set
+    uint32_t unmarked_values; // number of different nonzero words without bit 15: 0, 1, or 2 for more than one
+    uint16_t unmarked;        // the first nonzero word without bit 15
+    bool any;                 // whether any word is not 0
 };
 
 struct reader {
@@ -109,10 +109,10 @@ static bool color_chunk(void *user, size_t index, const uint8_t *facet, lam_erro
     return true;
 }
 
-// Returns whether facets have colours, and sets dialect and fallback. If the header contains "COLOR=", they are
-// colours, unless all words are zero: the header's colour then applies to the whole file (*uniform). Otherwise they
-// have colours if some words have bit 15 set and all others are zero or equal, which is a default; more varied words
-// are not colours.
+// Returns whether facets have colours, and sets dialect and fallback. If the header contains "COLOR=", the attribute
+// words are colours. If all of them are zero, the header's colour applies to the whole file instead (*uniform). Without
+// "COLOR=", the words are colours if bit 15 is set in some of them, and the others are zero or all equal (a default
+// value).
 static bool colors_of(struct reader *reader, const struct words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";
@@ -122,7 +122,7 @@ static bool colors_of(struct reader *reader, const struct words *words, bool *un
     for (int at = 0; at + KEY + 4 <= STL_HEADER; at++) {
         if (memcmp(header + at, key, KEY) != 0)
             continue;
-        // The fourth byte, opacity, is ignored: programs write 0 for an opaque part.
+        // The fourth byte, the opacity, is ignored, because programs write 0 for opaque models.
         memcpy(reader->fallback, header + at + KEY, 3);
         reader->magics = true;
         *uniform = !words->any;

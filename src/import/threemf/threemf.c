@@ -7,15 +7,15 @@
 
 #include <string.h>
 
-// Recognises a ZIP archive that contains a model part and the relationships that lead to it; file names are not
-// compressed.
+// Recognises a ZIP archive that contains a model part and the relationships that refer to this part. File names in a
+// ZIP archive are not compressed.
 static int threemf_probe(const uint8_t *bytes, size_t size)
 {
     static const char relationships[] = "_rels/.rels", model[] = ".model";
     bool found = size > 4 && memcmp(bytes, "PK\3\4", 4) == 0 &&
                  memmem(bytes, size, relationships, sizeof relationships - 1) &&
                  memmem(bytes, size, model, sizeof model - 1);
-    return found ? 2 : size >= 2 && memcmp(bytes, "PK", 2) == 0; // any ZIP archive with the extension .3mf
+    return found ? 2 : size >= 2 && memcmp(bytes, "PK", 2) == 0; // for other ZIP archives, the extension .3mf decides
 }
 
 #ifdef HAVE_3MF

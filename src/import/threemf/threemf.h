@@ -2,15 +2,15 @@
 //
 // A 3MF file is a ZIP archive with model parts in XML. threemf_package.c opens the archive (libzip), and threemf_xml.c
 // parses a part (expat). threemf_model.c reads its elements, with threemf_properties.c, threemf_layers.c and
-// threemf_display.c. threemf_mesh.c makes meshes of its objects, and threemf_build.c places them according to the build
-// items and their components.
+// threemf_display.c. threemf_mesh.c converts the part's objects to meshes, and threemf_build.c places the objects
+// according to the build items and their components.
 #ifndef THREEMF_H
 #define THREEMF_H
 
 #include "importer.h"
 #include "name_table.h"
 
-// A growing array. It is freed with its file.
+// A growing array, which is freed with the struct threemf.
 struct threemf_rows {
     void *items;
     size_t count, capacity, bytes; // `bytes` are charged to the call
@@ -32,7 +32,8 @@ struct threemf_resource {
     // For groups of properties, the range of their elements in the part's lists of colours (BASE, COLORS), texture
     // coordinates or pairs (MULTI).
     uint32_t first, count;
-    // The material of the first element (BASE) or the material with the texture (TEXCOORDS, MULTI), or −1.
+    // The material of the first element (BASE), or the material with the texture (TEXCOORDS, MULTI). −1 if there is no
+    // such material.
     int material;
     bool faulty;                   // the picture cannot be read, so triangles are drawn without it
     int32_t base;                  // composite materials: index of the resource with the mixed colours
@@ -46,13 +47,15 @@ enum { LAYERS_MAX = 16 };
 struct threemf_layers {
     int count;
     int32_t groups[LAYERS_MAX]; // indices of resources
-    // Whether the layer multiplies the layers below. Otherwise it covers them by its alpha.
+    // Whether the layer multiplies the layers below it. Otherwise, the layer is blended over the layers below it, by
+    // its alpha.
     bool multiply[LAYERS_MAX];
     int texture; // the first layer that is a texture, or −1
     int texture_count;
     int base;                    // the base material whose surface the mixed layers use, or −1
     uint32_t colors[LAYERS_MAX]; // colours of the first element: indices into the part's colours
-    bool varies; // another element has other colours, or textures use other coordinates than the first one
+    // another element has different colours, or some textures use different coordinates than the first texture
+    bool varies;
 };
 
 // An element of multiproperties, as indices into the part's colours and texture coordinates.
@@ -78,17 +81,17 @@ struct threemf_object {
     const char *name;
     int32_t id;
     size_t line;
-    int32_t group; // id of the group for triangles without one of their own, or 0
+    int32_t group; // id of the group for triangles without their own group, or 0
     uint32_t index;
     float *positions;
     uint32_t *indices;
-    struct threemf_property *properties; // NULL means no triangle has a group of its own
+    struct threemf_property *properties; // NULL means that no triangle has its own group
     uint32_t vertex_count, triangle_count;
     struct threemf_component *components;
     size_t component_count;
-    int mesh;      // index in the scene; −1 if not made yet, or without triangles
-    bool made;     // `mesh` is final
-    bool visiting; // set while it is placed: a component that refers to it then forms a cycle
+    int mesh;      // index in the scene; −1 if not created yet, or if the object has no triangles
+    bool made;     // `mesh` has its final value
+    bool visiting; // set while the object is being placed; a component that refers to it then forms a cycle
 };
 
 // A model part.
@@ -97,11 +100,11 @@ struct threemf_part {
     double unit_m; // metres per unit of length
     struct name_table ids;
     struct threemf_rows resources; // struct threemf_resource
-    struct threemf_rows colors;    // 4 floats, linear; 0 is white, 1 is the default material's colour
+    struct threemf_rows colors;    // 4 floats, linear; colour 0 is white, colour 1 is the default material's colour
     struct threemf_rows texcoords; // 2 floats
     struct threemf_rows pairs;     // struct threemf_pair
     struct threemf_rows items;     // struct threemf_component: the build
-    // The same lists in the scene's arena, after the part is read. Its meshes share them.
+    // Copies of these lists in the scene's arena, made after the part is read. The part's meshes share the copies.
     const float *scene_colors, *scene_texcoords;
 };
 
@@ -117,10 +120,10 @@ struct threemf {
     struct expat_library *expat;
     struct name_table part_names;
     struct threemf_rows parts; // struct threemf_part *
-    uint64_t expanded;         // total bytes of all parts
+    uint64_t expanded;         // total size of all parts in bytes
     uint64_t placed;           // number of components and items that were followed
     size_t flattened;          // number of instances whose transform is singular
-    size_t multiplied_layers;  // number of multiproperties that are drawn as a product
+    size_t multiplied_layers;  // number of multiproperties that are drawn as the product of their layers
     size_t beams, sliced;      // number of beams, and of objects with slices
 };
 
@@ -133,11 +136,11 @@ bool threemf_no_memory(struct threemf *file, size_t bytes);
 
 // --- threemf_package.c
 
-// Opens libzip, and the archive within its limits. Fails with LAM_UNSUPPORTED if libzip is not installed.
+// Opens libzip and the archive, after checking the limits. Fails with LAM_UNSUPPORTED if libzip is not installed.
 bool threemf_package_open(struct threemf *file);
 void threemf_package_close(struct threemf *file);
 
-// Reads a part of the archive in chunks. `name` may have a '/' at its start.
+// Reads a part of the archive in chunks. `name` may begin with '/'.
 typedef bool threemf_chunk_fn(void *user, const void *bytes, size_t size, bool last);
 bool threemf_package_read(struct threemf *file, const char *name, threemf_chunk_fn *take, void *user);
 // Reads a whole part into memory of the scratch arena.
@@ -145,9 +148,9 @@ bool threemf_package_read_whole(struct threemf *file, const char *name, const ui
 
 // --- the model
 
-// Returns the part with this path, which is read on first use. Returns NULL and fills the error on failure.
+// Returns the part with this path, and reads it on first use. Returns NULL and fills the error on failure.
 struct threemf_part *threemf_part_at(struct threemf *file, const char *path);
-// Returns a resource of a part by its id, or NULL if there is none.
+// Returns the resource of a part with this id, or NULL if no resource has this id.
 struct threemf_resource *threemf_resource_at(const struct threemf_part *part, int32_t id);
 
 // threemf_properties.c: returns the linear colour of an element of a group.

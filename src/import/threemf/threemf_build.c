@@ -25,7 +25,7 @@ static bool fail_reference(struct threemf *file, const struct threemf_part *part
                 shown_name(part->path, shown), component->line, component->id, sentence);
 }
 
-// Returns whether one more reference may be followed. References to missing objects count too.
+// Returns whether the limits allow following one more reference. References to missing objects are counted too.
 static bool check_limits(struct threemf *file)
 {
     struct call_control *call = file->source->call;

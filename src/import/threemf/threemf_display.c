@@ -23,7 +23,7 @@ bool begin_display(struct threemf_xml *xml, const char *const *attributes)
     return group != NULL;
 }
 
-// Gets an optional number from 0 to 1. Returns false with a warning if it is out of range.
+// Gets an optional number from 0 to 1. If the number is out of range, warns and returns false.
 static bool take_share(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out)
 {
     if (!threemf_attribute(attributes, name))
@@ -73,7 +73,7 @@ static void apply(const struct display *display, lam_material *material)
     material->physical = true;
     material->metallic = display->metallic;
     material->roughness = display->roughness;
-    if (display->specular) { // a dielectric whose reflectance is its colour, as in glTF
+    if (display->specular) { // a dielectric whose reflectance f0 is the specular colour, as in glTF
         material->ior = 0;
         material->f0_color = (lam_rgb){display->f0[0], display->f0[1], display->f0[2]};
         material->specular_glossiness = 1;
@@ -91,7 +91,7 @@ void display_finish(struct model_reader *reader)
             apply((const struct display *)reader->displays.items + group->first + wishes[i].index,
                   &materials[wishes[i].material]);
     }
-    // Mixed layers over a base material use its surface.
+    // Mixed layers over a base material use the surface of that material.
     for (size_t i = 0; i < reader->part->resources.count && reader->wishes.count; i++) {
         const struct threemf_resource *group = model_resource(reader->part, (int32_t)i);
         if (group->kind != RESOURCE_MULTI || !group->layers || group->layers->base < 0 || group->faulty)

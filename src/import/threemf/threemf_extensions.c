@@ -21,7 +21,7 @@ static const struct known {
     {MICROSOFT "production/2015/06", LAM_EXTENSION_READ},
     {CONSORTIUM "trianglesets/2021/07", LAM_EXTENSION_NO_EFFECT},
     {MICROSOFT "trianglesets/2021/07", LAM_EXTENSION_NO_EFFECT},
-    // The objects' triangles are drawn, without their slices, beams and displacements.
+    // The triangles of the objects are drawn; slices, beams and displacements are ignored.
     {MICROSOFT "slice/2015/07", LAM_EXTENSION_IGNORED},
     {MICROSOFT "beamlattice/2017/02", LAM_EXTENSION_IGNORED},
     {MICROSOFT "beamlattice/balls/2020/07", LAM_EXTENSION_IGNORED},
@@ -72,7 +72,7 @@ static bool check_required(struct threemf_xml *xml, const lam_file_extension *ex
 {
     struct threemf *file = xml->file;
     char shown[SHOWN_NAME_SIZE];
-    // The end of the name distinguishes extensions.
+    // If the name is too long, the message shows only its end, which distinguishes extensions.
     const char *name = strlen(extension->name) > SHOWN_CHARACTERS
                            ? extension->name + strlen(extension->name) - (SHOWN_CHARACTERS - 1)
                            : extension->name;
@@ -103,7 +103,7 @@ bool extensions_check(struct threemf_xml *xml, const char *const *attributes)
     lam_file_info *info = &file->scene->file;
     info->extensions = list;
     for (size_t i = 0; i < count; i++) {
-        if (strcmp(spaces[i].uri, known[0].uri) == 0) // the core specification
+        if (strcmp(spaces[i].uri, known[0].uri) == 0) // the namespace of the core specification
             continue;
         lam_file_extension *extension = &list[info->extension_count++];
         extension->name = spaces[i].uri;

@@ -1,8 +1,8 @@
 // threemf_layers.c: reads multiproperties of the materials extension, which combine elements of several groups as
 // layers.
 //
-// Layers are mixed into one texture if each layer of colours has the same colour in all elements and all textures use
-// the same coordinates. Other layers become one colour per element, which multiplies the first texture.
+// Layers are mixed into one texture if each colour layer has the same colour in all elements, and all textures use the
+// same coordinates. Otherwise, the layers become one colour per element, which multiplies the first texture.
 #include "threemf_model.h"
 
 #include "fail.h"
@@ -36,7 +36,7 @@ static bool take_layers(struct threemf_xml *xml, const char *list, struct threem
     return true;
 }
 
-// Reads the blend methods of the layers from the second one on.
+// Reads the blend methods of all layers except the first.
 static void take_methods(const char *blend, struct threemf_layers *layers)
 {
     for (int i = 1; blend && i < layers->count && !model_at_end(blend); i++) {
@@ -88,10 +88,10 @@ static void blend_layer(float below[4], const float color[4], bool multiply)
 static const lam_texture_map *map_of(const struct threemf *file, const struct threemf_resource *layer)
 {
     return lam_scene_material(file->scene, layer->material)
-        ->maps[LAM_MAP_DIFFUSE]; // NULL means the picture could not be read
+        ->maps[LAM_MAP_DIFFUSE]; // a NULL map means that the picture could not be read
 }
 
-// Checks whether the element has the same colours and texture coordinates in its layers as the first element.
+// Checks whether the layers of the element have the same colours and texture coordinates as the first element's layers.
 static void compare_with_first(struct threemf_part *part, struct threemf_layers *layers, const uint32_t *indices,
                                bool is_first)
 {
@@ -115,7 +115,8 @@ static void compare_with_first(struct threemf_part *part, struct threemf_layers 
     }
 }
 
-// Combines the colours of an element's layers into one, which multiplies the texture if there is one.
+// Reads an element of multiproperties: combines the colours of its layers into one colour. If there is a texture, this
+// colour multiplies it.
 bool begin_multi(struct threemf_xml *xml, const char *const *attributes)
 {
     struct model_reader *reader = reader_of(xml);
@@ -196,7 +197,8 @@ static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, 
         width = texture && texture->levels[0].width > width ? texture->levels[0].width : width;
         height = texture && texture->levels[0].height > height ? texture->levels[0].height : height;
     }
-    // Any number of groups may use one texture, so the mixed textures count towards the expansion limit.
+    // Any number of groups may use the same texture, so the sizes of the mixed textures are added to the expanded size,
+    // which is limited.
     file->expanded += (uint64_t)width * (uint64_t)height * 4;
     if (!call_check_expanded(picture.call, file->source->name, file->expanded, file->error) ||
         !picture_make(&picture, (uint32_t)width, (uint32_t)height, LAM_RGBA8, &image, file->error))
@@ -219,7 +221,8 @@ static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, 
     return *out && scene_adopt_texture(file->scene, *out, file->error);
 }
 
-// Returns whether a product is exact: there is one texture, and no layer is blended with the layers below it.
+// Returns whether multiplying the colours and the texture is exact: there is one texture, and no layer is blended with
+// the layers below it.
 static bool needs_no_mixing(const struct threemf_layers *layers)
 {
     bool mixes = layers->texture_count > 1;
@@ -228,7 +231,7 @@ static bool needs_no_mixing(const struct threemf_layers *layers)
     return !mixes;
 }
 
-// Collects the layers. Returns false if they cannot be mixed into one texture.
+// Collects the layers of the group. Returns false if these layers cannot be mixed into one texture.
 static bool collect_layers(struct model_reader *reader, const struct threemf_layers *layers, struct mixed_layer *out)
 {
     const lam_texture_map *first = NULL;
@@ -248,8 +251,8 @@ static bool collect_layers(struct model_reader *reader, const struct threemf_lay
     return !layers->varies;
 }
 
-// Adds a material with the mixed texture; its other fields come from a base material in the first layer, if there is
-// one.
+// Adds a material with the mixed texture. The other fields of the material are copied from the base material `base` if
+// it is not −1, otherwise from the default material.
 static int add_mixed_material(struct threemf *file, const lam_texture_map *like, lam_texture *texture, int base)
 {
     lam_material material = base >= 0 ? *lam_scene_material(file->scene, base) : lam_material_default();

@@ -12,11 +12,11 @@
 enum { WHITE, NEUTRAL }; // the first colours of each part
 enum { PLAIN = -1 };     // material of triangles without a base material or a texture
 
-// The surface for the properties of a triangle.
+// The material, colours and texture coordinates that a triangle's properties define.
 struct surface {
     int material;
     uint32_t colors[3], texcoords[3];
-    bool colored, textured; // whether it has colours and texture coordinates of its own
+    bool colored, textured; // whether the triangle has its own colours, and texture coordinates
 };
 
 struct mesh_maker {
@@ -74,7 +74,8 @@ static bool resolve(const struct mesh_maker *maker, const struct threemf_propert
     return true;
 }
 
-// Finds the surface of each triangle. Triangles with the same properties as the previous one are not looked up again.
+// Finds the surface of each triangle. Triangles with the same properties as the previous triangle are not looked up
+// again.
 static bool resolve_all(struct mesh_maker *maker)
 {
     const struct threemf_object *object = maker->object;
@@ -103,8 +104,7 @@ static int by_number(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-// Lists the triangles as (material + 1) · 2³² + number, in the order of their materials. Returns NULL if memory runs
-// out.
+// Lists the triangles as (material + 1) · 2³² + index, sorted by material. Returns NULL if memory runs out.
 static uint64_t *order_triangles(const struct mesh_maker *maker, size_t count, size_t *materials)
 {
     uint64_t *order = arena_array(maker->scratch, count, sizeof *order);
@@ -121,7 +121,7 @@ static uint64_t *order_triangles(const struct mesh_maker *maker, size_t count, s
     return order;
 }
 
-// Moves three numbers of each triangle to its new position.
+// Reorders a list of three numbers per triangle.
 static bool move_triangles(const struct mesh_maker *maker, const uint64_t *order, size_t count, uint32_t *list)
 {
     uint32_t *old = arena_array(maker->scratch, 3 * count, sizeof *old);
@@ -133,7 +133,7 @@ static bool move_triangles(const struct mesh_maker *maker, const uint64_t *order
     return true;
 }
 
-// Moves the triangles into the order of their materials, and lists the parts.
+// Sorts the triangles by material, and lists the parts.
 static bool sort_parts(const struct mesh_maker *maker, lam_mesh *mesh)
 {
     size_t count = maker->object->triangle_count, materials;

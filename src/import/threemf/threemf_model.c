@@ -143,7 +143,7 @@ static bool begin_triangle(struct threemf_xml *xml, const char *const *attribute
     return take_property(xml, attributes, property);
 }
 
-// Copies rows into an arena. Returns NULL if there are none, or memory runs out.
+// Copies rows into an arena. Returns NULL if there are no rows, or if memory runs out (*ok becomes false).
 static void *keep_rows(struct model_reader *reader, struct arena *arena, const struct threemf_rows *rows, size_t size,
                        bool *ok)
 {
@@ -177,7 +177,7 @@ static bool end_object(struct threemf_xml *xml)
 
 // --- components and the build
 
-// A transform is 4 rows of 3 numbers for row vectors: "m00 m01 m02 m10 … m32", the last row the translation.
+// A transform is 4 rows of 3 numbers for row vectors: "m00 m01 m02 m10 … m32". The last row is the translation.
 static bool take_transform(struct threemf_xml *xml, const char *const *attributes, lam_mat4 *out)
 {
     const char *text = threemf_attribute(attributes, "transform");
@@ -254,7 +254,8 @@ static const struct threemf_element elements[IN_COUNT] = {
     [IN_COMPOSITE] = {NS_MATERIALS, "composite", IN_COMPOSITES, begin_composite, NULL},
     [IN_MULTIS] = {NS_MATERIALS, "multiproperties", IN_RESOURCES, begin_multis, end_multis},
     [IN_MULTI] = {NS_MATERIALS, "multi", IN_MULTIS, begin_multi, NULL},
-    [IN_CORE_MULTI] = {NS_CORE, "multi", IN_MULTIS, begin_multi, NULL}, // as in samples of the 3MF consortium
+    // the namespace is wrong, but samples of the 3MF consortium use it
+    [IN_CORE_MULTI] = {NS_CORE, "multi", IN_MULTIS, begin_multi, NULL},
     [IN_METALLIC_GROUP] = {NS_MATERIALS, "pbmetallicdisplayproperties", IN_RESOURCES, begin_display, end_group},
     [IN_METALLIC] = {NS_MATERIALS, "pbmetallic", IN_METALLIC_GROUP, begin_metallic, NULL},
     [IN_SPECULAR_GROUP] = {NS_MATERIALS, "pbspeculardisplayproperties", IN_RESOURCES, begin_display, end_group},
@@ -268,7 +269,7 @@ static const struct threemf_element elements[IN_COUNT] = {
 
 // --- parts
 
-// Moves the lists that meshes share to the scene.
+// Copies the lists that meshes share into the scene's arena.
 static bool keep_lists(struct model_reader *reader)
 {
     struct threemf_part *part = reader->part;

@@ -1,4 +1,4 @@
-// threemf_model.h: the elements of a model part while it is parsed.
+// threemf_model.h: the state of a model part while it is parsed, and the functions that read its elements.
 #ifndef THREEMF_MODEL_H
 #define THREEMF_MODEL_H
 
@@ -65,15 +65,15 @@ struct model_reader {
 
 static inline struct model_reader *reader_of(struct threemf_xml *xml) { return xml->user; }
 
-// Adds a resource with the id of these attributes. Returns NULL and sets the error.
+// Adds a resource with the id in these attributes. On failure, fills the error and returns NULL.
 struct threemf_resource *model_add_resource(struct threemf_xml *xml, const char *const *attributes,
                                             enum resource_kind kind);
 
-// Return a resource by its index, and the current group.
+// model_resource returns a resource by its index; model_group returns the current group of properties.
 struct threemf_resource *model_resource(struct threemf_part *part, int32_t index);
 struct threemf_resource *model_group(struct model_reader *reader);
 bool model_add_color(struct threemf *file, struct threemf_part *part, const float color[4]);
-// Reads the next whole number below `limit` of a list in an attribute. Returns false if there is none.
+// Reads the next number of a list in an attribute. Returns false if the list has no further whole number below `limit`.
 bool model_next_number(const char **at, uint32_t limit, uint32_t *out);
 bool model_at_end(const char *at); // whether only spaces are left
 
@@ -94,19 +94,19 @@ bool extensions_check(struct threemf_xml *xml, const char *const *attributes);
 threemf_begin_fn begin_base_materials, begin_base, begin_color_group, begin_color, begin_texture, begin_texcoord_group,
     begin_texcoord, begin_composites, begin_composite;
 threemf_end_fn end_group;
-// Parses "#RRGGBB" or "#RRGGBBAA" of an attribute, sRGB, to linear numbers.
+// Parses an attribute "#RRGGBB" or "#RRGGBBAA" (sRGB) and converts it to linear numbers.
 bool properties_take_color(struct threemf_xml *xml, const char *const *attributes, const char *name, float out[4]);
 // threemf_layers.c: multiproperties.
 threemf_begin_fn begin_multis, begin_multi;
 threemf_end_fn end_multis;
-// threemf_display.c: display properties. display_finish applies them at the end of the part, since they may follow the
-// materials.
+// threemf_display.c: display properties. display_finish applies these properties at the end of the part, because they
+// may come after the materials in the file.
 threemf_begin_fn begin_display, begin_metallic, begin_specular;
 void display_finish(struct model_reader *reader);
 // Reports a fault of properties, which does not stop the load: adds a warning "FILE: PART:LINE: sentence" and marks the
 // current group as faulty. Returns true.
 bool properties_fault(struct threemf_xml *xml, const char *format, ...) __attribute__((format(printf, 2, 3)));
-// Adds white and the colour of parts without a material, with which a part's colours begin.
+// Adds the first two colours of every part: white, and the colour of parts without a material.
 bool properties_start(struct threemf *file, struct threemf_part *part);
 
 #endif

@@ -1,4 +1,4 @@
-// threemf_package.c: reads the ZIP archive of a 3MF file with libzip, which is opened on demand.
+// threemf_package.c: reads the ZIP archive of a 3MF file with libzip, which is loaded on demand.
 #include "threemf.h"
 
 #include "fail.h"
@@ -32,7 +32,7 @@ struct zip_library {
 // --- checking the declared size before libzip allocates memory
 
 enum { END_BYTES = 22, COMMENT_MAX = 65535, LOCATOR_BYTES = 20, END64_BYTES = 56, ENTRY_BYTES = 46 };
-// Bytes that libzip uses for an entry of the list, beside its name.
+// The bytes that libzip uses for an entry of its list, without the entry's name.
 enum { ENTRY_MEMORY = 512 };
 
 static uint64_t little(const uint8_t *at, int bytes)
@@ -43,7 +43,7 @@ static uint64_t little(const uint8_t *at, int bytes)
     return value;
 }
 
-// Returns the number of entries in the record at `end`, which closes an archive.
+// Returns the number of entries that the end record of an archive, at `end`, declares.
 static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
 {
     uint64_t count = little(bytes + end + 10, 2);
@@ -57,8 +57,8 @@ static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
     return large > count ? large : count;
 }
 
-// Finds the largest number of entries in any closing record, since libzip may use any of them. Returns false if there
-// is no record.
+// Finds the largest number of entries that any end record declares, because libzip may use any of these records.
+// Returns false if there is no end record.
 static bool claimed_entries(const uint8_t *bytes, size_t size, uint64_t *out)
 {
     bool found = false;
@@ -165,8 +165,8 @@ static bool fail_part(struct threemf *file, const char *name, const char *why)
                 shown_name(name, shown), why);
 }
 
-// Returns the index of a part. The case of names differs between programs, but a list of many entries is only searched
-// by the hash of exact names.
+// Returns the index of a part. Programs differ in the case of names, so a short list of entries is also searched
+// without regard to case. A long list is searched only by the hash of the exact name.
 static zip_int64_t locate(const struct zip_library *zip, const char *name)
 {
     enum { FEW = 1000 };

@@ -132,7 +132,8 @@ static bool can_do_without(const lam_error *error)
     return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
 }
 
-// Decodes a picture of the package, which the scene then owns. *out is NULL, with a warning, if it could not be read.
+// Decodes a picture of the package; the scene owns the texture. If the picture cannot be read, warns and sets *out to
+// NULL.
 static bool decode_picture(struct threemf *file, const char *path, lam_texture **out)
 {
     const uint8_t *bytes;

@@ -1,7 +1,7 @@
-// threemf_xml.c: parses XML parts with expat, which is opened on demand.
+// threemf_xml.c: parses XML parts with expat, which is loaded on demand.
 //
 // Limits: an element may be TOKEN_BYTES long and DEPTH_MAX deep. Document types, whose entities can expand to any size,
-// are rejected, as 3MF requires. The memory of expat is charged to the call.
+// are rejected, as 3MF requires. Memory that expat allocates is charged to the call.
 #include "threemf_xml.h"
 
 #include "fail.h"
@@ -37,7 +37,7 @@ enum { AT_ROOT = -1, SKIPPED = -2 };
 
 // A namespace prefix, which is valid inside the element that declares it.
 struct declaration {
-    size_t prefix; // the position of its text in xml_parser.prefixes; "" means names without a prefix
+    size_t prefix; // the position of the prefix in xml_parser.prefixes; "" applies to names without a prefix
     enum threemf_namespace space;
     int depth;
 };
@@ -45,9 +45,9 @@ struct declaration {
 struct xml_parser {
     XML_Parser expat;
     const struct expat_library *library;
-    uint64_t given; // bytes
+    uint64_t given; // bytes given to expat so far
     int depth;
-    int rows[DEPTH_MAX + 1];                      // the table's row of each open element; rows[0] is AT_ROOT
+    int rows[DEPTH_MAX + 1];                      // the row in the table of each open element; rows[0] is AT_ROOT
     bool failed;                                  // the error is filled
     enum threemf_namespace spaces[DEPTH_MAX + 1]; // the namespaces of the open elements
     struct threemf_rows declarations, prefixes;   // struct declaration, char
@@ -67,7 +67,7 @@ static const char *const uris[] = {
 
 static __thread struct call_control *parsing_call;
 
-// Each block begins with its size, padded to keep the rest aligned.
+// Each block begins with its size, padded so that the memory after it is aligned.
 enum { BLOCK_HEAD = 16 };
 
 static void *resize_block(void *old, size_t size)
@@ -124,7 +124,7 @@ bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...)
 
 // --- name spaces
 //
-// This file resolves prefixes itself, because expat rejects undeclared ones, which occur in samples of the 3MF
+// This file resolves prefixes itself, because expat rejects undeclared prefixes, which occur in samples of the 3MF
 // consortium.
 
 static enum threemf_namespace space_of_uri(const char *uri)
@@ -152,7 +152,7 @@ static bool declare(struct threemf_xml *xml, const char *prefix, const char *uri
     return true;
 }
 
-// Finds the namespace of an element's or attribute's name. Returns false if its prefix is not declared.
+// Finds the namespace of the name of an element or attribute. Returns false if the prefix is not declared.
 static bool find_space(const struct xml_parser *parser, const char *name, enum threemf_namespace *out)
 {
     const char *colon = strchr(name, ':');
@@ -176,8 +176,8 @@ static bool refuse_prefix(struct threemf_xml *xml, const char *name)
                             shown_name(name, shown));
 }
 
-// Reads the declarations of an element and finds its namespace. An undeclared prefix is an error; with --lenient it
-// means the namespace of the parent element.
+// Reads the declarations of an element and finds its namespace. An undeclared prefix is an error. With --lenient, an
+// element with an undeclared prefix is in the namespace of its parent.
 static bool take_spaces(struct threemf_xml *xml, const char *name, const char *const *attributes,
                         enum threemf_namespace *out)
 {
@@ -200,7 +200,7 @@ static bool take_spaces(struct threemf_xml *xml, const char *name, const char *c
 
 // --- elements
 
-// Returns the part of a name after its prefix.
+// Returns a name without its prefix.
 static const char *local_name(const char *name)
 {
     const char *colon = strchr(name, ':');
@@ -308,7 +308,8 @@ void threemf_xml_close(struct threemf *file)
         library_close(file->expat->handle);
 }
 
-// Expat rescans an incomplete element on each call, so that long elements take quadratic time.
+// Limits the length of an element, because expat rescans an incomplete element on each call and would take quadratic
+// time.
 static bool check_token(struct threemf_xml *xml)
 {
     const struct xml_parser *parser = xml->parser;

@@ -1,4 +1,4 @@
-// threemf_xml.h: passes the elements of an XML part one by one to functions of a table.
+// threemf_xml.h: calls the functions of a table for the elements of an XML part.
 #ifndef THREEMF_XML_H
 #define THREEMF_XML_H
 
@@ -19,8 +19,8 @@ struct threemf_xml;
 typedef bool threemf_begin_fn(struct threemf_xml *xml, const char *const *attributes);
 typedef bool threemf_end_fn(struct threemf_xml *xml);
 
-// An element that is read if its parent is the element in row `parent` of the same table (−1 if it is the root). Other
-// elements are skipped with all their content.
+// An element that the parser reads if its parent is the element in row `parent` of the same table (−1 means that the
+// element is the root). All other elements are skipped, including their content.
 struct threemf_element {
     enum threemf_namespace space;
     const char *name;
@@ -41,7 +41,7 @@ struct threemf_xml {
     struct xml_parser *parser; // the parser of threemf_xml.c
 };
 
-// Opens expat. Fails with LAM_UNSUPPORTED if it is not installed.
+// Loads expat. Fails with LAM_UNSUPPORTED if expat is not installed.
 bool threemf_xml_open(struct threemf *file);
 void threemf_xml_close(struct threemf *file);
 
@@ -52,16 +52,16 @@ size_t threemf_xml_line(const struct threemf_xml *xml);
 // Fails with "FILE: PART:LINE: sentence". Returns false.
 bool threemf_xml_fail(struct threemf_xml *xml, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Returns the value of an attribute without a prefix, or NULL if the element does not have it.
+// Returns the value of an attribute without a prefix, or NULL if the element does not have this attribute.
 const char *threemf_attribute(const char *const *attributes, const char *name);
-// Does the same for an attribute in a namespace, at the start of its element.
+// Returns the value of an attribute in a namespace. Call this only at the start of the attribute's element.
 const char *threemf_attribute_of(const struct threemf_xml *xml, const char *const *attributes,
                                  enum threemf_namespace space, const char *name);
-// Gets a whole number from 0 to INT32_MAX. Sets *found to whether the attribute exists. If `found` is NULL, the
-// attribute is required.
+// Gets a whole number from 0 to INT32_MAX from an attribute. Sets *found to whether the attribute exists. If `found` is
+// NULL, the attribute is required.
 bool threemf_take_number(struct threemf_xml *xml, const char *const *attributes, const char *name, uint32_t *out,
                          bool *found);
-// Gets a required finite number.
+// Gets a finite number from a required attribute.
 bool threemf_take_float(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out);
 
 #endif

@@ -1,4 +1,4 @@
-// fields.c: reads, sets and checks a field of a material or light by its row.
+// fields.c: reads, sets and checks a field of a material or light by its row in the table of fields.
 #include "fields.h"
 
 #include "linear.h"
@@ -115,7 +115,7 @@ bool field_fits(const lam_field *field, const void *object, struct field_fault *
     const char *const *parts = types[field->type].parts;
     if (field->type == LAM_FIELD_ANGLE) {
         min = math_radians(min);
-        max = math_radians(max) + 1e-6; // the floats for π and π/2 may exceed them by 1e-7
+        max = math_radians(max) + 1e-6; // π and π/2, rounded to float, may be 1e-7 larger
     }
     for (int i = 0; i < count; i++) {
         double highest = field->type == LAM_FIELD_RGBA && i == 3 ? 1 : max;

@@ -8,7 +8,7 @@
 #include <lambent/light.h>
 #include <lambent/material.h>
 
-// The reader of a material's field in shaders.
+// When shaders read a field of a material.
 enum field_reader {
     FIELD_ALWAYS,
     FIELD_LIT,         // read for every lit surface
@@ -21,14 +21,15 @@ enum field_reader {
 };
 
 struct material_field {
-    lam_field field; // first
+    lam_field field; // must be the first member
     // Name and comment in shaders whose uniforms are products of materials and lights. NULL means that both are the
     // same as in other shaders; "" means that the field occurs only in the products.
     const char *product, *product_summary;
     enum field_reader reader;
-    bool optional; // a scene file omits it if it is 0, the default
+    bool optional; // a scene file omits the field if it is 0, the default
     bool physical; // only physical materials have the field, so writing it makes a material physical
-    int layer;     // for FIELD_LAYER, the LAYER_… that reads it; a scene file omits default values
+    // for FIELD_LAYER, the layer (LAYER_…) that reads the field; a scene file omits the field if it has its default
+    int layer;
 };
 const struct material_field *material_field(int index); // returns NULL past the end
 
@@ -38,15 +39,15 @@ int material_layers(const lam_material *material);
 int map_layer(lam_map map);
 
 struct light_field {
-    lam_field field; // first
-    bool optional;   // a scene file omits it if it is 0
-    // the cone law to which the field of a spot belongs: soft if outer_rad > 0
+    lam_field field; // must be the first member
+    bool optional;   // a scene file omits the field if it is 0
+    // the kind of cone for which a spotlight uses the field; a cone is soft if outer_rad > 0
     enum { ANY_CONE, HARD_CONE, SOFT_CONE } cone;
 };
 const struct light_field *light_field(int index);
 static inline bool field_is_of(const lam_field *field, lam_light_type type) { return field->light_types >> type & 1; }
 
-// A number outside the range of its field, with its name and range as text for an error sentence.
+// A number outside the range of its field, with the field's name and range as text for an error message.
 struct field_fault {
     char name[48], expected[48];
     double found;
@@ -54,14 +55,16 @@ struct field_fault {
 bool field_fits(const lam_field *field, const void *object, struct field_fault *fault);
 
 bool field_equal(const lam_field *field, const void *a, const void *b);
-// Returns whether the bytes are 0; a flag then has its default.
+// Returns whether the bytes of the field are 0, which is the default of a flag.
 bool field_is_zero(const lam_field *field, const void *object);
-bool field_is_standard(const lam_field *field, const void *object); // compared as floats
+// whether the field has its default, compared as floats
+bool field_is_standard(const lam_field *field, const void *object);
 // These functions set a field to its default, or to any numbers, with angles in degrees.
 void field_set_standard(const lam_field *field, void *object);
 void field_set_written(const lam_field *field, void *object, const double numbers[4]);
 
-// Call this for each field that a user or a file has set: see material_field.physical.
+// Call this for each field that a user or a file has set. If only physical materials have the field, the material
+// becomes physical.
 void material_note_written(lam_material *material, int field);
 
 #endif

@@ -1,4 +1,5 @@
-// khr_layers.c: KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume.
+// khr_layers.c: the tables of the extensions KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence,
+// transmission and volume.
 #include "khr_layers.h"
 
 #include <stddef.h>

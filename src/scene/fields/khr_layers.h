@@ -7,7 +7,7 @@
 // A number or colour, with the range that the extension's specification allows.
 struct khr_number {
     const char *extension, *key;
-    size_t offset; // in lam_material
+    size_t offset; // offset of the member in lam_material
     int count;     // number of floats
     double min, max;
 };

@@ -9,7 +9,8 @@ static float mixed(double from, double to, double share) { return (float)(from +
 
 static double within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
-// Gets the dielectric's reflectance along the normal for specular–glossiness materials; for others it is 0.04.
+// Gets the reflectance of the dielectric along the normal. The reflectance is 0.04, except for specular–glossiness
+// materials.
 static void dielectric_f0_of(const lam_material *m, double f0[3])
 {
     const float *color = &m->f0_color.r;

@@ -13,7 +13,7 @@ struct named_value {
 
 #define COUNT_OF(list) (int)(sizeof(list) / sizeof *(list))
 
-// Define the function that returns the words of a list, for lam_setting.word, and the function that returns their
+// Defines the function that returns the keywords of a list, for lam_setting.word, and the function that returns their
 // summaries, for lam_setting.word_summary.
 #define WORDS(name, ...)                                                                                               \
     static const struct named_value name##_list[] = {__VA_ARGS__};                                                     \

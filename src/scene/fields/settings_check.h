@@ -7,14 +7,15 @@
 // Checks every member that has a row in the table. Fails with LAM_BAD_ARGUMENT.
 bool settings_check(const lam_draw_params *params, lam_error *error);
 
-// Copies the parameters. WHOLE and NUMBER settings that are 0 get their default, and a number below 0 becomes 0.
+// Copies the parameters. If a WHOLE or NUMBER setting is 0, it gets its default; if a NUMBER is negative, it becomes 0.
 void settings_resolve(const lam_draw_params *params, lam_draw_params *out);
 
 // Returns the value or the default of a NUMBER or ANGLE (radians) as a double, which avoids rounding to float. `key`
-// names its row.
+// selects the row of the table.
 double setting_number(const lam_draw_params *params, const char *key);
 
-// Checks that colour channels are finite and at least 0; the fourth is an alpha and at most 1. `name` begins the error.
+// Checks that colour channels are finite and at least 0. The fourth channel is an alpha, which must be at most 1. The
+// error message begins with `name`.
 bool channels_check(const char *name, const float *channels, int count, lam_error *error);
 
 #endif

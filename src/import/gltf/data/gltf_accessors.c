@@ -1,4 +1,4 @@
-// gltf_accessors.c: reads accessors (section 3.6.2): their types, and their range in the file's buffers.
+// gltf_accessors.c: reads accessors (section 3.6.2): their types, and their ranges in the file's buffers.
 #include "gltf_accessors.h"
 
 #include "gltf_buffers.h"
@@ -75,7 +75,7 @@ static bool take_type(struct gltf *gltf, const struct place *place, const json_t
 }
 
 // Returns the range of `count` elements of `element` bytes in the bufferView that `object` refers to. Returns NULL on
-// error, or if there is no view.
+// error, or if `object` names no bufferView.
 static const uint8_t *take_run(struct gltf *gltf, const struct place *place, const json_t *object, size_t count,
                                size_t element, bool strided, size_t *stride, int *buffer)
 {

@@ -6,20 +6,21 @@
 
 bool gltf_accessors_start(struct gltf *gltf);
 
-// Returns the accessor with a checked index; its range within the buffer is checked too. Returns NULL on error.
+// Returns the accessor with a checked index, after checking that its elements lie within the buffer. Returns NULL on
+// error.
 struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index);
 
 // Gets the accessor that a key of `object` refers to. *out is NULL if the key is missing. Returns false on error.
 bool gltf_take_accessor(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                         struct gltf_accessor **out);
 
-// Returns the bytes of a number of this component type.
+// Returns the size in bytes of a number of this component type.
 static inline size_t gltf_component_size(int component)
 {
     return component <= GLTF_U8 ? 1 : component <= GLTF_U16 ? 2 : 4;
 }
 
-// Returns the accessor's type in words: "VEC3 of FLOAT", "VEC4 of normalized UNSIGNED_BYTE".
+// Returns a description of the accessor's type: "VEC3 of FLOAT", "VEC4 of normalized UNSIGNED_BYTE".
 const char *gltf_accessor_words(const struct gltf_accessor *accessor, char out[64]);
 
 #endif

@@ -1,5 +1,5 @@
-// gltf_buffers.c: reads buffers (section 3.6.1) on first use, and moves them to the scene if its arrays point into
-// them.
+// gltf_buffers.c: reads buffers (section 3.6.1) on first use, and moves a buffer to the scene if arrays of the scene
+// point into it.
 #include "gltf_buffers.h"
 
 #include "gltf_json.h"

@@ -9,11 +9,13 @@ bool gltf_buffers_start(struct gltf *gltf);
 // Returns the bufferView with a checked index (gltf_take_index), after reading its buffer. Returns NULL on error.
 const struct gltf_view *gltf_view_at(struct gltf *gltf, int index);
 
-// Gets bytes of a buffer, which is read on first use. Returns false if the range is outside the buffer.
+// Gets a range of bytes of a buffer, and reads the buffer on first use. Returns false if the range is outside the
+// buffer.
 bool gltf_buffer_bytes(struct gltf *gltf, const struct place *place, int index, size_t offset, size_t length,
                        const uint8_t **out);
 
-// Marks a buffer as kept: its bytes stay as long as the scene, because an array of the scene points into them.
+// Marks a buffer as kept: its bytes remain in memory as long as the scene exists, because an array of the scene points
+// into them.
 void gltf_buffer_keep(struct gltf *gltf, int buffer);
 
 // Moves kept buffers to the scene and releases the others. Returns false if memory runs out.

@@ -1,5 +1,6 @@
-// gltf_meshopt.c: decodes bufferViews compressed by meshoptimizer (EXT_meshopt_compression), with its library, which is
-// loaded on demand. https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
+// gltf_meshopt.c: decodes bufferViews that are compressed with EXT_meshopt_compression. The meshoptimizer library does
+// the decoding and is loaded on demand.
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
 #include "gltf_meshopt.h"
 
 #include "gltf_buffers.h"
@@ -78,7 +79,7 @@ static bool take(struct gltf *gltf, const struct place *place, const json_t *obj
     return check(gltf, place, c);
 }
 
-// Loads the library and finds the functions for a view; gltf->meshopt stays NULL if it is not installed.
+// Loads the library and finds the functions for a view; gltf->meshopt stays NULL if the library is not installed.
 static bool find_functions(struct gltf *gltf, const struct compressed *c, decode_fn **decode, filter_fn **filter)
 {
     static const char *const names[] = {"libmeshoptimizer.so.2d", "libmeshoptimizer.so.2", "libmeshoptimizer.so"};

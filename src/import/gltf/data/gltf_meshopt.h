@@ -4,8 +4,9 @@
 
 #include "gltf.h"
 
-// Decodes a bufferView that has the extension into memory of the scene. Sets *done to whether it was decoded; a view
-// that also has uncompressed bytes is left to the caller if meshoptimizer is not installed. Returns false on error.
+// Decodes a compressed bufferView into memory of the scene. Sets *done to whether the bufferView was decoded. If
+// meshoptimizer is not installed, *done is false and the caller must use the bufferView's uncompressed bytes; a
+// bufferView without such bytes is an error. Returns false on error.
 bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
                          bool *done);
 

@@ -30,8 +30,8 @@ static inline uint32_t load_32(const uint8_t *at)
 
 static inline float at_least_minus_one(float x) { return x > -1.0f ? x : -1.0f; }
 
-// Converts elements [first, last) to floats. Matrices of one- and two-byte numbers, whose columns are padded, are not
-// supported here.
+// Converts elements [first, last) to floats. Matrices of one- and two-byte numbers are not supported, because their
+// columns are padded.
 static void convert(const struct gltf_accessor *a, size_t first, size_t last, float *out)
 {
     size_t width = (size_t)a->width, stride = a->stride;
@@ -83,7 +83,8 @@ static uint32_t index_at(int component, const uint8_t *run, size_t i)
     return component == GLTF_U8 ? run[i] : component == GLTF_U16 ? load_16(run + 2 * i) : load_32(run + 4 * i);
 }
 
-// Calls put(user, element, values) for each element that is replaced. Returns false if an index is out of range.
+// Calls put(user, element, value) for each element that a sparse accessor replaces. Returns false if an index is out of
+// range.
 static bool each_sparse(struct gltf *gltf, const struct gltf_accessor *a,
                         void (*put)(void *user, size_t element, const uint8_t *value), void *user)
 {
@@ -205,7 +206,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
     if (a->floats[1])
         return a->floats[1];
     if (!a->floats[0] || (keep && !own_bytes)) {
-        // This load owns the bytes of the file and may change them in place.
+        // This load owns the file's bytes and may change them in place.
         float *floats =
             own_bytes ? (float *)(uintptr_t)a->data : convert_all(gltf, a, keep ? &gltf->scene->arena : gltf->scratch);
         if (!floats || !check_finite(gltf, place, a, floats, flags & GLTF_REQUIRED))
@@ -310,7 +311,7 @@ const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struc
 
 struct coloring {
     const struct gltf_accessor *accessor;
-    const float *floats; // the accessor's numbers; NULL means its bytes
+    const float *floats; // the accessor's numbers; NULL means that the accessor's bytes are used
     bool opaque;
     void *out; // may be `floats` itself
 };

@@ -4,9 +4,9 @@
 
 #include "gltf.h"
 
-// Returns the numbers as contiguous floats, `width` for each element: the file's own bytes if they have this layout,
-// otherwise converted and kept for the next call. Normalised integers become −1…1 or 0…1 (section 3.6.2.2). Returns
-// NULL on error.
+// Returns the numbers as contiguous floats, `width` for each element. If the file's own bytes have this layout, they
+// are returned directly; otherwise the numbers are converted and kept for the next call. Normalised integers become
+// −1…1 or 0…1 (section 3.6.2.2). Returns NULL on error.
 enum {
     GLTF_KEEP = 1,     // the array lives as long as the scene, not only until the load ends
     GLTF_REQUIRED = 2, // with this flag, a number that is not finite is an error at `place`; without it, the number
@@ -18,7 +18,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
 // error.
 const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struct gltf_accessor *accessor);
 
-// Gets colours of VEC3 or VEC4 in a format of lam_mesh. With `opaque`, alpha is 1 regardless of the file.
+// Gets colours of type VEC3 or VEC4 in a format of lam_mesh. If `opaque` is set, alpha is 1 regardless of the file.
 struct gltf_colors {
     const void *items;
     lam_colors_format format;

@@ -28,7 +28,7 @@ void gltf_uri_unescape(const char *uri, char *out)
 {
     while (*uri) {
         int byte = escaped(uri);
-        *out++ = byte > 0 ? (char)byte : *uri; // %00 is not decoded: no name contains a zero
+        *out++ = byte > 0 ? (char)byte : *uri; // %00 is not decoded, because a name cannot contain a zero byte
         uri += byte > 0 ? 3 : 1;
     }
     *out = 0;
@@ -36,8 +36,8 @@ void gltf_uri_unescape(const char *uri, char *out)
 
 // --- data URIs
 
-// Decodes base64 (RFC 4648) without its padding. Returns the position of the first invalid character, or `length` if
-// there is none.
+// Decodes base64 (RFC 4648); `text` does not include the padding. Returns the position of the first invalid character,
+// or `length` if there is none.
 static size_t decode_base64(const char *text, size_t length, uint8_t *out)
 {
     static const char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -72,7 +72,7 @@ static size_t decode_base64(const char *text, size_t length, uint8_t *out)
 
 static size_t base64_bytes(size_t length) { return length / 4 * 3 + (length % 4 ? length % 4 - 1 : 0); }
 
-// Decodes text with %XX and returns the number of bytes. `out` may be NULL.
+// Decodes text that may contain %XX, and returns the number of bytes. `out` may be NULL.
 static size_t decode_text(const char *text, uint8_t *out)
 {
     size_t size = 0;

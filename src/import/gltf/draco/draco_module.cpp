@@ -1,4 +1,4 @@
-// draco_module.cpp: meshes decoded by Draco (https://google.github.io/draco/), for the importer of glTF (draco_module.h).
+// draco_module.cpp: decodes meshes with Draco (https://google.github.io/draco/) for the glTF importer (draco_module.h).
 #include "draco_module.h"
 
 #include <draco/compression/decode.h>
@@ -13,16 +13,18 @@
 namespace
 {
 
-// --- counting what Draco takes
+// --- counting Draco's memory
 
-// The memory that a thread's decoding has taken so far, and its limit. Where another library of the process has operators new and delete that come
-// before these (a program in C++ that links Lambent, a sanitizer), nothing is counted, and the estimate from the header is all there is.
+// The memory that the current thread's decoding has allocated so far, and its limit. If another library of the process
+// replaces operators new and delete before this one (a C++ program that links Lambent, or a sanitizer), no memory is
+// counted. The only limit is then the estimate from the header.
 struct account {
     draco_memory *memory;
     size_t taken;
 };
 
-// A pointer alone, in the space that every thread has: other kinds of thread_local data are allocated when they are first used.
+// The account of the current thread. Only a pointer is thread_local, in the static storage of each thread
+// (initial-exec), because other thread_local data allocate memory on first use.
 thread_local account *counting __attribute__((tls_model("initial-exec"))) = nullptr;
 
 void *take(std::size_t size)
@@ -35,7 +37,8 @@ void *take(std::size_t size)
             return nullptr;
     }
     void *block = std::malloc(size ? size : 1);
-    // With what the C library adds, as far as granted: the rest is less than a step.
+    // Counts the size of the block including the C library's padding, up to the granted memory. The uncounted rest is
+    // smaller than STEP.
     if (own && block) {
         const std::size_t held = malloc_usable_size(block), left = own->memory->granted - own->taken;
         own->taken += held < left ? held : left;
@@ -74,12 +77,12 @@ int damaged(char *reason, const char *text)
     return DAMAGED;
 }
 
-int decode(const uint8_t *bytes, size_t size, draco_memory *memory, void **mesh, uint32_t *vertices, uint32_t *triangles,
-           char *reason)
+int decode(const uint8_t *bytes, size_t size, draco_memory *memory, void **mesh, uint32_t *vertices,
+           uint32_t *triangles, char *reason)
 {
-    // A thread's data of the C++ runtime are made by its first exception; without memory for them the C library ends the
-    // program. Here they are made while there still is some.
-    volatile int pending = std::uncaught_exceptions(); // volatile: it is called, whoever needs the number
+    // The C++ runtime allocates a thread's exception data on first use, and the C library ends the program if that
+    // fails. This call allocates the data early, while memory is available.
+    volatile int pending = std::uncaught_exceptions(); // volatile, so that the compiler keeps the call
     (void)pending;
     const count_here here(memory);
     try {
@@ -89,7 +92,7 @@ int decode(const uint8_t *bytes, size_t size, draco_memory *memory, void **mesh,
         if (!type.ok())
             return damaged(reason, type.status().error_msg());
         if (type.value() != draco::TRIANGULAR_MESH)
-            return damaged(reason, "they hold no triangles");
+            return damaged(reason, "they contain no triangles");
         draco::Decoder decoder;
         auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
         if (!decoded.ok())
@@ -100,7 +103,7 @@ int decode(const uint8_t *bytes, size_t size, draco_memory *memory, void **mesh,
         for (draco::FaceIndex f(0); f < own->num_faces(); ++f)
             for (const draco::PointIndex &corner : own->face(f))
                 if (corner.value() >= own->num_points())
-                    return damaged(reason, "a triangle names a vertex that there is not");
+                    return damaged(reason, "a triangle refers to a vertex that does not exist");
         *mesh = own.release();
         return DECODED;
     } catch (const std::bad_alloc &) {
@@ -108,7 +111,7 @@ int decode(const uint8_t *bytes, size_t size, draco_memory *memory, void **mesh,
     } catch (const std::exception &e) {
         return damaged(reason, e.what());
     } catch (...) {
-        return damaged(reason, "the decoder gave up");
+        return damaged(reason, "the decoder failed");
     }
 }
 
@@ -136,7 +139,7 @@ int attribute(const void *mesh, uint32_t id, int component, int width, void *out
             return DAMAGED;
         }
         bool done = false;
-        switch (component) { // of glTF
+        switch (component) { // component types of glTF
         case 5120:
             done = copy<int8_t>(*found, own->num_points(), width, out);
             break;
@@ -160,7 +163,7 @@ int attribute(const void *mesh, uint32_t id, int component, int width, void *out
     } catch (const std::bad_alloc &) {
         return NO_MEMORY;
     } catch (...) {
-        return damaged(reason, "the decoder gave up");
+        return damaged(reason, "the decoder failed");
     }
 }
 
@@ -178,8 +181,8 @@ const draco_functions functions = {DRACO_MODULE_VERSION, decode, attribute, tria
 
 } // namespace
 
-// They serve this shared object and Draco's library, which was loaded for it; blocks are the C library's, so that memory may be taken by these
-// and given back by others, and the other way round.
+// These operators serve this shared object and Draco's library, which it loaded. They use malloc and free, so that
+// another operator delete may free blocks from this operator new, and the reverse.
 void *operator new(std::size_t size)
 {
     void *block = take(size);

@@ -1,6 +1,6 @@
 // page_decoders.c: calls the Draco decoders that the surrounding web page provides. Draco and meshoptimizer are in a
-// second module (web/decoders.py), which JavaScript calls for these functions (web/decoders.js); it copies the bytes
-// between the two memories.
+// second WebAssembly module (web/decoders.py). JavaScript (web/decoders.js) calls that module and copies the bytes
+// between the memories of the two modules.
 #include "draco_module.h"
 
 #include <stdbool.h>
@@ -11,9 +11,11 @@
 void *page_library(const char *name);
 bool page_library_find(void *library, const char *name, void *function);
 
-// Returns whether the module is loaded. If it is not, the page downloads it and reads the file again.
+// Returns whether the module is loaded. If it is not loaded, the page downloads the module and then reads the file
+// again.
 int web_decoders(void) IMPORT(web_decoders);
-// Stores mesh, vertices and triangles at `out`. Like the next function, it returns a result of draco_functions.
+// Stores the mesh's handle and its numbers of vertices and triangles in `out`. This function and the next one return
+// the same results as the members of draco_functions.
 int web_draco_decode(const uint8_t *bytes, size_t size, uint32_t out[3], char *reason) IMPORT(web_draco_decode);
 int web_draco_attribute(uint32_t mesh, uint32_t id, int component, int width, void *out, char *reason)
     IMPORT(web_draco_attribute);
@@ -22,10 +24,10 @@ void web_draco_free(uint32_t mesh) IMPORT(web_draco_free);
 // `kind` is 0 for vertices, 1 for triangles, 2 for a sequence of indices. Returns 0 or an error number.
 int web_meshopt_decode(int kind, void *out, size_t count, size_t stride, const uint8_t *bytes, size_t size)
     IMPORT(web_meshopt_decode);
-// `kind` is 0 for octahedral, 1 for quaternions, 2 for exponential.
+// `kind` is 0 for the octahedral filter, 1 for the quaternion filter, 2 for the exponential filter.
 void web_meshopt_filter(int kind, void *data, size_t count, size_t stride) IMPORT(web_meshopt_filter);
 
-// The other module does not count memory; the browser limits it.
+// The WebAssembly module of the decoders does not count memory, because the browser limits memory.
 static int decode(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
                   uint32_t *triangles, char reason[DRACO_REASON_SIZE])
 {

@@ -1,5 +1,5 @@
 // gltf_layers.c: reads material layers: KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence,
-// transmission and volume. Their members are rows of the tables in khr_layers.h.
+// transmission and volume. The tables in khr_layers.h list the members of these extensions.
 #include "gltf_layers.h"
 
 #include "gltf_json.h"
@@ -25,7 +25,7 @@ static bool take_numbers(struct gltf *gltf, const struct place *place, const jso
         for (int k = 0; k < khr_numbers[i].count; k++)
             member[k] = (float)values[k];
     }
-    // Whole turns do not change a direction.
+    // Removes whole turns, which do not change a direction.
     double turn = 2 * math_radians(180), angle = (double)material->anisotropy_rotation_rad;
     material->anisotropy_rotation_rad = (float)(angle - turn * (double)(int64_t)(angle / turn));
     return true;
@@ -53,7 +53,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
 bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t *object, int index,
                       lam_material *material)
 {
-    // These extensions exclude the layers.
+    // Unlit materials and specular-glossiness materials have no layers.
     if (material->unlit || gltf_extension(object, "KHR_materials_pbrSpecularGlossiness"))
         return true;
     return take_numbers(gltf, place, object, material) && take_maps(gltf, place, object, index);

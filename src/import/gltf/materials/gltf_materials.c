@@ -17,7 +17,7 @@ struct factors {
     double metallic, roughness;   // 0…1
     double specular[3];           // for KHR_materials_pbrSpecularGlossiness
     double glossiness;            // for KHR_materials_pbrSpecularGlossiness, 0…1
-    bool has_specular;            // specular-glossiness instead of metallic-roughness
+    bool has_specular;            // the material is specular-glossiness instead of metallic-roughness
     double emission[3], strength; // emissiveFactor; KHR_materials_emissive_strength
     double cutoff;
     int alpha; // lam_alpha_mode
@@ -58,7 +58,7 @@ static bool take_specular_glossiness(struct gltf *gltf, const struct place *plac
         !take_share(gltf, here, pbr, "glossinessFactor", &f->glossiness))
         return false;
     f->metallic = 0;
-    // If there is a map, it computes the roughness 1 − glossiness · alpha itself, as offset + scale · alpha.
+    // If there is a map, the roughness is 1 − glossiness · alpha, which the map computes as offset + scale · alpha.
     f->roughness = json_object_get(pbr, "specularGlossinessTexture") ? 1 : 1 - f->glossiness;
     return true;
 }
@@ -91,7 +91,7 @@ static lam_material material_of(const struct factors *f, const char *name)
     material.alpha_cutoff = (float)f->cutoff;
     material.emission = rgb_of(f->emission, f->strength);
     material.unlit = f->unlit;
-    if (f->has_specular) { // a dielectric whose reflectance is its colour
+    if (f->has_specular) { // a dielectric whose reflectance f0 is the specular colour
         material.ior = 0;
         material.f0_color = rgb_of(f->specular, 1);
         material.specular_glossiness = 1;
@@ -111,7 +111,8 @@ static const struct factors default_factors = {.base = {1, 1, 1, 1},
                                                .cutoff = 0.5,
                                                .alpha = LAM_ALPHA_OPAQUE};
 
-// Requests the maps of a specular-glossiness material: the specular colour with the glossiness in its alpha.
+// Requests the maps of a specular-glossiness material. One picture contains the specular colour, and the glossiness in
+// its alpha channel.
 static bool take_glossy_maps(struct gltf *gltf, const struct place *place, const json_t *glossy, int index,
                              float glossiness)
 {
@@ -154,7 +155,8 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
                          gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness, NULL));
 }
 
-// Finds the index of the requested variant, or −1 if none is requested. Returns false if the file does not contain it.
+// Finds the index of the requested variant; −1 if the caller requests no variant. Returns false if the file does not
+// contain it.
 static bool find_variant(struct gltf *gltf)
 {
     const char *wanted = gltf->source->params->variant;
@@ -188,7 +190,7 @@ bool gltf_materials_read(struct gltf *gltf)
     return find_variant(gltf);
 }
 
-// Gets the material of a primitive in the requested variant; −1 means the variant does not change it.
+// Gets the material of a primitive in the requested variant. *index is −1 if the variant does not change the material.
 static bool take_variant(struct gltf *gltf, const struct place *place, const json_t *primitive, int *index)
 {
     bool ok = true;
@@ -206,7 +208,7 @@ static bool take_variant(struct gltf *gltf, const struct place *place, const jso
     return ok;
 }
 
-// Returns the material for primitives without one: the defaults of the specification.
+// Returns the material for primitives without a material: the defaults of the specification.
 static int default_material(struct gltf *gltf)
 {
     if (gltf->default_material < 0) {

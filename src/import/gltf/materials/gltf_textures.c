@@ -1,5 +1,5 @@
-// gltf_textures.c: reads textures, samplers and images. Materials request maps while they are read; then every picture
-// that a map needs is decoded, all of them in parallel.
+// gltf_textures.c: reads textures, samplers and images. Materials request their maps while they are read. Then the
+// pictures of all maps are decoded in parallel.
 #include "gltf_textures.h"
 
 #include "gltf_buffers.h"
@@ -14,13 +14,13 @@
 #include <stdio.h>
 #include <string.h>
 
-// A picture of the file, decoded as lam_texture_values says.
+// A picture of the file, decoded according to `values`.
 struct gltf_picture {
     bool wanted;
     lam_texture_values values;
     const uint8_t *data;
     size_t size;
-    struct file_bytes file; // the owner of `data`, unless that is in a buffer
+    struct file_bytes file; // the owner of `data`, unless `data` is in a buffer
     const char *name;       // for messages
     struct lam_texture *texture;
     lam_error error;
@@ -29,7 +29,7 @@ struct gltf_picture {
 struct gltf_map {
     struct gltf_map *next;
     struct gltf_map_request request;
-    int picture; // 2 · image + values
+    int picture; // index in gltf->pictures: 2 · image + values
     lam_texture_map map;
 };
 
@@ -78,7 +78,7 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
     static const int minify[] = {
         NEAREST, LINEAR, NEAREST_MIPMAP_NEAREST, LINEAR_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR, LINEAR_MIPMAP_LINEAR, 0};
     if (index < 0)
-        return true; // without a sampler, the default applies: repeated and trilinear
+        return true; // without a sampler, the texture is repeated and filtered trilinearly
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "samplers"), (size_t)index);
     const json_t *object = gltf_list_item(gltf, "samplers", index);
     int large = LINEAR, small = LINEAR_MIPMAP_LINEAR, s = REPEAT, t = REPEAT;
@@ -100,8 +100,8 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
 
 // --- pictures
 
-// Returns the image of a texture: EXT_texture_webp's if this build can decode WebP, otherwise its own fallback. Returns
-// −1 on error.
+// Returns the image of a texture: the image of EXT_texture_webp if WebP can be decoded or the texture has no fallback
+// image, otherwise the fallback image. Returns −1 on error.
 static int image_of(struct gltf *gltf, int texture)
 {
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture);
@@ -123,7 +123,7 @@ static int image_of(struct gltf *gltf, int texture)
     return image;
 }
 
-// Returns the model's name and a position in it. Returns NULL if memory runs out.
+// Returns the model's name followed by a position in the model, for messages. Returns NULL if memory runs out.
 static const char *message_name(struct gltf *gltf, const char *place)
 {
     size_t length = strlen(gltf->source->name) + strlen(place) + 3;
@@ -169,7 +169,8 @@ static bool find_bytes(struct gltf *gltf, int image, struct gltf_picture *pictur
 
 // --- maps
 
-// Reads KHR_texture_transform: offset, rotation, scale, and a set of texture coordinates that replaces the other one.
+// Reads KHR_texture_transform: offset, rotation, scale, and a set of texture coordinates that replaces the set of the
+// textureInfo.
 static bool take_transform(struct gltf *gltf, const struct place *place, const json_t *info, size_t *set,
                            lam_texture_map *map)
 {
@@ -187,13 +188,15 @@ static bool take_transform(struct gltf *gltf, const struct place *place, const j
     const double m[2][3] = {{c * scale[0], s * scale[1], offset[0]}, {-s * scale[0], c * scale[1], offset[1]}};
     for (int i = 0; i < 6; i++)
         map->transform[i / 3][i % 3] = (float)m[i / 3][i % 3];
-    // All zero would mean the identity, but a scale of 0 shows one point of the picture.
+    // A transform of zeros would mean the identity. A scale of 0 must show a single point of the picture, so a tiny
+    // number is stored.
     if (scale[0] == 0 && scale[1] == 0)
         map->transform[0][0] = 1e-30f;
     return true;
 }
 
-// Returns the position of a file's set among the two that a material can have, or −1 if both are taken.
+// Returns which of a material's two texture coordinate sets is set `set` of the file: 0 or 1. Returns −1 if the
+// material already uses two other sets.
 static int place_set(struct gltf *gltf, int material, size_t set)
 {
     int *sets = gltf->texcoord_sets[material];
@@ -275,7 +278,7 @@ static bool can_do_without(const lam_error *error)
     return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
 }
 
-// Finds the bytes of the requested pictures; *count of them are listed.
+// Finds the bytes of the requested pictures. Stores the *count pictures to decode in `list`.
 static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t *count)
 {
     lam_error *error = gltf->json.error, reason;
@@ -300,7 +303,7 @@ static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t 
     return true;
 }
 
-// Sets a map of its material.
+// Sets a requested map in its material.
 static bool add_map(struct gltf *gltf, const struct gltf_map *item)
 {
     struct gltf_picture *picture = &gltf->pictures[item->picture];
@@ -315,7 +318,7 @@ static bool add_map(struct gltf *gltf, const struct gltf_map *item)
     return scene_share_texture(gltf->scene, picture->texture, gltf->json.error);
 }
 
-// Sets the maps that have a picture in their materials, with one warning for each picture that could not be read.
+// Sets, in the materials, all maps whose pictures were read. Warns once for each picture that could not be read.
 static bool add_maps(struct gltf *gltf)
 {
     for (size_t i = 0; i < VALUES * gltf_list_size(gltf, "images"); i++) {

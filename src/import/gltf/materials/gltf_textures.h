@@ -6,8 +6,8 @@
 
 bool gltf_textures_start(struct gltf *gltf);
 
-// A request for a material's map, from the textureInfo under `key`. `material` is its index in the file's list. If the
-// key is missing, `material->maps[slot]` is unchanged. *present (may be NULL) is set to whether the key is present.
+// A request for a material's map, from the textureInfo under `key`. `material` is the material's index in the file. If
+// the key is missing, `material->maps[slot]` is unchanged. *present (may be NULL) is set to whether the key is present.
 struct gltf_map_request {
     int material;
     lam_map slot;
@@ -22,8 +22,8 @@ bool gltf_take_map(struct gltf *gltf, const struct place *place, const json_t *o
 // is omitted with a warning.
 bool gltf_textures_finish(struct gltf *gltf);
 
-// Returns the file's set of texture coordinates that is a material's first (0) or second (1) set, or −1 if there is
-// none.
+// Returns the index in the file of a material's first (`which` is 0) or second (1) set of texture coordinates, or −1 if
+// the material does not use that set.
 int gltf_texcoord_set(const struct gltf *gltf, int32_t material, int which);
 
 #endif

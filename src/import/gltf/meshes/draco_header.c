@@ -1,6 +1,6 @@
 // draco_header.c: reads the declared sizes of a mesh compressed by Draco. https://google.github.io/draco/spec/ (version
 // 2.2), sections "Draco Header", "Metadata", "Sequential Connectivity Decode" and "EdgeBreaker Decode"; older versions
-// as in Draco's decoder.
+// are read as in Draco's decoder.
 #include "draco_header.h"
 
 #include <string.h>
@@ -66,7 +66,7 @@ static void skip_metadata(struct reader *r, int depth)
 static void skip_all_metadata(struct reader *r)
 {
     for (uint32_t attributes = read_varint(r); r->ok && attributes > 0; attributes--) {
-        read_varint(r); // the attribute's id
+        read_varint(r); // skips the attribute's id
         skip_metadata(r, 0);
     }
     skip_metadata(r, 0);
@@ -91,7 +91,7 @@ bool draco_header_read(const uint8_t *bytes, size_t size, struct draco_claim *ou
         out->points = version < 0x202 ? read_u32(&r) : read_varint(&r);
         return r.ok;
     }
-    read_u8(&r);         // the edge coding method
+    read_u8(&r);         // skips the edge coding method
     if (version < 0x200) // number of vertices added by splits
         read_u32(&r);
     else if (version < 0x202)

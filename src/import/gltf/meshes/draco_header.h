@@ -11,11 +11,11 @@ struct draco_claim {
     uint32_t points; // a lower bound: one vertex may become several points
 };
 
-// Returns false if the header cannot be read; the decoder would fail too.
+// Returns false if the header cannot be read. The decoder would also fail on such a file.
 bool draco_header_read(const uint8_t *bytes, size_t size, struct draco_claim *out);
 
-// Returns the largest memory that the decoder needs for the declared sizes: its tables of corners and edges, and the
-// attributes in the form of the file and of the mesh.
+// Returns an upper bound of the memory that the decoder needs for the declared sizes. The decoder needs tables of
+// corners and edges, and stores the attributes twice: as in the file and as in the mesh.
 uint64_t draco_claim_bytes(const struct draco_claim *claim);
 
 #endif

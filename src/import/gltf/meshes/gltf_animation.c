@@ -14,7 +14,7 @@ enum { STEP, LINEAR, CUBIC_SPLINE };
 static const struct json_choice interpolation_words[] = {
     {"STEP", STEP}, {"LINEAR", LINEAR}, {"CUBICSPLINE", CUBIC_SPLINE}, {NULL, 0}};
 
-// A sampler: key times, and `width` numbers for each of them (three times as many for splines).
+// A sampler: the times of the keyframes, and `width` numbers for each keyframe (three times as many for splines).
 struct sampler {
     int interpolation;
     const float *times, *values;
@@ -87,7 +87,7 @@ static bool take_sampler(struct gltf *gltf, const struct place *place, const jso
 
 // --- evaluation (appendix C)
 
-// Returns the key at or before the time, and the fraction of the way to the next one.
+// Returns the keyframe at or before the time, and the fraction of the way to the next keyframe.
 static size_t find_key(const struct sampler *s, double time, double *fraction, double *length)
 {
     size_t low = 0, high = s->keys - 1;
@@ -124,7 +124,8 @@ static void slerp(const double a[4], const double b[4], double t, double out[4])
         out[i] = from * a[i] + to * b[i];
 }
 
-// Evaluates a sampler at a time; before the first and after the last key it uses that key.
+// Evaluates a sampler at a time. Before the first keyframe, the result is the first keyframe's value; after the last
+// keyframe, it is the last keyframe's value.
 static void evaluate(const struct sampler *s, double time, enum path path, double *out)
 {
     double t, length;

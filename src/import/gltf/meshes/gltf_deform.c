@@ -17,7 +17,7 @@
 
 struct addition {
     struct gltf *gltf;
-    const struct place *place; // position of the target's accessor
+    const struct place *place; // the position of the target's accessor in the file
     bool required;             // whether a sum that is not finite is an error; otherwise it becomes 0
     const float *base, *target;
     float *out; // may be `base`
@@ -55,8 +55,8 @@ struct morph_target {
     size_t count; // the number of vertices
 };
 
-// Adds one attribute of a target to an array, which becomes the mesh's own with the first addition. `width` and
-// `base_width` are the numbers of values per vertex in the target and in the mesh.
+// Adds one attribute of a target to an array of the mesh. The first addition replaces the shared array by the mesh's
+// own copy. `width` and `base_width` are the numbers of values per vertex in the target and in the mesh.
 static bool add_target(const struct morph_target *t, const char *name, int width, int base_width, const float **values,
                        bool *own)
 {
@@ -96,12 +96,12 @@ static bool add_target(const struct morph_target *t, const char *name, int width
     return parallel_rows_run(gltf->source, parallel_rows_count(count), add_chunk, &addition, gltf->json.error);
 }
 
-// Whether the mesh owns each attribute's array, so that it may be changed in place.
+// Whether the mesh owns the array of each attribute. Only such an array may be changed in place.
 struct owned {
     bool positions, normals, tangents, texcoords[2];
 };
 
-// Morphs the sets of texture coordinates that the mesh has.
+// Morphs the mesh's sets of texture coordinates.
 static bool morph_texcoords(const struct morph_target *target, lam_mesh *mesh, struct owned *own)
 {
     bool ok = true;
@@ -140,7 +140,7 @@ enum { SETS_MAX = 16 }; // each with four joints
 
 struct skinning {
     struct gltf *gltf;
-    const struct place *place; // position of the attributes
+    const struct place *place; // the position of the attributes in the file
     const struct gltf_skin *skin;
     const float *joints[SETS_MAX], *weights[SETS_MAX]; // four for each vertex
     int sets;
@@ -203,7 +203,7 @@ static bool store(float *out, lam_vec3 v)
     return true;
 }
 
-// Stores a direction. If it is out of range, it becomes 0, which means none.
+// Stores a direction. A direction that is out of range becomes 0, which means that there is no direction.
 static void store_direction(float *out, lam_vec3 v)
 {
     if (!store(out, v3_unit(v)))

@@ -12,8 +12,9 @@ struct gltf_deformation {
     const struct gltf_skin *skin; // may be NULL
 };
 
-// Replaces positions, normals, tangents and texture coordinates of the mesh by its own arrays if targets with a nonzero
-// weight, or a skin, change them. Sets *skinned if its positions are now in the file's space.
+// If a skin, or morph targets with nonzero weights, change positions, normals, tangents or texture coordinates,
+// replaces these arrays of the mesh by changed copies. Sets *skinned to whether the positions are now in the file's
+// space.
 bool gltf_deform(struct gltf *gltf, const struct place *place, const json_t *primitive,
                  const struct gltf_deformation *deformation, lam_mesh *mesh, bool *skinned);
 

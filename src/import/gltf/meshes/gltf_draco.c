@@ -1,5 +1,5 @@
-// gltf_draco.c: reads primitives compressed by Draco, with a module that calls its library and is opened on demand.
-// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_draco_mesh_compression
+// gltf_draco.c: reads primitives compressed by Draco. A separate module calls Draco's library; this file opens the
+// module on demand. https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_draco_mesh_compression
 #include "gltf_draco.h"
 
 #include "draco/draco_module.h"
@@ -18,7 +18,7 @@
 
 #define NAME "KHR_draco_mesh_compression"
 
-// Loads the module; *functions stays NULL if it or Draco's library is missing.
+// Loads the module. *functions stays NULL if the module or Draco's library is missing.
 static void find_functions(struct gltf *gltf, const struct draco_functions **functions)
 {
     const struct draco_functions *(*get)(void) = NULL;
@@ -33,7 +33,7 @@ static void find_functions(struct gltf *gltf, const struct draco_functions **fun
 // The state of decoding a primitive.
 struct decoding {
     struct gltf *gltf;
-    const struct place *place; // position of the extension
+    const struct place *place; // the position of the extension in the file
     const struct draco_functions *functions;
     int view;
     void *mesh;
@@ -107,7 +107,8 @@ static bool decode_attributes(const struct decoding *d, const struct place *prim
     return true;
 }
 
-// Writes the corners in the type of the primitive's indices. A primitive without indices uses its vertices in order.
+// Writes the corners with the integer type that the primitive's indices declare. A primitive without indices uses its
+// vertices in order.
 static bool decode_indices(const struct decoding *d, const struct place *primitive_place, const json_t *primitive,
                            bool strip)
 {
@@ -121,9 +122,10 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
         return json_fail(&gltf->json, primitive_place, "indices is missing, which a compressed mesh has");
     if (accessor->width != 1 ||
         (accessor->component != GLTF_U8 && accessor->component != GLTF_U16 && accessor->component != GLTF_U32))
-        return true; // gltf_indices reports it
+        return true; // gltf_indices reports the wrong type
     if (strip)
-        accessor->count = count; // the file states the count of a strip, but the decoded mesh has triangles
+        // the file declares the number of indices of a strip, but the decoded mesh contains separate triangles
+        accessor->count = count;
     if (accessor->count != count)
         return json_fail(&gltf->json, here, "the compressed mesh has %zu corners, expected %zu, the accessor's count",
                          count, accessor->count);
@@ -143,7 +145,7 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
     return true;
 }
 
-// Returns whether the view was decoded before, for example for another pose of this primitive.
+// Returns whether the bufferView has already been decoded, for example for another pose of this primitive.
 static bool is_decoded(struct gltf *gltf, const json_t *primitive, int view)
 {
     const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");
@@ -161,7 +163,7 @@ static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
     return there && json_object_get(gltf_list_item(gltf, "accessors", (int)number), "bufferView");
 }
 
-// Accounts for the decoder's memory, which Draco allocates itself.
+// Charges the memory that Draco's decoder will allocate itself to the call.
 static bool charge_claim(const struct decoding *d, const struct gltf_view *view, size_t *charged)
 {
     struct gltf *gltf = d->gltf;
@@ -182,8 +184,8 @@ static bool charge_claim(const struct decoding *d, const struct gltf_view *view,
     return true;
 }
 
-// Memory that decoding may use beyond the declared sizes. It is granted one megabyte at a time; each grant is a chance
-// to end a long decoding.
+// Memory that decoding may use beyond the declared sizes. The memory is granted in steps of one megabyte. Each grant
+// checks whether the call may continue, so that a long decoding can be stopped.
 struct grants {
     struct call_control *call;
     size_t refused;

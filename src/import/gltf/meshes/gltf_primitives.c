@@ -1,7 +1,7 @@
-// gltf_primitives.c: reads the primitives of meshes (section 3.7.2); each becomes a mesh of the scene.
+// gltf_primitives.c: reads the primitives of meshes (section 3.7.2). Each primitive becomes a mesh of the scene.
 //
-// Primitives of one mesh may have different attributes, materials and sides. The separate meshes share common arrays,
-// and use the file's own bytes as arrays if possible.
+// The primitives of a mesh may have different attributes, materials and sides. Their meshes share common arrays. If
+// possible, the arrays are the file's own bytes.
 #include "gltf_primitives.h"
 
 #include "gltf_accessors.h"
@@ -53,8 +53,8 @@ static bool has_type(const struct gltf_accessor *a, int types)
     return a->normalized ? types & NORMALIZED || (types & UNSIGNED_NORMALIZED && unsigned_type) : types & BYTES;
 }
 
-// Gets the accessor of an attribute with `count` elements (0 means any number); *out is NULL if the primitive does not
-// have it.
+// Gets the accessor of an attribute, which must have `count` elements (0 means any number). *out is NULL if the
+// primitive does not have this attribute.
 static bool take_attribute(struct gltf *gltf, const struct place *place, const json_t *attributes,
                            const struct attribute_rule *rule, size_t count, struct gltf_accessor **out)
 {
@@ -101,7 +101,7 @@ static bool take_colors(struct gltf *gltf, const struct place *place, const json
     return true;
 }
 
-// Gets the set of texture coordinates that the material uses, or the first set if it uses none.
+// Gets the set of texture coordinates that the material uses, or the file's first set if the material uses none.
 static bool take_texcoords(struct gltf *gltf, const struct place *place, const json_t *attributes, int which,
                            lam_mesh *mesh)
 {
@@ -130,7 +130,7 @@ static bool take_attributes(struct gltf *gltf, const struct place *place, const 
            take_floats(gltf, place, attributes, &tangent_rule, count, &mesh->tangents, &mesh->tangent_count);
 }
 
-// Adds one part with the primitive's material.
+// Adds the only part of the mesh, with the primitive's material.
 static bool add_part(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
 {
     lam_part *part = arena_alloc_zeroed(&gltf->scene->arena, sizeof *part);

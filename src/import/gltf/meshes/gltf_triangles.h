@@ -16,15 +16,15 @@ enum {
     GLTF_TRIANGLE_FAN
 };
 
-// Sets the mesh's indices and triangle_count from the primitive's `mode`, one of the three for triangles, and its
-// indices, each of which is below mesh->vertex_count. Degenerate triangles of strips and fans, which use a vertex
-// twice, are dropped.
+// Sets the indices and the triangle_count of the mesh from the indices of the primitive. `mode` must be one of the
+// three modes for triangles. Checks that every index is below mesh->vertex_count. Degenerate triangles of strips and
+// fans, which use a vertex twice, are dropped.
 bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh);
 
-// Does the same for lines and points: sets line_count or point_count.
+// Like gltf_triangles, for lines and points: sets line_count or point_count.
 bool gltf_strokes(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh);
 
-// Gets the primitive's corners: its indices, or *indices NULL for all vertices in order.
+// Gets the primitive's indices. Sets *indices to NULL if the primitive has none and uses all vertices in order.
 bool gltf_corners(struct gltf *gltf, const struct place *place, const json_t *primitive, uint32_t vertex_count,
                   const uint32_t **indices, size_t *count);
 

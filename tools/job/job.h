@@ -26,7 +26,7 @@ struct model_counts {
 enum { MODEL_COUNTS_SIZE = 100 };
 const char *model_counts_text(const struct model_counts *counts, char out[MODEL_COUNTS_SIZE]);
 
-// The bounding sphere of the model before --rotate; its radius is the unit r.
+// The bounding sphere of the model before --rotate; its radius is the unit r in positions of lights.
 struct model_sphere {
     lam_vec3 centre;
     double radius;

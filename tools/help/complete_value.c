@@ -37,7 +37,7 @@ static struct typed_word after_comma(const struct typed_word *typed)
 static void complete_words(const struct choice *words, const struct typed_word *typed)
 {
     for (const struct choice *w = words; w->name; w++) {
-        // A name in capitals, as in "light:NAME", stands for text that the user types, so it is not offered.
+        // A name in capitals, as in "light:NAME", means text that the user types, so it is not offered.
         char fixed[64];
         snprintf(fixed, sizeof fixed, "%s", w->name);
         char *colon = strchr(fixed, ':');

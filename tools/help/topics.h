@@ -1,4 +1,4 @@
-// topics.h: the subjects of `lambent help TOPIC`. The man page and the docs use the same texts.
+// topics.h: defines the subjects of `lambent help TOPIC`. The man page and the docs use the same texts.
 #ifndef TOPICS_H
 #define TOPICS_H
 

@@ -185,7 +185,7 @@ static bool frames(struct demo *d, lam_error *error)
 
 // --- sides, transforms, cameras
 
-// An open bowl of which both sides are visible.
+// An open bowl. Both its sides are visible.
 static void bowl_surface(void *user, double u, double v, lam_surface_point *out)
 {
     (void)user;
@@ -622,8 +622,8 @@ static bool shadows_gouraud(struct demo *d, lam_error *error)
     return shadowed(d, 0, error);
 }
 
-// A turned box, each side of which consists of three triangles that overlap. Its corners are rounded to floats, so that no
-// three of them lie exactly in one plane.
+// A turned box. Each side consists of three triangles that overlap. The corners are rounded to floats, so that the four
+// corners of a side do not lie exactly in one plane.
 static bool shadows_coplanar(struct demo *d, lam_error *error)
 {
     float corners[8][3];

@@ -83,7 +83,7 @@ export function say(sentence) {
   $('spoken').textContent = sentence;
 }
 
-// --- gestures: a gesture is one step of undo, and the page draws quick pictures until it ends
+// --- gestures: a gesture is one step of undo; the page draws quick pictures until the gesture ends
 
 let gesture = 0, still = 0;
 

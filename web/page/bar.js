@@ -13,8 +13,8 @@ on('words', () => {
   if (!view.moving) remember(toFragment(state.words));
 });
 
-// The address contains the picture's command line. The browser's Back returns to the picture as it was opened, and Forward to the changed picture: the first
-// change, and each other model, adds an entry to the history.
+// The address contains the picture's command line. The first change of a picture adds an entry to the browser's history, and so does each other model. Back
+// returns to the picture as it was opened, and Forward returns to the changed picture.
 let isFirst = true;
 function remember(hash) {
   const before = fromFragment(location.hash), isSame = before?.join('\n') === state.words.join('\n');

@@ -155,7 +155,7 @@ function refused(error) {
   emit('missing');
 }
 
-// The Stop button, and Escape during a long drawing.
+// Ends the drawing. The Stop button calls this function, and so does the Escape key during a long drawing.
 function stop() {
   if (!running) return;
   wanted = null;

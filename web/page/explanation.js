@@ -103,7 +103,7 @@ export class Explanation {
     parts.push(element('p', { className: 'equation', translate: false, textContent: `θ(n,l) ${degrees(light.theta_deg)} · φ(r,v) ${degrees(light.phi_deg)} · ψ(n,h) ${degrees(light.psi_deg)}` }));
     if (light.left_out) parts.push(sentence(text('leftOut')));
     parts.push(...lightEquations(triangle, point, light).map(equation));
-    // The previous curves stay visible until the new ones arrive.
+    // The previous curves stay visible until the new curves arrive.
     const holder = element('div', {}, ...(this.curves ? [this.curves] : []));
     curvesOf({ words: state.words, light: i, explained: light, triangle }).then((curves) => {
       this.curves = curves;

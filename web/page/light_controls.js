@@ -63,7 +63,7 @@ function changed(from, change, key) {
   state.set(made.withValues('light', texts), key);
 }
 
-// While the lights are being written out, only the newest of several changes is kept.
+// While the lights are being written as options, only the newest change is kept.
 let waiting = null, isBusy = false;
 async function change(how, key = null) {
   if (!view.camera) return;

@@ -9,5 +9,5 @@ const between = (least, bytes, most) => Math.min(Math.max(bytes, least), most);
 // addresses end at 4 GiB.
 export const MODULE_BYTES = between(256e6, device / 4, 2e9);
 
-// The size limit of a model's files, which are in memory three times during reading.
+// The size limit of a model's files. During reading, the files are in memory three times.
 export const FILES_BYTES = between(128e6, device / 8, 1.2e9);

@@ -64,14 +64,14 @@ function optionNames() {
   try {
     box.checked = localStorage.getItem(KEY) === '1';
   } catch {
-    // the page may be denied storage
+    // the page may have no access to storage
   }
   box.onchange = () => {
     show();
     try {
       localStorage.setItem(KEY, box.checked ? '1' : '0');
     } catch {
-      // the choice lasts until the page is closed
+      // without storage, the choice lasts until the page is closed
     }
   };
   show();

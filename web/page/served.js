@@ -4,7 +4,7 @@
 import { Ended } from './caller.js';
 import { text } from './strings.js';
 
-// `gallery` is whether the viewer shows a folder.
+// `gallery` is true if the viewer shows a folder.
 export const served = JSON.parse(document.getElementById('served').textContent);
 
 const client = crypto.randomUUID(); // a newer picture of this page cancels the older one

@@ -2,7 +2,7 @@
 // later states.
 // The picture, the link, and the shown and copied command are made from the same words.
 
-// The first picture: one light, and a material with a highlight, so that each term of the sum is visible.
+// The first picture. It has one light, and a material with a highlight, so that each term of the sum is visible.
 export const START = ['teapot', '--material=ambient=#12657a,diffuse=#1688a5,specular=0.7,shininess=80', '--light=point:position=0.3r/0.5r/1r', '--ambient=0.3'];
 
 // The models that are formulas. The name of the model is also the name of its option. The value is the initial formula.

@@ -1,4 +1,4 @@
-// swatches.js: choices with small pictures, at most one of which is selected.
+// swatches.js: makes choices with small pictures. At most one choice is selected.
 import { on, state } from './app.js';
 import { element, ours } from './dom.js';
 import { thumbnail } from './thumbnails.js';

@@ -362,7 +362,7 @@ static bool begin(struct job *job, const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT, "option '--sweep': given %d times, expected at most %d",
                         o->animation.sweeps.count, OPTIONS_MAX);
     for (int i = 0; i < o->animation.sweeps.count; i++) {
-        // // The text is always valid, because animation_check has parsed it.
+        // The text is always valid, because animation_check has parsed it.
         sweep_parse(o->animation.sweeps.items[i], &a->sweeps[i], error);
         a->loads |= a->sweeps[i].option && a->sweeps[i].option->loads;
     }

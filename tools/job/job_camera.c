@@ -158,7 +158,7 @@ bool job_place_camera(struct job *job, lam_error *error)
     if (o->view.camera && !strchr(o->view.camera, '=') && !find_camera(job, error))
         return false;
     if (o->view.camera && strchr(o->view.camera, '='))
-        // // The text is always valid, because store_camera has parsed it.
+        // The text is always valid, because store_camera has parsed it.
         lam_camera_parse(o->view.camera, job->scene, &job->camera, NULL);
     for (int i = 0; o->view.camera && i < job->view_count; i++)
         job->cameras[i] = job->camera;

@@ -190,7 +190,7 @@ bool job_turn(struct job *job, const struct model_sphere *sphere, lam_error *err
     for (int i = 0; i < o->shading.rotations.count; i++) {
         lam_vec3 axis;
         double angle_deg;
-        // // The text is always valid, because store_rotation has parsed it.
+        // The text is always valid, because store_rotation has parsed it.
         rotation_parse(o->shading.rotations.items[i], &axis, &angle_deg);
         if (!lam_scene_rotate(job->scene, sphere->centre, axis, radians(angle_deg), error))
             return false;

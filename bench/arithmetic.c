@@ -1,6 +1,7 @@
-// arithmetic.c: prints the floating-point operations per second of a core as JSON, in 10^9/s: products and sums each
-// rounded (as in the library), and fused ones, where a multiply-add counts as two. It runs independent chains of
-// operations in registers, enough to hide the latency, and reports the best of several numbers of chains.
+// arithmetic.c: prints the floating-point operations per second of a core as JSON, in 10^9/s. It measures products and
+// sums that are rounded separately, as in the library, and fused multiply-adds. A fused multiply-add counts as two
+// operations. The program runs independent chains of operations in registers. It measures several numbers of chains and
+// prints the best result, because enough chains hide the latency.
 #include <stdio.h>
 
 #if defined(__x86_64__)
@@ -16,7 +17,7 @@ static double now_s(void)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// Defines a function that measures one instruction set with a number of chains; `FUSED` is 0 or 1.
+// Defines a function that measures one instruction set with a number of chains. `FUSED` is 0 or 1.
 #define MEASURE(NAME, TARGET, TYPE, LANES, CHAINS, FUSED, SET, MULTIPLY, ADD, FMA)                                     \
     __attribute__((target(TARGET))) static double NAME(void)                                                           \
     {                                                                                                                  \

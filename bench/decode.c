@@ -1,5 +1,5 @@
-// decode.c: measures the decoding of a model's pictures: `decode FILE…` reads one after another and keeps all until it
-// ends.
+// decode.c: decodes a model's pictures, to measure the time. `decode FILE…` reads the pictures one after the other and
+// keeps all of them until it ends.
 #include <lambent/image.h>
 
 #include <stdio.h>
@@ -7,7 +7,7 @@
 int main(int count, char **names)
 {
     for (int i = 1; i < count; i++) {
-        lam_image image; // freed by the end of the process
+        lam_image image; // freed when the process ends
         lam_error error = {0};
         if (!lam_image_load(&image, names[i], NULL, &error)) {
             fprintf(stderr, "decode: %s\n", error.text);

@@ -1,7 +1,7 @@
-// memory.c: prints the speed of this machine's memory as JSON, in GB/s: the limits of reading and writing. read:
-// summing 256 MB; copy: memcpy of 256 MB to mapped memory (bytes copied, not bytes moved); first_touch: writing one
-// byte into every page of fresh memory, counted in bytes of the pages, with pages of 4 KiB and of 2 MiB. It measures
-// one thread and two threads.
+// memory.c: prints the speed of this machine's memory as JSON, in GB/s. These speeds limit all reading and writing of
+// data. "read" is the sum of 128 MiB per thread. "copy" is a memcpy of 128 MiB per thread to mapped memory; each copied
+// byte counts once. "first_touch" writes one byte into every page of new memory, and counts all bytes of the pages. It
+// is measured with pages of 4 KiB and of 2 MiB. Each value is measured with one thread and with two threads.
 #include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 // model.c: generates the benchmark's models: `model sphere|terrain TRIANGLES FILE.ply|.stl|.obj`.
 //
-// The sphere is bumpy, so that all rows differ and every part of it is lit; the terrain is a height field over [-1, 1]
-// x [-1, 1] that fills a picture seen from above. Both have about TRIANGLES triangles. PLY is binary with shared
-// positions and no normals, STL is binary, and OBJ has six decimals, like the files of scanners and slicers.
+// The sphere is bumpy, so that all its rows differ. The terrain is a height field over [-1, 1] x [-1, 1] that fills a
+// picture seen from above. Both have about TRIANGLES triangles. PLY files are binary, with shared positions and without
+// normals. STL files are binary. OBJ files have six decimals. Scanners and slicers write such files.
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -40,7 +40,7 @@ static void add_triangle(struct model *model, size_t a, size_t b, size_t c)
     t[0] = (uint32_t)a, t[1] = (uint32_t)b, t[2] = (uint32_t)c;
 }
 
-// Rings of quadrilaterals; those at the poles are triangles.
+// The sphere consists of rings of quadrilaterals. At the poles, the rings consist of triangles.
 static struct model make_sphere(size_t triangles)
 {
     struct model model = {0};
@@ -68,7 +68,7 @@ static struct model make_sphere(size_t triangles)
     return model;
 }
 
-// y is up, as in the sphere.
+// y is up, as for the sphere.
 static struct model make_terrain(size_t triangles)
 {
     struct model model = {0};

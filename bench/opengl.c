@@ -1,13 +1,14 @@
-// opengl.c: a plain, competent OpenGL 3.3 program that draws the bench's scenes, to compare frames with:
+// opengl.c: a plain, competent OpenGL 3.3 program that draws the benchmark's scenes, so that its frame times can be
+// compared with Lambent's:
 //     opengl SCENE.txt loop|written [--derivatives] [--depth-first] [--cull] [--frames N] [--seconds S]
 //            [--picture FILE.ppm]
 //
-// It has no window, but an EGL context without a surface, and its own framebuffer (8 bits per channel, 24 bits of
-// depth, multisampled on request and resolved in each frame). Buffers are uploaded once. A frame is a clear, one draw
-// call (two with --depth-first: the first writes only depth, so that only visible fragments are lit; --cull: back faces
-// are not drawn) and glFinish,
-// without reading pixels back. After one frame to warm up it draws N frames, or for S seconds; the report is a line
-// of JSON. The exit code is 3 if this OpenGL is not available.
+// The program has no window. It draws in an EGL context without a surface, to its own framebuffer with 8 bits per
+// channel and 24 bits of depth. On request the framebuffer is multisampled and resolved in each frame. Buffers are
+// uploaded once. A frame consists of a clear, one draw call and glFinish. Pixels are not read back. With --depth-first
+// there are two draw calls, and the first writes only depth, so that only visible fragments are lit. With --cull, back
+// faces are not drawn. After one frame to warm up, the program draws N frames, or draws for S seconds. It prints a line
+// of JSON. The exit code is 3 if OpenGL 3.3 is not available.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
@@ -52,7 +53,7 @@ static void make_context(void)
     EGLConfig config = NULL;
     EGLint count = 0;
     eglBindAPI(EGL_OPENGL_API);
-    // Surfaceless displays may have no configuration for windows; none is needed.
+    // A display without surfaces may have no configuration for windows. None is needed.
     if (!eglChooseConfig(display, wanted, &config, 1, &count) || count < 1)
         config = NULL;
     EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, version);
@@ -75,7 +76,7 @@ static GLuint compile(GLenum kind, char *text)
     return shader;
 }
 
-// Column-major, as OpenGL expects: perspective × look-at.
+// Computes the product of the perspective matrix and the look-at matrix, column-major, as OpenGL expects.
 static void clip_matrix(const struct gl_scene *scene, float *result)
 {
     double back[3], right[3], top[3];
@@ -172,7 +173,8 @@ static void put_vertex(float *to, const struct gl_scene *scene, size_t vertex, c
     memcpy(to + 3, normal, 12);
 }
 
-// Shared vertices and indices; for flat shading in the vertex shader, three vertices per triangle with its normal.
+// Uploads shared vertices and indices. For flat shading in the vertex shader, uploads three vertices with the face
+// normal for each triangle.
 static void upload(const struct gl_scene *scene, int shared)
 {
     size_t count = shared ? scene->vertices : 3 * scene->triangles;

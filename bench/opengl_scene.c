@@ -1,4 +1,5 @@
-// opengl_scene.c: reads the OpenGL program's scene: lines of a keyword and its numbers, and the PLY that it names.
+// opengl_scene.c: reads the OpenGL program's scene and the PLY file that the scene names. Each line of the scene is a
+// keyword and its numbers.
 #include "opengl_scene.h"
 
 #include <math.h>
@@ -61,7 +62,8 @@ static void subtract(const float *a, const float *b, double *result)
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Face normals weighted by the angle at the corner, like Lambent's if no edge is sharper than the crease angle.
+// Computes vertex normals from face normals, weighted by the angle at the corner. Lambent's normals are the same if no
+// edge is sharper than the crease angle.
 static void make_normals(struct gl_scene *scene)
 {
     double *sums = room(scene->vertices * 3 * sizeof(double));

@@ -8,8 +8,8 @@
 
 enum shading { PHONG, GOURAUD, FLAT };
 
-// A point light: its position in the world, its colour times the material's diffuse and specular colours, a, b,
-// c of 1/(a + b d + c d^2).
+// A point light: its position in the world, its colour times the material's diffuse and specular colours, and the
+// numbers a, b, c of its attenuation 1/(a + b d + c d^2).
 struct point_light {
     float position[3], diffuse[3], specular[3], attenuation[3];
 };

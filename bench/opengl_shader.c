@@ -1,5 +1,5 @@
-// opengl_shader.c: Blinn-Phong with point lights and attenuation, as in a plain OpenGL 3.3 program. Lighting is
-// evaluated in world space, so that lights need no transform.
+// opengl_shader.c: makes shaders for Blinn-Phong reflection with point lights and attenuation, as in a plain OpenGL 3.3
+// program. Lighting is evaluated in world space, so that lights need no transform.
 #include "opengl_shader.h"
 
 #include <stdio.h>

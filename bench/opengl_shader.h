@@ -4,21 +4,21 @@
 
 #include "opengl_scene.h"
 
-// Variants of the shader for the same lighting. The bench uses the fastest one for each scene.
+// Variants of the shader for the same lighting. The benchmark uses the fastest variant for each scene.
 struct form {
-    // 1: every light is in the shader's text with literal numbers, and squarings replace pow; 0: a loop over a uniform
-    // block, and pow
+    // 1: the shader's text contains every light with literal numbers, and repeated squaring replaces pow; 0: the shader
+    // has a loop over a uniform block, and uses pow
     int written_out;
-    // flat shading: 1: the face normal from derivatives, lit in the fragment shader, shared vertices; 0: three vertices
-    // for each triangle, lit in the vertex shader
+    // for flat shading; 1: vertices are shared, and the fragment shader computes the face normal from derivatives and
+    // the lighting; 0: each triangle has three vertices, and the vertex shader computes the lighting
     int derivatives;
 };
 
-// Returns the text of a shader; the caller frees it.
+// These functions return the text of a shader. The caller frees it.
 char *vertex_shader(const struct gl_scene *scene, struct form form);
 char *fragment_shader(const struct gl_scene *scene, struct form form);
 
-// The shaders that write only depth, with identical depths.
+// These shaders write only depth. The depths are identical to the depths of the other shaders.
 char *depth_vertex_shader(void);
 char *depth_fragment_shader(void);
 

@@ -1,9 +1,10 @@
 // png.c: encodes one picture as PNG with Lambent, libpng and libdeflate alternately: `png PICTURE.png ROUNDS`. It
-// prints a line of JSON with the median milliseconds and the bytes of each; every result is first decoded and compared.
+// prints a line of JSON with the median milliseconds and the number of bytes of each encoder. Every result is first
+// decoded and compared with the picture.
 //
-// libpng writes with its default filters (all five, chosen for each row by their sums) at levels 1 and 6. libdeflate
-// has no PNG encoder: the program filters the picture by Up and compresses it at level 1, the fastest way to a PNG with
-// it.
+// libpng uses its default filters (all five, chosen for each row by their sums) at levels 1 and 6. libdeflate has no
+// PNG encoder. The program itself applies the filter Up to the picture, and libdeflate compresses the result at level
+// 1. This is the fastest way to write a PNG with libdeflate.
 #include <lambent/image.h>
 
 #include <libdeflate.h>
@@ -139,7 +140,7 @@ static void encode(int encoder, const lam_image *image, struct growing *out)
     }
 }
 
-// Decodes with libpng, for each encoder.
+// Decodes an encoder's result with libpng and compares it with the picture.
 static void verify(const char *name, const struct growing *out, const lam_image *image)
 {
     png_image reader = {.version = PNG_IMAGE_VERSION};

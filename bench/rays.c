@@ -1,11 +1,11 @@
-// rays.c: measures shadow rays in the library's hierarchy, and in Embree if it is installed.
+// rays.c: measures the time of shadow rays in the library's hierarchy, and in Embree's if Embree is installed.
 //
 //   bench-rays [TRIANGLES]      a torus knot of about so many triangles over a floor (100000)
 //
-// It reports the processor time of one thread, the minimum of several rounds. Rays start at the points that an
-// orthographic camera sees, row by row. They lead to a point light ("coherent") or in random directions ("scattered"),
-// eight at a time. Embree uses its packets of eight (robust, in floats); Lambent decides in double. Unlike the other
-// programs in this folder, it uses internal headers of the library.
+// It prints the processor time of one thread, the minimum of several rounds. Rays start at the points that an
+// orthographic camera sees, row by row. They go to a point light ("coherent") or in random directions ("scattered"),
+// eight at a time. Embree uses packets of eight rays, in robust mode and with floats. Lambent decides with doubles.
+// Unlike the other programs in this folder, this program uses internal headers of the library.
 #define LANES 8
 #include "ray_lanes.h"
 
@@ -25,7 +25,7 @@ enum { SIDE = 512, RAYS = SIDE * SIDE, ROUNDS = 7 };
 
 static struct ray_lanes packets[2][RAYS / LANES];
 
-// Processor time of this thread, which other programs hardly affect.
+// Returns the processor time of this thread. Other programs hardly affect this time.
 static double seconds(void)
 {
     struct timespec t;
@@ -39,19 +39,19 @@ static double uniform(uint64_t *seed)
     return (double)(*seed >> 11) / 9007199254740992.0;
 }
 
-// The points seen from above at an angle, and their rays.
+// Finds the points that the camera sees obliquely from above, and makes their rays.
 static void make_rays(const struct hierarchy *h, const double light[3])
 {
     uint64_t seed = 1;
     struct ray_lanes *coherent = packets[0], *scattered = packets[1];
     for (int n = 0; n < RAYS; n++) {
-        // Blocks of 8 × 1 pixels.
+        // The eight rays of a packet start in a block of 8 × 1 pixels.
         int x = n % SIDE, y = n / SIDE, lane = n % LANES;
         struct ray_lanes *a = &coherent[n / LANES], *b = &scattered[n / LANES];
         double origin[3] = {(x + 0.5) / SIDE * 1.6 - 0.8, 2, (y + 0.5) / SIDE * 1.6 - 0.8}, d[3] = {0.2, -1, 0.1};
         double nearest = 1e9;
         uint32_t own = 0;
-        // The nearest triangle, found by visiting every node (not measured).
+        // Finds the nearest triangle by traversing the hierarchy. This time is not measured.
         uint32_t stack[NODE_CHILDREN * HIERARCHY_DEPTH][2] = {{0, 0}};
         for (int waiting = 1; waiting;) {
             uint32_t child = stack[--waiting][0], count = stack[waiting][1];

@@ -1,9 +1,9 @@
 // reading.c: prints the milliseconds that other programs need to read a model file once from the page cache:
-//     reading assimp FILE   Assimp without post-processing: its own positions and indices
-//     reading touch FILE    the file is mapped and one thread reads every cache line: the limit of any reader with
-//     one thread
-//     reading copy FILE     read() into new memory with two threads: the limit of any reader that keeps a copy
-// A process reads once, like a program that draws one picture.
+//     reading assimp FILE   Assimp reads the file without post-processing, with its own positions and indices
+//     reading touch FILE    the file is mapped, and one thread reads every cache line; no reader with
+//                           one thread is faster
+//     reading copy FILE     two threads read() the file into new memory; no reader that keeps a copy is faster
+// A process reads the file once, like a program that draws one picture.
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
 
@@ -114,5 +114,5 @@ int main(int count, char **arguments)
         return 1;
     printf("%.4f\n", now_ms() - start);
     fflush(stdout);
-    _exit(0); // do not measure freeing the memory
+    _exit(0); // the time for freeing the memory is not measured
 }

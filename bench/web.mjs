@@ -1,5 +1,6 @@
-// web.mjs MODULE FOLDER: reads one {"words": [...], "frames": N} per line from standard input, and draws each N times; writes the times of
-// the frames in milliseconds as a JSON list per line. File names refer to files in FOLDER.
+// web.mjs MODULE FOLDER: reads {"words": [...], "frames": N} from each line of standard input, and draws the picture N
+// times. Prints a line with the times of the frames in milliseconds as a JSON list. File names refer to files in
+// FOLDER.
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';

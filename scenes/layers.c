@@ -1,5 +1,5 @@
-// layers.c: spheres of physical materials with layers: index of refraction, clear coat, sheen, anisotropy, iridescence,
-// transmission.
+// layers.c: scenes of spheres with physical materials and layers: index of refraction, clear coat, sheen, anisotropy,
+// iridescence, transmission.
 #include "textured.h"
 
 enum { SPHERES = 8 };
@@ -39,7 +39,7 @@ static void make_materials(lam_material m[SPHERES])
     m[6].iridescence_ior = 1.8f;
     m[6].emission = (lam_rgb){0.05f, 0.1f, 0};
     m[6].clearcoat = 0.5f;
-    m[7] = m[2]; // all of them
+    m[7] = m[2]; // all layers
     m[7].ior = 1.8f;
     m[7].sheen_color = (lam_rgb){0.2f, 0.3f, 0.5f};
     m[7].sheen_roughness = 0.6f;
@@ -81,8 +81,8 @@ bool layers_mapped_environment(struct demo *d, lam_error *error)
     return textured_layers(d, error) && textured_surround(d, "studio", 0, error);
 }
 
-// Squares that face the eye, whose normals lean: those at the left of each face away from it, and are lit from there. A metal,
-// a brushed one, sheen, a coat.
+// Squares that face the eye, with normals that lean. The normals at the left side of each square face away from the
+// eye, and the light comes from the left. The materials are a metal, a brushed metal, sheen, and a coat.
 bool layers_leaning(struct demo *d, lam_error *error)
 {
     static const float positions[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
@@ -114,8 +114,9 @@ bool layers_leaning(struct demo *d, lam_error *error)
     return ok && lam_scene_add_light(d->scene, &light, error) >= 0;
 }
 
-// Coloured glass in front of a white box and of one another, over a background; the last ball is tinted by its volume. `refracts`: the
-// first is rough, the second thick, the last both; else light goes straight through.
+// Balls of coloured glass in front of a white box and of one another, over a background. The last ball is tinted by its
+// volume. With `refracts`, the first ball is rough, the second is thick, and the last is both. Otherwise light goes
+// straight through the balls.
 static bool glass_balls(struct demo *d, bool refracts, lam_error *error)
 {
     static const lam_rgba colors[3] = {{1, 0.8f, 0.1f, 1}, {0.2f, 0.9f, 0.4f, 1}, {0.9f, 0.9f, 0.9f, 1}};

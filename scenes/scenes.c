@@ -1,6 +1,6 @@
-// scenes.c: demonstration scenes: shapes, materials, lights, cameras, and the corners of the pipeline.
+// scenes.c: demonstration scenes of shapes, materials, lights and cameras, and of special cases of the pipeline.
 //
-// Longer than 600 lines: one function and one row for each scene.
+// This file is longer than 600 lines, because it has one function and one row for each scene.
 #include "scenes.h"
 
 #include "textured.h"
@@ -185,7 +185,7 @@ static bool frames(struct demo *d, lam_error *error)
 
 // --- sides, transforms, cameras
 
-// An open bowl that shows both its sides: the lower half of a sphere.
+// An open bowl. Both its sides are visible.
 static void bowl_surface(void *user, double u, double v, lam_surface_point *out)
 {
     (void)user;
@@ -249,7 +249,7 @@ static bool inside(struct demo *d, lam_error *error)
     return ok;
 }
 
-// A ground of two triangles that extends far behind the eye and is clipped at the near plane and at the guard band.
+// A ground of two triangles. It extends far behind the eye and is clipped at the near plane and at the guard band.
 static bool ground(struct demo *d, lam_error *error)
 {
     static const float corners[12] = {-20000, 0, 20000, 20000, 0, 20000, 20000, 0, -20000, -20000, 0, -20000};
@@ -283,7 +283,7 @@ static bool intersecting(struct demo *d, lam_error *error)
     return ok;
 }
 
-// Triangles far smaller than a sample and longer than the picture.
+// Triangles that are much thinner than the distance of samples and longer than the picture.
 static bool slivers(struct demo *d, lam_error *error)
 {
     enum { COUNT = 40 };
@@ -326,8 +326,8 @@ static bool clear_bowl(struct demo *d, lam_error *error)
     return o.mesh >= 0 && lam_scene_add_object(d->scene, &o, error) >= 0;
 }
 
-// Four bars, each above the next one and below the previous one: no order of the bars is correct. Their colours' alpha
-// makes them translucent.
+// Four bars, each above the next bar and below the previous bar. No order of drawing the bars is correct. The bars are
+// translucent because of the alpha of their colours.
 static bool over_and_under(struct demo *d, lam_error *error)
 {
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
@@ -383,14 +383,16 @@ static bool coloured(struct demo *d, lam_rate rate, lam_error *error)
 static bool vertex_colours(struct demo *d, lam_error *e) { return coloured(d, LAM_PER_VERTEX, e); }
 static bool triangle_colours(struct demo *d, lam_error *e) { return coloured(d, LAM_PER_TRIANGLE, e); }
 
-// Adds a mesh of lines or points along a helix of `count` vertices round the y axis, with colours; `normals`: lit.
+// Adds a mesh of lines or points along a helix of `count` vertices round the y axis, with colours. With `normals`, the
+// mesh is lit.
 static int helix(struct demo *d, int count, double radius, bool lines, bool normals, lam_error *error)
 {
     enum { MAX = 160 };
     float p[MAX * 3], n[MAX * 3];
     uint8_t colors[MAX * 4];
     uint32_t indices[MAX * 2];
-    // The sine and cosine of 20 degrees, turned on: no two libraries agree on all bits of the functions.
+    // Each step turns by 20 degrees. The sine and cosine of 20 degrees are written as numbers, because the functions of
+    // different libraries do not agree in all bits.
     double s = 0, c = 1;
     for (int i = 0; i < count; i++) {
         double next_s = s * 0.9396926207859084 + c * 0.3420201433256687;
@@ -419,7 +421,8 @@ static int helix(struct demo *d, int count, double radius, bool lines, bool norm
     return lam_scene_add_mesh(d->scene, &mesh, error);
 }
 
-// The helix on the cylinder is its edge half and half: seen whole, since lines lie nearer by their width.
+// The first helix lies on the surface of the cylinder. It is fully visible, because lines are drawn nearer to the eye
+// by their width.
 static bool lines_and_points(struct demo *d, lam_error *error)
 {
     static const float axis[6] = {0, -40, 0, 0, 40, 0};
@@ -443,7 +446,7 @@ static bool lines_and_points(struct demo *d, lam_error *error)
     return ok;
 }
 
-// 500 km from the origin: the same picture as near it.
+// A model 500 km from the origin. Its picture is the same as near the origin.
 static bool far_away(struct demo *d, lam_error *error)
 {
     static const float p[12] = {0, 0, 0, 0.01f, 0, 0, 0, 0.01f, 0, 0, 0, 0.01f};
@@ -497,7 +500,8 @@ static bool mirror_gouraud(struct demo *d, lam_error *error)
     return ok;
 }
 
-// Spheres of four roughnesses, from a mirror to a matt one, and of a dielectric, half a metal and a metal, under the studio.
+// Spheres of four roughnesses, from a mirror to a matt surface, in the light of the studio. The first row is a
+// dielectric, the second row is half a metal, and the third row is a metal.
 static bool environment_light(struct demo *d, lam_error *error)
 {
     static const float roughness[4] = {0.05f, 0.3f, 0.6f, 1}, metallic[3] = {0, 0.5f, 1};
@@ -575,7 +579,7 @@ static bool light(struct demo *d, lam_light_type type, lam_vec3 position, lam_ve
     return lam_scene_add_light(d->scene, &l, error) >= 0;
 }
 
-// A coarse ball, a box and a knot on a floor. The terminator of the ball is cured.
+// A coarse ball, a box and a knot on a floor. The terminator of the ball has no artefacts.
 static bool shadowed(struct demo *d, float radius, lam_error *error)
 {
     int floor = shape(d, "cube", 0, 0, error), ball = shape(d, "sphere", 16, 8, error);
@@ -601,7 +605,7 @@ static bool shadows_soft(struct demo *d, lam_error *error)
     return shadowed(d, 0.3f, error);
 }
 
-// Under light from all around, of which the surfaces near one another keep some.
+// The same objects under light from all directions. Surfaces that are near one another occlude some of this light.
 static bool occlusion_rays(struct demo *d, lam_error *error)
 {
     d->params.occlusion = LAM_OCCLUSION_RAYS;
@@ -618,8 +622,8 @@ static bool shadows_gouraud(struct demo *d, lam_error *error)
     return shadowed(d, 0, error);
 }
 
-// A turned box, each side of which consists of three triangles that overlap. Its corners are rounded to floats, so that no
-// three of them lie exactly in one plane.
+// A turned box. Each side consists of three triangles that overlap. The corners are rounded to floats, so that the four
+// corners of a side do not lie exactly in one plane.
 static bool shadows_coplanar(struct demo *d, lam_error *error)
 {
     float corners[8][3];

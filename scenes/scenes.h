@@ -1,4 +1,4 @@
-// scenes.h: demonstration scenes, one table, shared by the image tests, the benchmarks, the viewer and the web page.
+// scenes.h: a table of demonstration scenes. The image tests, the benchmarks, the viewer and the web page use it.
 #ifndef SCENES_H
 #define SCENES_H
 
@@ -15,18 +15,18 @@ struct demo {
 
 struct demo_row {
     const char *name;    // lower case, hyphens
-    const char *summary; // the contents of the picture, and the error that it would reveal
+    const char *summary; // the contents of the picture, and the error that the picture would show
     bool (*build)(struct demo *demo, lam_error *error);
 };
 
-// The table, and its length.
+// The table of scenes, and its length.
 extern const struct demo_row demos[];
 extern const int demo_count;
 
-// Builds a scene of the table. On failure there is nothing to free.
+// Builds a scene of the table. After a failure, there is nothing to free.
 bool demo_build(const struct demo_row *row, struct demo *demo, lam_error *error);
 
-// Builds a scene by its name. LAM_BAD_ARGUMENT: no scene has that name.
+// Builds the scene with this name. The error is LAM_BAD_ARGUMENT if no scene has the name.
 bool demo_build_named(const char *name, struct demo *demo, lam_error *error);
 
 #endif

@@ -1,5 +1,5 @@
-// textured.c: scenes whose materials have maps. The pictures are computed, with whole numbers alone, so that they are the
-// same everywhere.
+// textured.c: scenes whose materials have maps. The pictures of the maps are computed with whole numbers only, so that
+// they are the same on every machine.
 #include "textured.h"
 
 #include <string.h>
@@ -12,7 +12,7 @@ static int random_byte(unsigned *state)
     return (int)(*state >> 24);
 }
 
-// A picture of SIDE² pixels, each channel by a rule.
+// Computes the channels of one pixel of a picture of SIDE² pixels.
 typedef void pixel_fn(int x, int y, unsigned *state, uint8_t out[4]);
 
 static lam_texture *paint(pixel_fn *pixel, lam_texture_values values, const char *name, lam_error *error)
@@ -27,7 +27,7 @@ static lam_texture *paint(pixel_fn *pixel, lam_texture_values values, const char
     return lam_texture_make(&image, values, name, error);
 }
 
-// Bricks: two shades, with joints.
+// Bricks with joints.
 static bool is_joint(int x, int y) { return y % 12 == 0 || (x + y / 12 % 2 * 12) % 24 == 0; }
 
 static void brick_color(int x, int y, unsigned *state, uint8_t out[4])
@@ -38,7 +38,7 @@ static void brick_color(int x, int y, unsigned *state, uint8_t out[4])
     out[2] = (uint8_t)(is_joint(x, y) ? 150 : 40 + noise / 2);
 }
 
-// Occlusion, roughness and metalness, as glTF packs them.
+// The channels are occlusion, roughness and metalness, as in glTF.
 static void brick_numbers(int x, int y, unsigned *state, uint8_t out[4])
 {
     out[0] = is_joint(x, y) ? 60 : 255;
@@ -154,7 +154,7 @@ bool textured_environment(struct demo *d, lam_error *error)
     bool ok = bricks(d, true, error);
     for (int i = 0; ok && i < lam_scene_material_count(d->scene); i++) {
         lam_material m = *lam_scene_material(d->scene, i);
-        m.metallic = 0.2f; // of all of it: the map is left out
+        m.metallic = 0.2f; // for the whole surface, because the map is left out
         ok = lam_scene_set_material(d->scene, i, &m, error);
     }
     return ok && textured_surround(d, "studio", 0, error);
@@ -183,7 +183,7 @@ bool textured_masked(struct demo *d, lam_error *error)
     return ok;
 }
 
-// The same balls over a floor: light falls through what is left out or blended.
+// The objects of textured_masked over a floor. Light falls through the places that are left out or blended.
 bool textured_shadows(struct demo *d, lam_error *error)
 {
     lam_material m = lam_material_default();
@@ -199,7 +199,8 @@ bool textured_shadows(struct demo *d, lam_error *error)
     return lam_scene_add_light(d->scene, &l, error) >= 0;
 }
 
-// Every map of the layers; the coat keeps the bricks' normals, the sphere below it is smooth.
+// A scene with every map of the layers. The coat has the normals of the bricks, and the sphere below the coat is
+// smooth.
 bool textured_layers(struct demo *d, lam_error *error)
 {
     lam_texture *t[PICTURES] = {paint(brick_color, LAM_TEXTURE_COLOR, "bricks", error),

@@ -1,4 +1,4 @@
-// textured.h: the scenes of textured.c and of layers.c.
+// textured.h: declares the scenes of textured.c and layers.c.
 #ifndef TEXTURED_H
 #define TEXTURED_H
 
@@ -21,10 +21,10 @@ bool layers_leaning(struct demo *d, lam_error *error);
 bool layers_transmission(struct demo *d, lam_error *error);
 bool layers_refraction(struct demo *d, lam_error *error);
 
-// Sets the built-in environment `name`, turned about y.
+// Sets the built-in environment `name`, turned about the y axis.
 bool textured_surround(struct demo *d, const char *name, double rotation_rad, lam_error *error);
 
-// Adds a point light and ambient light, in place of a rig, and fits the camera.
+// Adds a point light and ambient light in place of a rig, and fits the camera.
 bool textured_light_up(struct demo *d, lam_error *error);
 
 #endif

@@ -31,8 +31,8 @@ static struct options scan_report_options(int count, char **words)
     return options;
 }
 
-// Removes the command's name from the words, in which options may come before it. Returns the default command if the
-// words contain none.
+// Removes the command's name, which may follow options, from the words. Returns the default command if the words
+// contain none.
 static const struct command *take_command(int *count, char **words)
 {
     int first = options_first_operand(*count, words);
@@ -59,7 +59,8 @@ static bool check_operands(const struct command *command, int count, char **oper
     return true;
 }
 
-// Pictures of a web page must not depend on the settings of the user who made it.
+// Returns whether the command reads the settings file. The pictures of a web page must not depend on the settings of
+// the user who makes the page.
 static bool reads_settings(const struct command *command, const struct options *options)
 {
     return command->groups & 1ull << GROUP_SETTINGS && command != &command_table[COMMAND_config] &&
@@ -96,7 +97,7 @@ static int execute(const struct command *command, int operands, char **words, st
     return code;
 }
 
-// Parses the options, unless the command takes its words verbatim. Returns the number of operands; −1 with the error.
+// Parses the options, unless the command takes its words verbatim. Returns the number of operands, or −1 and an error.
 static int parse(const struct command *command, int count, char **words, struct options *options, lam_error *error)
 {
     bool help = count && (strcmp(words[0], "-h") == 0 || strcmp(words[0], "--help") == 0);
@@ -119,7 +120,7 @@ int main(int count, char **words)
 {
     if (count == 3 && strcmp(words[1], CHECK_WORKER) == 0)
         check_worker(words[2]);
-    signal(SIGXFSZ, SIG_IGN); // a file over the size limit becomes a write error
+    signal(SIGXFSZ, SIG_IGN); // if a file exceeds the size limit, the write fails
     console_start();
     option_table_fill();
     int code = run(count - (count > 0), words + (count > 0));

@@ -1,4 +1,5 @@
-// decoders.js: the module that decodes Draco and meshoptimizer (web/decoders.py). A Lambent uses it if a file needs it. Each has its own memory.
+// decoders.js: runs the module that decodes Draco and meshoptimizer data (web/decoders.py). A Lambent uses this module if a file needs it. The Lambent's module
+// and this module have separate memories.
 import { Files, system } from './wasi.js';
 
 const SIZES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 }; // bytes of glTF's component types
@@ -33,7 +34,7 @@ export class Decoders {
     }
   }
 
-  // The functions that the other module imports; `own(at, size)` returns bytes of its memory.
+  // Returns the functions that the Lambent's module imports. `own(at, size)` returns bytes of the memory of the Lambent's module.
   imports(own) {
     const [decode, attribute, triangles, free] = this.#draco, put = (to, from, size) => own(to, size).set(this.#bytes(from, size));
     return {

@@ -1,5 +1,5 @@
-// lambent.js: Lambent as a module for node and browsers: draws pictures of models from command lines, with files in memory. It reads no files of the machine
-// and sends nothing. A call blocks until the picture is drawn, so a page calls it in a worker. threads.js adds threads.
+// lambent.js: runs Lambent as a module in node and browsers. It draws pictures of models from command lines, with files in memory. It does not read the
+// machine's files, and sends no data. A call blocks until the picture is drawn, so a page calls it in a worker. threads.js adds threads.
 //
 //   const lambent = await open(bytesOfLambentWasm);
 //   lambent.files.set('/bunny.obj', bytes);
@@ -7,7 +7,8 @@
 //   const png = lambent.save(['/bunny.obj', '--size', '512'], 'png'); // the bytes that the command writes
 import { Files, system } from './wasi.js';
 
-// Thrown if a command line cannot be drawn: the program's message, and a word for its exit code. `cancelled`: the caller asked the call to end.
+// Thrown if a command line cannot be drawn. It contains the program's message, and a word for the program's exit code. `cancelled` is true if the caller has
+// asked the call to end.
 export class LambentError extends Error {
   cancelled = false;
 
@@ -19,7 +20,7 @@ export class LambentError extends Error {
 }
 const CODES = ['OK', 'BAD_ARGUMENT', 'CANNOT_READ', 'UNSUPPORTED', 'LIMIT', 'CANNOT_WRITE'];
 
-// Thrown if a divided module needs a part that is not loaded. This Lambent cannot be used afterwards.
+// Thrown if a divided module needs a part that is not loaded. The Lambent that throws it cannot be used afterwards.
 export class PartMissing extends Error {
   constructor(part) {
     super(`the part '${part}' of the module is missing`);
@@ -43,8 +44,8 @@ export class Lambent {
   #printed = '';
   #decoding = null;
 
-  // `parts`: the loaded parts of a divided module. Calls that need another part throw PartMissing until complete() adds it. `memory`: the memory of a
-  // module with threads (threads.js). `progress`: called repeatedly while drawing, with the fraction that is done, 0 to 1.
+  // `parts` are the loaded parts of a divided module. Calls that need another part throw PartMissing until complete() adds it. `memory` is the memory of a
+  // module with threads (threads.js). `progress` is called repeatedly during drawing, with the finished fraction from 0 to 1.
   constructor(module, files = new Files(), { parts = [], memory = null, progress = null } = {}) {
     this.files = files;
     const host = system(files, [], (stream, text) => (this.#printed += text));
@@ -63,8 +64,8 @@ export class Lambent {
     new WebAssembly.Instance(part, { primary: this.instance.exports });
   }
 
-  // Limits the memory for reading a model and for drawing it, in bytes each, if the words contain no --memory-limit. 0 means no
-  // limit.
+  // Limits the memory for reading a model to this number of bytes, and the memory for drawing it to the same number, if the words contain no --memory-limit. 0
+  // means no limit.
   limitMemory(bytes) {
     this.instance.exports.web_limit_memory(bytes);
   }
@@ -93,7 +94,7 @@ export class Lambent {
     return picture;
   }
 
-  // The file that `act` writes at a path. It is removed, and is not one of the files that a model misses.
+  // Returns the file that `act` writes at a path, and removes the file. The file does not count as a missing file of the model.
   #written(path, act) {
     try {
       act();
@@ -116,18 +117,18 @@ export class Lambent {
     return this.#written(path, () => this.save([...words, '--save-scene', path], 'png'));
   }
 
-  // Explains one pixel, as `lambent explain --json` prints it.
+  // Returns the explanation of one pixel, as `lambent explain --json` prints it.
   explain(words, x, y) {
     return this.#call('web_explain', this.#words(words), x, y);
   }
 
-  // The curves of a light of the picture, 101 values each: attenuation up to a distance, cone, and highlight, by degrees up to 90. `light`: its index in the
-  // explanation's list; `reflection`: the word of a reflection model.
+  // Returns three curves of a light of the picture, with 101 values each: the attenuation at distances from 0 to `farthest`, and the cone and the highlight at
+  // angles from 0 to 90 degrees. `light` is the light's index in the explanation's list. `reflection` is the word of a reflection model.
   curves(words, { light, farthest, shininess, reflection }) {
     return this.#call('web_curves', this.#words([...words, reflection]), light, farthest, shininess);
   }
 
-  // The picture's lights in the form of a scene file, as `lambent lights` prints them.
+  // Returns the picture's lights in the form of a scene file, as `lambent lights` prints them.
   lights(words) {
     return this.#call('web_lights', this.#words(words));
   }
@@ -137,13 +138,12 @@ export class Lambent {
     return this.#call('web_contents', this.#words(words));
   }
 
-  // Returns the options of a picture, in the groups of the help, the names of shapes, and the
-  // version.
+  // Returns the options of a picture in the groups of the help, the names of the shapes, and the version.
   options() {
     return this.#call('web_options');
   }
 
-  // The files have changed, so the model is read again.
+  // Forgets the model, so that the next call reads it again. Call it after files have changed.
   forget() {
     this.instance.exports.web_forget();
   }

@@ -1,5 +1,5 @@
-// split.mjs COUNTING PROFILE: draws what a visitor sees first, with a module instrumented by wasm-split, and writes a profile of the called functions.
-// web/build.py puts them into the first part of the module.
+// split.mjs COUNTING PROFILE: draws the first pictures of a visit, with a module instrumented by wasm-split, and writes a profile of the called functions.
+// web/build.py puts these functions into the first part of the module.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { Lambent } from './lambent.js';
 import { around, cameraText, orbit } from './page/camera.js';
@@ -15,7 +15,7 @@ WebAssembly.Instance = function (...given) {
 const lambent = new Lambent(new WebAssembly.Module(readFileSync(counting)));
 lambent.limitMemory(1e9);
 lambent.options();
-// The first picture, and a turn of it, with one sample and with all samples.
+// The first picture, and the same model from another side with all samples and with one sample.
 for (const size of ['320x344', '944x656', '472x328']) {
   const words = [...START, `--size=${size}`], { camera, sphere } = lambent.draw(words);
   const turned = cameraText(orbit(around(camera, sphere, 1.4), 0.3, 0.2, camera.pole, sphere.centre));

@@ -1,5 +1,5 @@
-// thread.js: a worker that runs a thread of a module (threads.js), with its own instance in the shared memory. It has no files, and its other imports do
-// nothing. It loads only the first part of a divided module, since code of other parts runs only on the main thread.
+// thread.js: a worker that runs a thread of a module (threads.js), with its own instance in the shared memory. The thread has no files, and its other imports
+// do nothing. It loads only the first part of a divided module, because only the main thread runs code of the other parts.
 import { Files, system } from './wasi.js';
 
 const missing = new Proxy({}, {
@@ -13,7 +13,7 @@ function start(port, { module, memory, thread }) {
   const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1, 'threads-more': missing, unused: missing, env: new Proxy({ memory }, { get: (given, name) => given[name] ?? (() => 0) }) });
   host.attach(instance);
   const { __stack_pointer, web_thread_run, web_thread_failed } = instance.exports;
-  __stack_pointer.value = thread; // its stack ends there, and grows downwards
+  __stack_pointer.value = thread; // the thread's stack starts at this address and grows downwards
   port.postMessage('ready');
   try {
     web_thread_run(thread); // does not return

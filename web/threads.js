@@ -1,16 +1,17 @@
-// threads.js: Lambent with several threads, from build-web/threads/web/lambent.wasm. The memory is shared, so a page must be cross-origin isolated
-// (docs/web.md). Each thread is a worker that runs thread.js.
+// threads.js: runs Lambent with several threads. The module is build-web/threads/web/lambent.wasm. The memory is shared, so a page must be cross-origin
+// isolated (docs/web.md). Each thread is a worker that runs thread.js.
 //
 //   const lambent = await openThreads(bytesOfLambentWasm, 4, () => new Worker(new URL('thread.js', import.meta.url), { type: 'module' }));
-// number of drawing threads, including the caller; fewer if workers could not start
-// blocks until all threads are done, so a page's main thread must not call it
+//   lambent.threads;          // number of drawing threads, including the caller; fewer if workers could not start
+//   lambent.draw(['teapot']); // blocks until all threads are done, so a page's main thread must not call it
 //   lambent.end();
 import { Lambent } from './lambent.js';
 
 const INITIAL = 256, LARGEST = 65536, SMALLEST = 4096; // pages of 64 KiB; the first two values must match the linker's (web/meson.build)
 const ARRIVAL_MS = 10000;
 
-// Memory for an instance and its threads. Address space is reserved, less if the system refuses more. Throws if it refuses the smallest amount.
+// Returns memory for an instance and its threads. It reserves address space. If the system refuses this size, it tries smaller sizes. Throws if the system
+// refuses the smallest size.
 export function sharedMemory() {
   for (let maximum = LARGEST; ; maximum /= 2) {
     try {
@@ -56,7 +57,8 @@ class Threads extends Lambent {
   }
 }
 
-// `count`: wanted threads, including the caller. `progress` and `parts`: see Lambent.
+// Opens a Lambent with threads. `count` is the wanted number of threads, including the caller. `progress` and `parts` are described at Lambent's constructor
+// (lambent.js).
 export async function openThreads(source, count, startWorker, files = undefined, progress = null, parts = []) {
   const module = source instanceof WebAssembly.Module ? source : await WebAssembly.compile(source), memory = sharedMemory();
   return new Threads(module, files, { memory, progress, parts }).start(module, memory, count - 1, startWorker);

@@ -1,11 +1,11 @@
-// wasi.js: the system interface for modules of Lambent: files in memory, a clock, printed text. It implements the functions of WASI preview 1
+// wasi.js: the system interface for modules of Lambent. It provides files in memory, a clock, and printed text. It implements the functions of WASI preview 1
 // (https://github.com/WebAssembly/WASI/blob/main/legacy/preview1/docs.md) that Lambent calls. It does not access the machine's files.
 
 const OK = 0, BADF = 8, EXIST = 20, INVAL = 28, ISDIR = 31, NOENT = 44, NOSYS = 52, NOTDIR = 54, NOTEMPTY = 55;
 const FOLDER = 3, FILE = 4, CHARACTERS = 2; // kinds of files
 const ROOT = 3; // the number of the opened root, after the three streams
 
-// Thrown when a module exits: proc_exit.
+// Thrown when a module exits by proc_exit.
 export class Exit extends Error {
   constructor(code) {
     super(`ended with ${code}`);
@@ -13,7 +13,8 @@ export class Exit extends Error {
   }
 }
 
-// Files by absolute path: "/model/bunny.obj" to bytes. A folder exists while it contains something, or after makeFolder.
+// Files in memory. The bytes of each file are stored by its absolute path, such as "/model/bunny.obj". A folder exists if a file was stored in it or if the
+// module has created it.
 export class Files {
   constructor() {
     this.files = new Map();
@@ -55,7 +56,7 @@ export class Files {
   }
 }
 
-// The imports of a module with these words as its command line. `print(stream, text)`: called with text printed to stream 1 or 2.
+// Returns the imports of a module whose command line is `words`. `print(stream, text)` is called with text that the module prints to stream 1 or 2.
 export function system(files, words, print) {
   const encoder = new TextEncoder(), decoders = [];
   const open = new Map([[ROOT, { path: '', folder: true }]]);
@@ -91,7 +92,8 @@ export function system(files, words, print) {
     if (size > file.size) file.size = size;
   }
 
-  // Calls `part(at, size)` for each block of a list until one is not filled. Returns the sum.
+  // Calls `part(at, size)` for each block of a list. `part` returns the number of bytes that it has transferred. Stops after a block that was not fully
+  // transferred. Returns the total number of bytes.
   function pieces(list, count, part) {
     let sum = 0;
     for (let i = 0; i < count; i++) {
@@ -306,7 +308,7 @@ export function system(files, words, print) {
   return { wasi_snapshot_preview1: imports, attach: (instance) => (memory = instance.exports.memory) };
 }
 
-// Runs a module that has a main function; returns its exit code.
+// Runs a module that has a main function, and returns the exit code.
 export function run(module, files, words, print) {
   const host = system(files, words, print);
   const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: host.wasi_snapshot_preview1 });

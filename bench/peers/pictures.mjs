@@ -54,7 +54,7 @@ async function drawModelViewer({ path, size }) {
   await loaded;
   viewer.jumpCameraToGoal();
   let picture, before;
-  do { // until the environment and all textures are shown; software rendering needs seconds for them
+  do { // wait until the environment and all textures are shown, which takes seconds with software rendering
     before = picture;
     await new Promise((done) => setTimeout(done, 2500));
     picture = viewer.toDataURL('image/png');
@@ -93,7 +93,8 @@ async function drawF3d({ path, files, camera, up, size, tone }) {
   view.viewAngle = camera.fovy_deg;
   window.render();
   await new Promise((done) => setTimeout(done, 300));
-  // saveBuffer() returns memory that is already freed, so the pixels are copied instead; their last row comes first.
+  // saveBuffer() returns memory that is already freed, so the pixels are copied instead. The first row of the copied
+  // pixels is the picture's last row.
   const image = window.renderToImage(false), pixels = image.getContent(), channels = pixels.length / (size * size);
   const sheet = Object.assign(document.createElement('canvas'), { width: size, height: size }), drawing = sheet.getContext('2d');
   const copy = drawing.createImageData(size, size);
@@ -104,7 +105,7 @@ async function drawF3d({ path, files, camera, up, size, tone }) {
   return sheet.toDataURL('image/png').split(',')[1];
 }
 
-// Returns the model and the files beside it and below, which it may need.
+// Returns the model and the files in its folder and subfolders, because the model may need them.
 function filesOf(path) {
   if (/\.(glb|stl|ply)$/i.test(path)) return [path];
   const top = dirname(join(roots.models, path));
@@ -121,7 +122,8 @@ async function open(task) {
   peer = task.peer;
 }
 
-// Calls a function in the page, which stays open for the next model of F3D: its environment takes half a minute to prepare.
+// Calls a function in the page. The page stays open for the next model of F3D, because preparing F3D's environment
+// takes half a minute.
 async function draw(task, tries = 2) {
   if (task.peer !== peer || peer === 'model-viewer') await open(task);
   const clock = setTimeout(() => page.context().browser().close(), TIME_LIMIT_MS);

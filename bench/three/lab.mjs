@@ -1,10 +1,11 @@
-// lab.mjs MODULES CHROMIUM BUILD_WEB FOLDER: runs the page of build-web in Chromium, cross-origin isolated, and simulates a
-// user who turns the model.
+// lab.mjs MODULES CHROMIUM BUILD_WEB FOLDER: runs the page of build-web in Chromium, cross-origin isolated, and
+// simulates a user who turns the model.
 //
 // Reads a task on each line of standard input, and answers with a line of JSON, {"error": …} where it failed:
 //     {"load": ["/a.glb", "--size=928x656", …]}  draws it; a model whose name begins with "/" is a file of FOLDER  -> {"threads", "version"}
-//     {"turn": ms, "paced": true}    milliseconds between pictures while the picture is dragged round, by steps that follow the pictures,
-//                                    or the screen (paced); and until the whole picture after the last step. `scale`: of the pictures' width, the mean   -> {"frames", "sharp", "scale"}
+//     {"turn": ms, "paced": true}    drags the picture round for this time, by steps that follow the pictures, or the screen if paced. `frames`
+//                                    are the milliseconds between the pictures, `sharp` the milliseconds from the last step to the whole
+//                                    picture, and `scale` the mean width of the pictures as a fraction of the full width   -> {"frames", "sharp", "scale"}
 //     {"whole": n}                   milliseconds between n whole pictures, each from another side                   -> {"frames"}
 import { readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -30,7 +31,7 @@ const browser = await chromium.launch({ executablePath, headless: true, args: ['
 
 const fragment = (words) => '#' + words.map(encodeURIComponent).join('&');
 
-// Runs in the page before its scripts: records the time and the size of each picture that it shows.
+// Runs in the page before the page's scripts. Records the time and the size of each picture that the page shows.
 function watch() {
   const { putImageData } = CanvasRenderingContext2D.prototype, test = (globalThis.test = { shown: [], next: () => {}, whole: 0 });
   CanvasRenderingContext2D.prototype.putImageData = function (...given) {
@@ -40,7 +41,7 @@ function watch() {
   };
   const observed = new MutationObserver(() => document.body.dataset.drawn && (test.whole = performance.now()));
   addEventListener('DOMContentLoaded', () => observed.observe(document.body, { attributes: true, attributeFilter: ['data-drawn'] }));
-  // Mouse steps with the button down: back and forth, one degree each.
+  // Moves the mouse back and forth with the button down, in steps of one degree.
   test.turn = async (ms, paced) => {
     const canvas = document.getElementById('canvas'), box = canvas.getBoundingClientRect(), [, width] = /--size=(\d+)x/.exec(decodeURIComponent(location.hash));
     const middle = [box.x + box.width / 2, box.y + box.height / 2];
@@ -59,7 +60,7 @@ function watch() {
     });
     test.next = () => {};
     const turned = test.shown.slice();
-    // The whole picture, after the last step.
+    // Waits for the whole picture after the last step.
     while (test.whole < last && performance.now() < last + 5000) await new Promise((done) => setTimeout(done, 2));
     if (test.whole < last) throw new Error('no whole picture follows');
     return { frames: turned.slice(1).map((one, k) => one.at - turned[k].at), sharp: test.whole - last, scale: turned.reduce((sum, one) => sum + one.width / width, 0) / turned.length };

@@ -5,7 +5,7 @@
 //      "environment": "env/a.hdr", "antialias": true}   a model of FOLDER; one of light and environment   -> {"renderer", "version"}
 //     {"frames": n, "turn": degrees}          the camera turns between frames                    -> [milliseconds of each]
 //     {"save": "picture.png"}                 writes the picture                                  -> {}
-// A frame ends when a pixel of it has been read back: gl.finish() does not wait in Chromium.
+// A frame ends when one of its pixels has been read back, because gl.finish() does not wait in Chromium.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
@@ -26,7 +26,7 @@ window.load = async (task) => {
   renderer.setPixelRatio(1);
   renderer.setSize(width, height);
   renderer.setClearColor(0, 0);
-  renderer.toneMapping = THREE.NeutralToneMapping; // the same the same as lambent's
+  renderer.toneMapping = THREE.NeutralToneMapping; // the same as Lambent's
   document.body.append(renderer.domElement);
   scene = new THREE.Scene();
   const { eye, up, fovy_deg, near, far } = task.camera;
@@ -36,7 +36,7 @@ window.load = async (task) => {
   camera.lookAt(target.set(...task.camera.target));
   scene.add((await new GLTFLoader().loadAsync('/models/' + task.load)).scene);
   if (task.light) {
-    // Lambert's term in Lambent is the base colour; three.js divides it by pi.
+    // In Lambent, Lambert's term is the base colour. three.js divides the base colour by pi.
     const light = new THREE.DirectionalLight(0xffffff, task.light.intensity * Math.PI);
     light.position.set(...task.light.direction.map((x) => -x));
     scene.add(light);

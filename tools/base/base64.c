@@ -1,4 +1,4 @@
-// base64.c: base64 of RFC 4648, section 4.
+// base64.c: encodes and decodes base64 (RFC 4648, section 4).
 #include "base64.h"
 
 #include <stdlib.h>
@@ -39,7 +39,7 @@ uint8_t *base64_decode(const char *text, size_t length, size_t *size, size_t *at
     }
     if (!bytes)
         return NULL;
-    // With padding, the last group has 2 or 3 letters; their surplus bits are 0.
+    // With padding, the last group contains 2 or 3 letters; their surplus bits must be 0.
     bool whole = length % 4 == 0 && (padding == 0 || (bits & (padding == 2 ? 0xF : 0x3)) == 0);
     if (bad < length || !whole) {
         *at = bad;

@@ -1,4 +1,4 @@
-// base64.h: bytes in JSON: base64 of RFC 4648, section 4, with padding and without line breaks.
+// base64.h: encodes and decodes base64 (RFC 4648, section 4), with padding and without line breaks.
 #ifndef BASE64_H
 #define BASE64_H
 

@@ -15,20 +15,21 @@ bool console_has_colors(void);
 // Print one line on standard error: "lambent: …" and "lambent: warning: …".
 void say_error(const char *text);
 void say_warning(const char *text);
-// Redirects the messages of this thread to `stream`, until it is NULL again, so that they can be shown later in order.
+// Redirects the messages of this thread to `stream`, so that the caller can print them later, in order. NULL ends the
+// redirection.
 void console_capture(FILE *stream);
 // Prints text. Control characters other than line ends and tabs become "?", because file names may contain them.
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-// Returns the bytes of the character at `text` if a reader does not see it: a control character except line ends and
-// tabs, or one that changes the direction of the text after it. Returns 0 for any other character.
+// Returns the number of bytes of the character at `text` if the character is invisible: a control character except line
+// ends and tabs, or a character that changes the direction of the text after it. Returns 0 for any other character.
 size_t text_hidden(const char *text);
 
-// Prints a file's name, in one line: "\\" for a backslash, "\n" for a line end, "\r" for a carriage return, and "?" for
+// Prints a file's name on one line: "\\" for a backslash, "\n" for a line end, "\r" for a carriage return, and "?" for
 // an invisible character.
 void print_name(FILE *out, const char *name);
 
-// Fills an error with a printf-like sentence and returns false.
+// Stores a code and a message, formatted as by printf, in an error. Returns false.
 bool complain(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 // Flushes standard output. Returns false with LAM_CANNOT_WRITE if some output was lost.

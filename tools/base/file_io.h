@@ -6,20 +6,21 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Writes all bytes. Returns false with errno.
+// Writes all bytes. Returns false and sets errno if it fails.
 bool write_all(int file, const void *bytes, size_t size);
 
-// Reads exactly `size` bytes. Returns false with errno, or with errno 0 if the file ends earlier.
+// Reads exactly `size` bytes. Returns false and sets errno if it fails; errno is 0 if the file ends earlier.
 bool read_all(int file, void *bytes, size_t size);
 
-// Opens a regular file for reading, and sets its size. Rejects folders, pipes and devices, since opening them can block
-// forever or have side effects. Returns −1 with errno, or with errno 0 if the file is not a regular file.
+// Opens a regular file for reading, and sets *size to its size. Rejects folders, pipes and devices, since opening them
+// can block forever or have side effects. Returns −1 and sets errno if it fails; errno is 0 if the file is not a
+// regular file.
 int open_regular(const char *path, uint64_t *size);
 
-// Reads a file to its end, at most `size` bytes. Returns false with errno.
+// Reads a file to its end, at most `size` bytes. Returns false and sets errno if it fails.
 bool read_up_to(int file, char *bytes, size_t size, size_t *length);
 
-// Returns whether a path is the folder, or in it or its subfolders. Both are real paths.
+// Returns whether a path is the folder itself or lies below the folder. Both must be real paths.
 bool is_in_folder(const char *real, const char *folder);
 
 #endif

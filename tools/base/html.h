@@ -4,8 +4,8 @@
 
 #include <stdio.h>
 
-// Writes escaped text, which may also be inside quotes. Invisible characters (text_hidden) become "?". Does nothing for
-// NULL.
+// Writes escaped text, which is also safe inside quotes. Invisible characters (text_hidden) become "?". Does nothing
+// for NULL.
 void html_text(FILE *file, const char *text);
 
 // Writes JSON so that a script element can contain it: escapes '<'.

@@ -1,7 +1,8 @@
 // json.h: writes JSON values one after the other, on one line.
 //
 // Numbers are written with the fewest digits that parse to the same double, in any locale, so that a camera copied from
-// a report reproduces the picture. (Jansson prints a fixed number of digits: 0.10000000000000001, or another number.)
+// a report reproduces the picture. (Jansson prints a fixed number of digits: 17 digits print 0.1 as
+// 0.10000000000000001, and fewer digits can change the number.)
 #ifndef JSON_H
 #define JSON_H
 
@@ -23,7 +24,7 @@ void json_text(struct json *json, const char *key,
                const char *text); // writes null for NULL, U+FFFD for invalid UTF-8
 // Writes a sentence of the library, with fields replaced by options (option_names.h). NULL becomes null.
 void json_message(struct json *json, const char *key, const char *text);
-void json_number(struct json *json, const char *key, double value); // writes null if it is not finite
+void json_number(struct json *json, const char *key, double value); // writes null if `value` is not finite
 void json_count(struct json *json, const char *key, uint64_t value);
 void json_none(struct json *json, const char *key);
 void json_flag(struct json *json, const char *key, bool value);
@@ -32,10 +33,10 @@ void json_flag(struct json *json, const char *key, bool value);
 void json_numbers(struct json *json, const char *key, const double *values, int count);
 void json_vector(struct json *json, const char *key, lam_vec3 v);
 
-// Formats the decimal number with the fewest digits that reads back as the same float.
+// Formats a float with the fewest digits that parse to the same float.
 void shortest_float(float value, char text[32]);
 
-// Formats the shortest decimal number that reads back as `value`, at most 24 bytes with the closing zero.
+// Formats a double with the fewest digits that parse to the same double: at most 24 bytes, including the closing zero.
 void shortest_number(double value, char text[32]);
 
 #endif

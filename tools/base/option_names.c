@@ -1,5 +1,5 @@
-// option_names.c: the options that set the library's fields. The sentences of the library name fields, since programs
-// that use it have no options.
+// option_names.c: finds the option that sets a field of the library. The library's messages name fields, because
+// programs that call the library have no options.
 #include "option_names.h"
 
 #include <stdbool.h>
@@ -33,7 +33,7 @@ static const struct {
 
 static bool begins(const char *text, const char *name) { return strncmp(text, name, strlen(name)) == 0; }
 
-// Writes the option of a setting: its key with - in place of _.
+// Writes the option of a setting: its key with each _ replaced by -.
 static size_t put_key(const char *key, char *out)
 {
     size_t used = 2;
@@ -67,7 +67,7 @@ static size_t put_option(const char *text, char *out, size_t *used)
 const char *name_options(const char *text, char out[MESSAGE_SIZE])
 {
     size_t at = 0;
-    while (*text && at < MESSAGE_SIZE - 64) { // more than the longest option
+    while (*text && at < MESSAGE_SIZE - 64) { // the longest option has fewer than 64 characters
         size_t used = 1, length = begins(text, "lam_") ? put_option(text, out + at, &used) : 0;
         if (!length)
             out[at] = *text;

@@ -7,8 +7,8 @@
 // Returns the folder of a path, from malloc: "." if the path contains none. Returns NULL if memory runs out.
 char *output_folder_of(const char *path);
 
-// Creates the missing folder of a path that output_check has accepted, including its parents. Fails with
-// LAM_CANNOT_WRITE.
+// Creates the folder of a path and the folder's parents, if they are missing. output_check must have accepted the path.
+// Fails with LAM_CANNOT_WRITE.
 bool output_make_folder(const char *path, lam_error *error);
 
 #endif

@@ -7,15 +7,15 @@
 struct progress {
     bool allowed; // standard error is a terminal, and --quiet is not set
     double start_ms, drawn_ms;
-    double from, span; // the fraction of the whole for the current call
+    double from, span; // the current call's section of the bar: its start and length, as fractions
     const char *model;
     bool shown;
-    void (*show)(double share); // called instead of drawing the bar, with the total fraction; NULL means the bar
+    void (*show)(double share); // called with the total fraction instead of drawing the bar; NULL draws the bar
 };
 
 void progress_start(struct progress *progress, const char *model, bool allowed);
 
-// Sets the fraction of the whole for the next call. NULL means no progress is shown.
+// Sets the section of the bar that the next call fills. If `progress` is NULL, does nothing.
 void progress_phase(struct progress *progress, double from, double span);
 
 // Implements the callback of lam_control; `user` is a struct progress.

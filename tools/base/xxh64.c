@@ -1,6 +1,6 @@
-// xxh64.c: XXH64 with the seed 0, by Yann Collet's specification (xxHash fast digest algorithm, version 0.1.1): four
-// lanes consume 8 bytes each, in turn, and are merged at the end. The hash is not cryptographic: it detects changes,
-// but not attacks.
+// xxh64.c: computes XXH64 with the seed 0, as specified by Yann Collet (xxHash fast digest algorithm, version 0.1.1).
+// Four lanes consume 8 bytes each, in turn, and are merged at the end. The hash is not cryptographic: it detects
+// changes, but not attacks.
 #include "xxh64.h"
 
 #include <errno.h>

@@ -1,5 +1,5 @@
-// xxh64.h: XXH64, the hash in journals for pictures, models and everything that determines a picture. `xxh64sum` prints
-// the same hashes.
+// xxh64.h: computes XXH64, the hash that journals store for pictures, models and everything that determines a picture.
+// `xxh64sum` prints the same hashes.
 #ifndef XXH64_H
 #define XXH64_H
 
@@ -23,7 +23,8 @@ uint64_t xxh64_of(const void *bytes, size_t size);
 // Hashes the bytes of a file. Returns false and sets errno if it cannot be read or is not a regular file.
 bool xxh64_file(const char *path, uint64_t *hash);
 
-// Convert to and from "xxh64:0123456789abcdef". The latter returns false if the text has a different form.
+// xxh64_print writes a hash in the form "xxh64:0123456789abcdef". xxh64_parse reads this form, and returns false for
+// any other text.
 enum { XXH64_TEXT = 24 };
 void xxh64_print(uint64_t hash, char text[XXH64_TEXT]);
 bool xxh64_parse(const char *text, uint64_t *hash);

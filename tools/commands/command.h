@@ -1,5 +1,5 @@
-// command.h: the functions of the commands. Each command has a word in COMMANDS, a row in command_table.c and a source
-// file.
+// command.h: the functions of the commands. Each command has an entry in COMMANDS, a row in command_table.c and a
+// source file.
 #ifndef COMMAND_H
 #define COMMAND_H
 

@@ -27,7 +27,7 @@ enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY =
 struct page {
     double unit;
     int cell_width, cell_height; // the size of a picture
-    int gap, head, foot;         // `gap` between and around cells; the heights of title and caption
+    int gap, head, foot;         // the gap between and around cells; the heights of the title and of a caption
     int inset;                   // the height of the enlarged part with its gap; 0 if there is none
     int rows;
 };
@@ -41,11 +41,11 @@ struct compare {
     struct page page;
     struct drawing drawing;
     int done;                              // the number of pictures drawn so far
-    lam_image right;                       // on a sheet of mistakes, the first picture
+    lam_image right;                       // the first picture of a sheet of mistakes
     lam_difference differences[CELLS_MAX]; // differences from `right`
     bool exposure_fitted;                  // fitted to the first picture, then used for all
     double exposure;
-    const char *defaults[2 * SHEET_DEFAULTS_MAX]; // arguments of every picture that the command line lacks
+    const char *defaults[2 * SHEET_DEFAULTS_MAX]; // arguments that the sheet adds to every picture
     int default_count;
     bool default_material; // one of the defaults is a material
 };
@@ -59,7 +59,7 @@ static const char *caption_of(const struct compare *c, const struct cell *cell)
 
 // --- one picture
 
-// Sets the rotations of all pictures, so that they share one camera and one scale.
+// Stores the rotations of all pictures in the options, so that the pictures share one camera and one scale.
 static bool share_rotations(const struct sheet *sheet, struct options *options)
 {
     const char **items = malloc((size_t)CELLS_MAX * CELL_WORDS * sizeof *items);
@@ -94,7 +94,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
 {
     if (!options_copy(options, c->options))
         return complain(error, LAM_LIMIT, "out of memory");
-    char *words[2 * SHEET_DEFAULTS_MAX + CELL_WORDS + 4]; // the options are only read
+    char *words[2 * SHEET_DEFAULTS_MAX + CELL_WORDS + 4]; // options_parse only reads them
     int count = 0;
     for (int i = 0; i < c->default_count; i++)
         words[count++] = (char *)(uintptr_t)c->defaults[i];
@@ -244,7 +244,7 @@ static bool draw_frame(struct compare *c, double left, double top, double width,
     return draw_line(&c->drawing, round, 5, 2 * c->page.unit, FRAME, 0, error);
 }
 
-// Draws the framed part of a cell's picture and, below it, an enlarged view.
+// Draws an enlarged section of a cell's picture below the picture, and frames the section in both.
 static bool draw_inset(struct compare *c, const struct cell *cell, struct highlight box, int left, int top,
                        lam_error *error)
 {
@@ -270,7 +270,8 @@ static bool draw_inset(struct compare *c, const struct cell *cell, struct highli
 
 // --- the page
 
-// Reduces the text size until the text fits the width, since hinted letters do not scale proportionally.
+// Draws text that fits the width. Reduces the size step by step, because the widths of hinted letters are not
+// proportional to the size.
 static void draw_fitting(struct drawing *d, struct point baseline, double size, double width, uint32_t color,
                          const char *text)
 {
@@ -287,7 +288,8 @@ static void join(const char *const *words, int count, char line[512])
         snprintf(line + strlen(line), 512 - strlen(line), "%s%s", i ? " " : "", words[i]);
 }
 
-// Draws text on one line, or on two lines if it would be too small to read on one. Breaks it after a comma or a word.
+// Draws text on one line, or on two lines if it would be too small to read on one. Breaks the text after the comma or
+// the space nearest to its middle.
 static void draw_words(struct compare *c, struct point baseline, double width, const char *line)
 {
     double u = c->page.unit, size = 15 * u, needed = text_width(&c->drawing, size, line);
@@ -312,7 +314,7 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
 {
     double u = c->page.unit, middle = left + c->page.cell_width / 2.0, width = c->page.cell_width;
     draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, width, INK, caption_of(c, cell));
-    // The options of the picture as typed.
+    // The second line shows the picture's options as typed or, for a mistake, the difference from the first picture.
     char line[512];
     const char *words[CELL_WORDS + 2];
     const lam_difference *d = &c->differences[cell - c->sheet.cells];
@@ -383,7 +385,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
 {
     const struct page *p = &c->page;
     struct highlight box = {0};
-    if (c->sheet.inset) { // taken from the last picture, which is shaded per fragment
+    if (c->sheet.inset) { // the highlight is located in the last picture, which is shaded per fragment
         const struct cell *cell = &c->sheet.cells[c->sheet.count - 1];
         lam_image whole, matt;
         if (!draw_cell(c, cell, 1, NULL, NULL, &whole, error))

@@ -88,16 +88,16 @@ static bool check(struct convert *c, lam_error *error)
     return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and the output are the same file", c->output);
 }
 
-// Returns whether the library writes a given letter of a name as `written`: it writes _ for letters that OBJ and MTL
-// files cannot name.
+// Returns whether the library writes the letter `given` of a file name as `written`. The library writes _ for letters
+// that names in OBJ and MTL files cannot contain.
 static bool is_letter(char given, char written)
 {
     return written == given ||
            (written == '_' && ((signed char)given <= ' ' || given == '-' || given == '\\' || given == 0x7f));
 }
 
-// Returns whether the path may be a file beside an OBJ file, "part.mtl" or "part-0.png". The numbers are known after
-// the model is read.
+// Returns whether the path has the name of a companion file of the OBJ file, such as "part.mtl" or "part-0.png".
+// Accepts any number, because the numbers are known only after the model is read.
 static bool is_beside(const struct convert *c, const char *path)
 {
     size_t stem = strlen(c->output) - strlen(ending(c->output)) - 1;
@@ -109,7 +109,8 @@ static bool is_beside(const struct convert *c, const char *path)
     return is && (strcmp(rest, ".mtl") == 0 || (digits && digits <= 4 && strcmp(rest + 1 + digits, ".png") == 0));
 }
 
-// If the model does not exist yet, its companion files are not replaced, because another program wrote them.
+// If the output does not exist yet, existing files with the names of its companion files belong to another program, so
+// they are not replaced.
 static enum writer_right right_of(void *user, const char *path)
 {
     const struct convert *c = user;

@@ -184,7 +184,7 @@ static void print_json(const struct journal_sum *sum, const struct batch_tally *
 
 // --- written files
 
-// Writes the folder of the following pictures, copied from the line that states it.
+// Writes the folder of the following pictures. `line` is the journal line that contains the folder.
 static void write_folder(FILE *out, const char *line)
 {
     json_t *run = json_loadb(line, strcspn(line, "\n"), 0, NULL), *folder = json_object_get(run, "folder");
@@ -196,7 +196,7 @@ static void write_folder(FILE *out, const char *line)
     json_decref(run);
 }
 
-// Writes one journal of all pictures with the latest line of each, as a run without shards would write it.
+// Writes one journal with the latest line for each picture, as a run without shards would write it.
 static bool write_merged(const struct journal_sum *sum, size_t pictures, const char *path, lam_error *error)
 {
     char *text = NULL;
@@ -244,7 +244,8 @@ static bool write_page(struct journal_sum *sum, const struct batch_tally *tally,
     return batch_page_write(&page, error);
 }
 
-// Thumbnails are made from pictures named in the journals, which may be untrusted.
+// Returns the right to write a file. The sandbox is needed because the journals may be untrusted, and they name the
+// pictures from which thumbnails are made.
 static enum writer_right right_of(void *user, const char *path)
 {
     const char *page = user;

@@ -18,7 +18,7 @@
 
 enum { COLUMNS = 6, ROWS = (LAM_MATERIAL_COUNT + COLUMNS - 1) / COLUMNS };
 
-// Returns the decimal number with the fewest digits that parses to the same float, as in the table.
+// Returns the decimal number with the fewest digits that parses to the same float, as in the printed table.
 static double decimal(float x)
 {
     char text[32];
@@ -163,8 +163,8 @@ static bool draw_captions(const lam_scene *scene, const struct options *o, const
     double radius;
     for (int i = 0; ok && i < lam_scene_object_count(scene) && lam_scene_sphere(scene, i, &centre, &radius); i++) {
         const lam_object *object = lam_scene_object(scene, i);
-        // The camera looks from the front and slightly from above: x is horizontal in the picture, and y and z give the
-        // height.
+        // The camera looks from the front and slightly from above: x is horizontal in the picture, and y and z
+        // determine the height.
         lam_vec3 from_target = {centre.x + object->transform.m[0][3] - camera->target.x,
                                 centre.y + object->transform.m[1][3] - camera->target.y, centre.z - camera->target.z};
         double size = 0.21 * unit, max_width = 2.1 * unit, width = lam_text_width(font, size, object->name);
@@ -255,7 +255,7 @@ int run_materials(int operand_count, char **operands, const struct options *opti
     free(path);
     if (!ok)
         return report_failure(&error, options);
-    if (!output_is_stream(output) || options->report.json) // the report then goes to standard error
+    if (!output_is_stream(output) || options->report.json) // with --json, the list may go to standard error
         print_list(options);
     return 0;
 }

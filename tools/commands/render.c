@@ -58,7 +58,7 @@ static bool check_together(int count, char **models, const struct options *o, la
     return true;
 }
 
-// Returns whether --journal requests a journal. --dry-run does nothing that could be recorded.
+// Returns whether --journal requests a journal. With --dry-run, there is nothing to record.
 static bool journal_named(const struct options *o)
 {
     return o->batch.journal && strcmp(o->batch.journal, "none") != 0 && !o->report.dry_run;

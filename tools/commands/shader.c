@@ -29,7 +29,7 @@ static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
         if (u->count)
             fprintf(file, "= ");
         shader_numbers(file, u->value, u->count, false);
-        // Only the first element of a list has a meaning.
+        // Only the first element of an array has a description.
         const char *bracket = strchr(u->name, '[');
         bool first = !bracket || strncmp(bracket, "[0]", 3) == 0;
         fprintf(file, "%s%s%s\n", u->count && first ? "  " : "", first ? "// " : "", first ? u->meaning : "");
@@ -75,8 +75,8 @@ void shader_contract(FILE *file, const lam_shader *s)
 
 // --- files
 
-// Returns NAME of NAME.vert and NAME.frag, allocated with malloc: `output` without its extension, or the model's name
-// in the folder `output`.
+// Returns the base NAME of NAME.vert and NAME.frag, allocated with malloc: `output` without its extension or, if
+// `output` is a folder, the model's name in this folder.
 static char *base_of(const char *output, const char *model)
 {
     char *base = output_path(output, model, "");
@@ -87,8 +87,8 @@ static char *base_of(const char *output, const char *model)
     return base;
 }
 
-// Replaces existing files with these names, also in a folder, since these files do not record the program that wrote
-// them. The folder of `output` may be missing.
+// Writes a file. Replaces an existing file even if `output` names only a folder, because shader files do not record
+// which program wrote them. The folder of `output` may be missing.
 static bool write_file(const char *output, const char *base, const char *ending, const char *text, size_t size,
                        lam_error *error)
 {

@@ -13,10 +13,10 @@ void shader_contract(FILE *file, const lam_shader *shader);
 // `.frag`.
 void shader_host(FILE *file, const lam_shader *shader, const char *name, const char *model);
 
-// Prints all of it on one line of JSON.
+// Prints the shaders and their inputs as one line of JSON.
 void shader_json(FILE *file, const lam_shader *shader, const char *model);
 
-// Returns whether a mistake of --mistake is known. If not, the error suggests a similar name.
+// Returns whether `name` is a known mistake (--mistake). If not, the error suggests a similar name.
 bool shader_mistake_is_known(const char *name, lam_error *error);
 
 // Prints numbers such as "1, 0.5, 0", with the fewest digits that parse to the same float; in C code, "1, 0.5f, 0".

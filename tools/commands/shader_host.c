@@ -26,7 +26,7 @@ static void identifier(FILE *file, const char *name)
 
 // --- single uniforms
 
-// Returns true for the first element of a list, whose comment describes the list.
+// Returns false for every element of an array except the first, whose comment describes the whole array.
 static bool is_first(const lam_shader_uniform *u)
 {
     const char *bracket = strchr(u->name, '[');
@@ -68,7 +68,7 @@ static bool same_block(const lam_shader_uniform *a, const lam_shader_uniform *b)
     return a->block && b->block && strcmp(a->block, b->block) == 0;
 }
 
-// Prints the values of one block with its padding and returns the index after it.
+// Prints the values of one block with its padding. Returns the index after the last uniform of the block.
 static int block_numbers(FILE *file, const lam_shader_uniform *list, int count, int first)
 {
     int at = 0, i = first;
@@ -99,17 +99,18 @@ static int binding_of(const char *block)
     int binding = 0;
     while (strcmp(block_names[binding], block) != 0)
         binding++;
-    return binding == 3 ? 1 : binding; // a shader has Materials or Products, but not both
+    return binding == 3 ? 1 : binding; // a shader contains Materials or Products, but not both
 }
 
-// Returns whether a uniform is the sampler of a material's map. The caller must load the picture.
+// Returns whether a uniform is the sampler of a material's map. The program that uses the printed code must load the
+// picture.
 static bool is_map(const lam_shader_uniform *u)
 {
     return !u->count && strcmp(u->type, "sampler2D") == 0 && strcmp(u->name, "light_list") != 0 &&
            strcmp(u->name, "product_list") != 0 && strcmp(u->name, "environment_light") != 0;
 }
 
-// Prints a comment about the picture of a map. A name from a file must not end the comment.
+// Prints a comment about the picture of a map. Replaces characters of the name that could end the comment.
 static void write_map(FILE *file, const lam_shader_uniform *u, int unit)
 {
     if (!u->map) {
@@ -129,7 +130,7 @@ static void write_map(FILE *file, const lam_shader_uniform *u, int unit)
 
 static void set_all(FILE *file, const lam_shader_uniform *list, int count)
 {
-    int unit = 2, map_unit = 4; // 0 and 1 are the lists of lights, 2 and 3 the environment and its light
+    int unit = 2, map_unit = 4; // units 0 and 1: the lists of lights; 2 and 3: the environment and its light
     for (int i = 0; i < count;) {
         const lam_shader_uniform *u = &list[i];
         if (u->block) {

@@ -11,7 +11,7 @@
 
 static struct typed_word whole(const char *argument) { return (struct typed_word){argument, argument, 0}; }
 
-// Returns the option of a word that expects its value in the next word, otherwise NULL.
+// If the word is an option whose value is the next word, returns this option, otherwise NULL.
 static const struct option *expects_value(const char *argument)
 {
     const struct option *option = NULL;

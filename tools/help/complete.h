@@ -4,7 +4,8 @@
 
 #include "options.h"
 
-// The unfinished word: `before` is complete, `prefix` is the beginning of the rest.
+// The word that the user is typing: the first `before_length` bytes of `before` are finished, and `prefix` is the rest,
+// which is to be completed.
 struct typed_word {
     const char *before, *prefix;
     int before_length;

@@ -21,13 +21,13 @@ void complete_offer(const struct typed_word *typed, const char *candidate, const
 
 void complete_files(void) { printf(":files\n"); }
 
-// Returns the word that begins after `complete` letters of `piece`.
+// Returns the word with `complete` more bytes of `prefix` counted as finished.
 static struct typed_word after(const struct typed_word *typed, size_t complete)
 {
     return (struct typed_word){typed->before, typed->prefix + complete, typed->before_length + (int)complete};
 }
 
-// Returns the part of `piece` after its last comma.
+// Returns the word with everything up to the last comma counted as finished.
 static struct typed_word after_comma(const struct typed_word *typed)
 {
     const char *comma = strrchr(typed->prefix, ',');
@@ -37,7 +37,7 @@ static struct typed_word after_comma(const struct typed_word *typed)
 static void complete_words(const struct choice *words, const struct typed_word *typed)
 {
     for (const struct choice *w = words; w->name; w++) {
-        // The user replaces a name in capitals with a text: "light:NAME".
+        // A name in capitals, as in "light:NAME", means text that the user types, so it is not offered.
         char fixed[64];
         snprintf(fixed, sizeof fixed, "%s", w->name);
         char *colon = strchr(fixed, ':');

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-// bash also splits words at : and = and replaces only the last part. COMP_LINE contains the words as typed.
+// bash also splits words at : and = and replaces only the last fragment. COMP_LINE contains the words as typed.
 void generate_bash(void)
 {
     printf("# Completions of lambent for bash, made by `lambent generate bash`.\n"

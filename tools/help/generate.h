@@ -11,7 +11,7 @@ void generate_zsh(void);
 void generate_fish(void);
 void generate_scene_schema(void); // scene_schema.c
 
-// Returns the names of the texts that can be generated, from 0, or NULL if the index is out of range.
+// Returns the name of a text that can be generated, or NULL if the index is out of range. Indices begin at 0.
 const char *generate_kind(int index);
 
 #endif

@@ -1,4 +1,4 @@
-// help.c: --help and -h.
+// help.c: prints the texts of --help and -h.
 #include "help.h"
 
 #include <stdio.h>
@@ -32,7 +32,7 @@ void print_help(const struct command *command)
     printf("\nMore: lambent help TOPIC (lambent help lists the topics), man lambent\n");
 }
 
-// Prints one line. If the line is too long, shortens the value to its first form and omits the default.
+// Prints an option on one line. If the line is too long, shortens the value to its first form and omits the default.
 static void brief_option(const struct option *o, const struct command *command)
 {
     char left[64], text[512], letter[8] = "    ";

@@ -4,8 +4,9 @@
 
 #include "command.h"
 
-// Prints the help of a command, or of the whole program for the first command of the table, on standard output: all of
-// it (--help), or the most common options (-h) in at most 25 lines of 80 columns.
+// Print the help of a command on standard output; for the first command of the table, the help of the whole program.
+// print_help prints everything (--help). print_brief_help prints the most common options (-h), in at most 25 lines of
+// 80 columns.
 void print_help(const struct command *command);
 void print_brief_help(const struct command *command);
 

@@ -1,4 +1,4 @@
-// help_print.c: prints the parts of help texts.
+// help_print.c: prints the sections of help texts.
 #include "help_print.h"
 
 #include <stdio.h>
@@ -92,8 +92,8 @@ void help_option(const struct option *option, const struct command *command, boo
      1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK |                  \
      1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
 
-// A command's help describes the options that are its own, that are the only accepted options of their group, or that
-// have a different default.
+// Returns whether the command's help lists only the name of an option, because `lambent --help` describes the option.
+// An option whose default differs for this command is described again.
 static bool is_shared(const struct option *o, const struct command *command)
 {
     return command != command_table && SHARED & command->groups & 1ull << o->group &&

@@ -1,4 +1,4 @@
-// help_print.h: prints the parts of help texts to standard output, at most 100 columns wide.
+// help_print.h: prints the sections of help texts to standard output, at most 100 columns wide.
 #ifndef HELP_PRINT_H
 #define HELP_PRINT_H
 

@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-// Prints the heading, and a row for each entry that contains all of the words in its name or summary, or else in any of
-// its text. Returns false and prints nothing if there is none.
+// Prints the heading, and a row for each entry whose name or summary contains all of the words. If there is no such
+// entry, searches the whole texts. If this also finds nothing, prints nothing and returns false.
 bool help_search(int count, char **words, const char *heading);
 
 #endif

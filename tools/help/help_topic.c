@@ -16,7 +16,7 @@
 
 enum { LIST_COLUMN = 15 };
 
-// Returns the extension of a model's name.
+// Returns whether the query is the extension of a model format.
 static bool is_model_ending(const char *query)
 {
     for (int format = 0; lam_model_format_name(format); format++)
@@ -82,7 +82,7 @@ static void print_topic(const struct topic *topic)
         printf("\nAll options of the command: lambent %s --help\n", command->name);
 }
 
-// Prints the title of a subject, and its options.
+// Formats the title of a subject and the names of its options.
 static void topic_summary(const struct topic *topic, char *text, size_t size)
 {
     int used = snprintf(text, size, "%s", topic->title);
@@ -109,7 +109,7 @@ static void print_list(void)
         "\nOptions: lambent help light, lambent help --light or lambent help -o; lambent --help lists all of them.\n");
 }
 
-// Returns the nearest name, or NULL if no name is near.
+// Returns the most similar name, or NULL if no name is similar enough.
 static const char *nearest_name(const char *query)
 {
     struct suggestion nearest = suggest_start(query);
@@ -150,7 +150,7 @@ static int search(int count, char **words)
 int run_help(int operand_count, char **operands, const struct options *options)
 {
     (void)options;
-    const char *query = operand_count == 1 ? operands[0] : NULL; // several words are searched for
+    const char *query = operand_count == 1 ? operands[0] : NULL; // several words start a search
     const struct topic *topic = query ? find_topic(query) : NULL;
     const struct command *command = query ? find_command(query) : NULL;
     const struct option *option = query ? find_option(query) : NULL;

@@ -1,4 +1,4 @@
-// topics.c: the subjects of `lambent help TOPIC`. The man page and the docs use the same texts.
+// topics.c: defines the subjects of `lambent help TOPIC`. The man page and the docs use the same texts.
 #include "topics.h"
 
 #include "options.h"

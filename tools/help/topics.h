@@ -1,4 +1,4 @@
-// topics.h: the subjects of `lambent help TOPIC`. The man page and the docs use the same texts.
+// topics.h: defines the subjects of `lambent help TOPIC`. The man page and the docs use the same texts.
 #ifndef TOPICS_H
 #define TOPICS_H
 
@@ -11,7 +11,7 @@ struct topic {
     const char *title;
     uint64_t groups;        // bit g: options of group g belong to the subject
     enum topic_table table; // shown below the options
-    const char *text;       // paragraphs with `code` in back quotes, a section of the man page, or NULL
+    const char *text;       // paragraphs with `code` in back quotes, also printed in the man page; may be NULL
 };
 
 extern const struct topic topics[]; // in the order of the man page; ends with a NULL name

@@ -1,8 +1,9 @@
-// animate.c: --turntable and --sweep: the frames of one model.
+// animate.c: draws the frames of --turntable and --sweep for one model.
 //
 // Each frame is a picture drawn with the command line's options, plus the options that the sweeps and the turntable set
-// for that frame. The scene is loaded and marked once, and reset before each frame; it is only loaded again for an
-// option that affects loading (option.loads). The camera and exposure of the first frame are used for all frames.
+// for that frame. The program loads the scene once, marks its state (lam_scene_mark), and resets the scene to this
+// state before each frame. It loads the scene again only if a swept option affects loading (option.loads). The camera
+// and exposure of the first frame are used for all frames.
 #include "animate.h"
 
 #include <stdio.h>
@@ -147,7 +148,8 @@ static char up_letter(lam_up up)
     return up == LAM_UP_X || up == LAM_UP_NEGATIVE_X ? 'x' : up == LAM_UP_Z || up == LAM_UP_NEGATIVE_Z ? 'z' : 'y';
 }
 
-// Adds the rotations for fitting the camera: all of them if the camera circles the model.
+// Adds the rotation axes for which the camera is fitted: the up axis if only the azimuth changes, and a second axis if
+// the elevation changes.
 static bool add_turns(struct animation *a, struct options *o, lam_error *error)
 {
     static const char *const all[] = {"x:0", "y:0", "z:0"};
@@ -160,7 +162,7 @@ static bool add_turns(struct animation *a, struct options *o, lam_error *error)
         return complain(error, LAM_LIMIT, "out of memory");
     if (about_up || any)
         items[o->shading.sheet_rotations.count++] = all[up_letter(a->up) - 'x'];
-    if (any) // with two axes, any rotation is possible
+    if (any) // with two axes, the camera is fitted for any rotation
         items[o->shading.sheet_rotations.count++] = all[(up_letter(a->up) - 'x' + 1) % 3];
     return true;
 }
@@ -178,7 +180,8 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     struct options *o = &a->frame;
     for (int i = 0; i < a->sweep_count; i++) {
         const struct sweep *sweep = &a->sweeps[i];
-        // In later frames the camera moves to other angles, relative to the first frame's camera.
+        // animation_arrange rotates the first frame's camera to swept angles, so the options of all frames use the
+        // first value.
         bool angle = sweep_is_option(sweep, "azimuth") || sweep_is_option(sweep, "elevation");
         if (sweep_words(sweep, angle ? 0 : frame, a->count, &a->words[i])) {
             words[count++] = a->words[i].option;
@@ -197,11 +200,11 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     }
     o->animation.place_lights |= o->animation.turntable != 0;
     if (a->environment && !a->loads)
-        o->shading.environment = NULL; // the scene already has it
+        o->shading.environment = NULL; // the scene already contains it
     return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
 }
 
-// After the first frame, keeps its exposure, and the dim studio that was added to it, for all later frames.
+// Uses the exposure of the first frame, and the dim studio if one was added, for all later frames.
 static void keep_exposure(const struct job *job, struct options *o)
 {
     if (!job->exposure_fitted)
@@ -212,13 +215,13 @@ static void keep_exposure(const struct job *job, struct options *o)
     if (job->fill_scale > 0) {
         o->lighting.has_light_scale = true;
         o->lighting.light_scale = job->fill_scale;
-        o->shading.environment = job->animation->loads ? "studio" : NULL; // otherwise the scene already has it
+        o->shading.environment = job->animation->loads ? "studio" : NULL; // otherwise the scene already contains it
     }
 }
 
 // --- loading
 
-// Sets the job's options to the frame's options, completed by the settings of a scene file.
+// Sets the job's options to the options of a frame.
 static bool use_options(struct job *job, int frame, lam_error *error)
 {
     struct animation *a = job->animation;
@@ -241,7 +244,7 @@ static bool load_frame(struct job *job, int frame, lam_error *error)
     return use_options(job, frame, error) && job_load(job, &none, error);
 }
 
-// Marks the scene of the first frame before options change it.
+// Marks the state of the loaded scene before options change the scene.
 static bool mark(struct job *job, lam_error *error)
 {
     lam_control control;
@@ -250,7 +253,7 @@ static bool mark(struct job *job, lam_error *error)
            (!tangents || lam_scene_make_tangents(job->scene, &control, error)) && lam_scene_mark(job->scene, error);
 }
 
-// Restores the scene of a frame to its loaded state.
+// Restores the scene to its loaded state, and sets the options of a frame.
 static bool prepare(struct job *job, int frame, lam_error *error)
 {
     if (frame > 0 && job->animation->loads)
@@ -265,7 +268,7 @@ static bool prepare(struct job *job, int frame, lam_error *error)
 
 // --- animations in the file
 
-// Finds the length of the animation in the file that the options select.
+// Finds the length of the file's animation that the options select.
 static bool find_length(const struct job *job, double *length_s, lam_error *error)
 {
     const lam_file_info *file = lam_scene_file_info(job->scene);
@@ -314,7 +317,8 @@ static void extend(lam_vec3 *low, lam_vec3 *high, lam_vec3 a, lam_vec3 b)
     high->z = b.z > high->z ? b.z : high->z;
 }
 
-// If frames pose the model differently, finds one point to rotate about, and one camera, for the box of all poses.
+// Computes one centre of rotation and one camera from the bounding box of the model in all frames, for models whose
+// pose changes.
 static bool fit_poses(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;
@@ -358,7 +362,7 @@ static bool begin(struct job *job, const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT, "option '--sweep': given %d times, expected at most %d",
                         o->animation.sweeps.count, OPTIONS_MAX);
     for (int i = 0; i < o->animation.sweeps.count; i++) {
-        // always valid, because animation_check has parsed it
+        // The text is always valid, because animation_check has parsed it.
         sweep_parse(o->animation.sweeps.items[i], &a->sweeps[i], error);
         a->loads |= a->sweeps[i].option && a->sweeps[i].option->loads;
     }

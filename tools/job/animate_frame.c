@@ -1,4 +1,4 @@
-// animate_frame.c: sets up a frame of an animation: one centre of rotation, one camera, the frame's lights.
+// animate_frame.c: sets up a frame of an animation: the common centre of rotation, the camera and the frame's lights.
 #include "animate_frame.h"
 
 #include <string.h>

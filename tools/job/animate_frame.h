@@ -1,4 +1,4 @@
-// animate_frame.h: the state of an animation, and its variants of steps in job_arrange.
+// animate_frame.h: the state of an animation, and the steps that job_arrange adds for an animation.
 #ifndef ANIMATE_FRAME_H
 #define ANIMATE_FRAME_H
 
@@ -12,10 +12,10 @@ struct animation {
     struct options frame;        // the options of the current frame
     int sweep_count;
     struct sweep *sweeps;
-    struct sweep_words *words; // words of the sweeps, then of the turntable
+    struct sweep_words *words; // the options that the sweeps set, then the option that the turntable sets
     int index, count;          // the frame's index, and the number of frames
     bool loads;                // whether each frame reads the model again
-    bool environment;          // the scene has the environment: only the first frame loads it
+    bool environment;          // the scene contains the environment, which only the first frame loads
     bool drawn;                // the first frame was drawn, so the exposure is known
     bool has_sphere, has_camera;
     struct model_sphere sphere; // before any rotation
@@ -35,8 +35,9 @@ bool animation_sweeps(const struct animation *a, const char *option);
 double animation_turn(const struct animation *a, int frame);
 
 // Without an animation these functions do nothing. animation_sphere sets the common centre of rotation.
-// animation_camera gets the camera for all frames; it returns false if there is none yet. animation_arrange sets the
-// frame's values of lights, after they were added, and moves the camera to its position for the frame.
+// animation_camera gets the camera for all frames; it returns false if this camera is not known yet. animation_arrange
+// sets the swept values of the lights, which must already be in the scene, and moves the camera to its position for the
+// frame.
 void animation_sphere(const struct job *job, struct model_sphere *sphere);
 bool animation_camera(const struct job *job, lam_camera *camera);
 bool animation_arrange(struct job *job, lam_error *error);

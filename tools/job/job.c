@@ -1,4 +1,4 @@
-// job.c: the steps from a model to a picture.
+// job.c: the steps that turn a model into a picture.
 #include "job_steps.h"
 
 #include <inttypes.h>
@@ -54,7 +54,7 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
     return true;
 }
 
-// Returns the crease angle for the library, where 0 means the default: a user's 0 becomes a negligible angle, at which
+// Returns the crease angle for the library, for which 0 means the default. A user's 0 becomes a tiny angle, so that the
 // normals are split at every edge.
 static double crease_of(const struct options *o)
 {
@@ -127,7 +127,7 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     return NULL;
 }
 
-// Returns true if only one frame is drawn, so that normals of its visible triangles suffice.
+// Returns true if only one frame is drawn, so that normals are needed only for its visible triangles.
 static bool draws_once(const struct job *job)
 {
     const struct options *o = job->options;
@@ -138,7 +138,7 @@ static bool draws_once(const struct job *job)
            !job->animation;
 }
 
-// Warns of maps that flat and Gouraud shading ignore.
+// Warns about maps that flat and Gouraud shading ignore.
 static void warn_maps(struct job *job)
 {
     static const lam_map fine[] = {LAM_MAP_NORMAL,   LAM_MAP_BUMP,      LAM_MAP_SPECULAR, LAM_MAP_SHININESS,
@@ -210,7 +210,7 @@ static bool make_scene(struct job *job, struct progress *progress, lam_error *er
     return job->scene != NULL;
 }
 
-// Warns of colour values that are above 1, or look like bytes.
+// Warns about colour values that are above 1 or look like bytes.
 static void warn_color(lam_scene *scene, const char *option, const char *value, bool reflects, lam_color_mode mode)
 {
     lam_rgba color;
@@ -281,7 +281,7 @@ static bool lit_by_options(const struct options *o)
     return (l->has_rig && l->rig != (int)LAM_RIG_AUTO) || l->has_light_scale || l->lights.count;
 }
 
-// Removes the dim studio of an earlier picture, so that each view is identical to one drawn alone.
+// Removes the dim studio of an earlier picture, so that each view is identical to a view drawn alone.
 static bool remove_fill(struct job *job, lam_error *error)
 {
     bool ok = !job->unfilled || lam_scene_set_environment(job->scene, NULL, 0, error);
@@ -370,7 +370,7 @@ void job_time_frames(struct job *job, lam_frame_report *reports, int count)
     job->times.frames = count;
 }
 
-// Draws --repeat frames.
+// Draws as many frames as --repeat requests.
 static bool draw(struct job *job, struct progress *progress, lam_error *error)
 {
     const int count = job->options->work.repeat;
@@ -384,7 +384,7 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     return ok;
 }
 
-// Returns whether the file stores 8 bits of sRGB-encoded colours.
+// Returns whether the output is a colour, which files with 8 bits store sRGB-encoded.
 static bool is_color(lam_output output) { return lam_output_is_light(output) || output == LAM_OUTPUT_BASE_COLOR; }
 
 lam_save_params job_save_params(const struct job *job, const lam_control *control)

@@ -26,7 +26,7 @@ struct model_counts {
 enum { MODEL_COUNTS_SIZE = 100 };
 const char *model_counts_text(const struct model_counts *counts, char out[MODEL_COUNTS_SIZE]);
 
-// The bounding sphere of the model before --rotate; its radius is the unit r.
+// The bounding sphere of the model before --rotate; its radius is the unit r in positions of lights.
 struct model_sphere {
     lam_vec3 centre;
     double radius;
@@ -41,7 +41,7 @@ struct job_view {
 // Data shared by two jobs whose pictures are compared.
 struct job_shared {
     struct model_sphere sphere; // around both models
-    lam_camera camera;          // used instead of any other if the flag below is set
+    lam_camera camera;          // the camera of both pictures if has_camera is set
     bool has_camera;
 };
 
@@ -55,10 +55,10 @@ struct job_frames {
 struct job {
     const struct options *options;
     const char *model;            // as typed
-    const lam_bytes *model_bytes; // the model itself, named by `model`; NULL if it is a file
+    const lam_bytes *model_bytes; // the bytes of the model that `model` names; NULL if the model is a file
     const char *output;           // path of the picture; "-" means standard output
     lam_bytes *picture_bytes;     // receives the picture in the format of `output`; NULL if a file is written
-    bool one_of_many;             // several models share the options; one may lack a name of --hide
+    bool one_of_many;             // several models share the options, so a model may lack a name in --hide
     bool makes_folder;            // also create the folder of an explicitly named picture
     const lam_cancel *cancel;     // stops the job; if NULL, only Ctrl-C does
     const char *format;           // the format of the picture: "png"
@@ -66,15 +66,15 @@ struct job {
     struct job_frames frames;
     struct animation *animation; // during an animation (animate.h); otherwise NULL
     lam_scene *scene;            // NULL until the model is loaded
-    bool keeps_scene;            // another job will draw it again
+    bool keeps_scene;            // another job will draw the scene again
     struct model_counts model_counts;
     lam_rig rig;          // the rig that drawing adds to the scene's own lights
-    bool file_lights;     // whether lights of a glTF file, in candela and lux, light it
+    bool file_lights;     // whether lights of a glTF file, in candela and lux, light the model
     bool exposure_fitted; // whether draw.exposure was computed for this picture
     // the scene's lights before lam_studio_fill scaled them, allocated with malloc; NULL if not scaled
     lam_light *unfilled;
-    double fill_scale;          // the factor of that scaling; 0 if not scaled
-    bool studio;                // whether the built-in environment "studio" lights it if no other is set
+    double fill_scale;          // the factor of lam_studio_fill; 0 if not scaled
+    bool studio;                // whether the built-in environment "studio" lights the model if no other is set
     struct model_sphere sphere; // before the rotation
     lam_camera camera;
     lam_image image;
@@ -85,7 +85,7 @@ struct job {
     const struct job_view *views;           // the pictures to draw; NULL means one picture from the options
     int view_count;
     lam_camera *cameras; // one camera per view, allocated by job_arrange with malloc
-    // the lights before the options' lights were added, which may depend on the camera; allocated with malloc
+    // the scene's lights without the lights of the options, which may depend on the camera; allocated with malloc
     lam_light *lights;
     int light_count;
     uint64_t bytes; // size of the written file
@@ -103,7 +103,8 @@ struct job {
 // the image and the paths of frames.
 bool job_run(struct job *job, struct progress *progress, lam_error *error);
 
-// Does the same for one of several pictures, after job_check_output, job_load and job_arrange; `output` is its file.
+// Draws and writes one of several pictures, after job_check_output, job_load and job_arrange. `output` is the file of
+// this picture.
 bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error);
 
 // Returns whether the picture's name has a writable format, and sets `format`.
@@ -112,7 +113,7 @@ bool job_check_output(struct job *job, lam_error *error);
 // Frees the scene, the image, the lights and the paths of frames.
 void job_free(struct job *job);
 
-// Loads and draws; the picture remains in `image`. Output and format are ignored.
+// Loads the model and draws it into `image`. Ignores `output` and `format`.
 bool job_draw(struct job *job, lam_pixel_format format, struct progress *progress, lam_error *error);
 
 // Runs the first step of job_run, for commands that draw nothing: loads the model or builds the shape if the job has no

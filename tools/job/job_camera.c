@@ -22,7 +22,7 @@ static lam_view view_of(const struct options *o)
     return view;
 }
 
-// Finds the camera of the file that `--camera` names.
+// Finds the file's camera that --camera names.
 static bool find_camera(struct job *job, lam_error *error)
 {
     int count = lam_scene_camera_count(job->scene),
@@ -88,7 +88,7 @@ lam_scene *job_box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *erro
     return scene;
 }
 
-// Copies the lights before the options add theirs, if they must be added again for each view's camera.
+// Copies the scene's lights before the options add lights that must be added again for each view's camera.
 static bool keep_lights(struct job *job, lam_error *error)
 {
     if (job->view_count <= 1 || !job->options->lighting.lights.count)
@@ -158,7 +158,7 @@ bool job_place_camera(struct job *job, lam_error *error)
     if (o->view.camera && !strchr(o->view.camera, '=') && !find_camera(job, error))
         return false;
     if (o->view.camera && strchr(o->view.camera, '='))
-        // always valid, because store_camera has parsed it
+        // The text is always valid, because store_camera has parsed it.
         lam_camera_parse(o->view.camera, job->scene, &job->camera, NULL);
     for (int i = 0; o->view.camera && i < job->view_count; i++)
         job->cameras[i] = job->camera;

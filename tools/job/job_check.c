@@ -6,8 +6,8 @@
 #include "animate.h"
 #include "console.h"
 
-// Phong shading needs the fragment stage, Gouraud shading the vertex stage or the application; flat shading works in
-// any stage.
+// Phong shading needs the fragment stage. Gouraud shading needs the vertex stage or the application stage. Flat shading
+// works in any stage.
 static bool check_stage(const struct options *o, lam_error *error)
 {
     if (!o->shading.has_shading || !o->draw.stage)

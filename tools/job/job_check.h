@@ -7,7 +7,7 @@
 // Checks the options. Fails with LAM_BAD_ARGUMENT.
 bool job_check_options(const struct options *options, lam_error *error);
 
-// Returns whether the name is a built-in shape, or selects the formula of the options: "parametric", "implicit".
+// Returns whether `model` names a built-in shape, or selects a formula of the options ("parametric" or "implicit").
 bool job_model_is_shape(const char *model);
 
 // Returns whether the formula options match the model. Fails with LAM_BAD_ARGUMENT.

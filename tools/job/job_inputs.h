@@ -8,7 +8,7 @@
 // `own`, the scene file itself may be replaced by another scene file, but not the files that it names.
 bool job_check_inputs(const lam_scene *scene, const char *path, bool own, lam_error *error);
 
-// Returns whether both paths lead to the same existing file.
+// Returns whether both paths refer to the same existing file.
 bool job_is_same_file(const char *a, const char *b);
 
 #endif

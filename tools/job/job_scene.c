@@ -12,8 +12,8 @@
 
 // --- materials
 
-// Returns whether metals from --material mirror the studio: the studio lights the picture, and no option requires the
-// classic values.
+// Returns whether metals of --material reflect the studio. They do so if the studio lights the picture and no option
+// requires the classic values.
 static bool metals_mirror(const struct options *o, const lam_scene *scene)
 {
     const lam_draw_params *draw = &o->draw;
@@ -61,7 +61,7 @@ static bool set_color(const struct options *o, lam_scene *scene, lam_error *erro
     return ok;
 }
 
-// Colour, shininess and opacity are set before the back materials, so that back materials derived from the front
+// Colour, shininess and opacity are set before the back materials, so that back materials derived from front materials
 // include them.
 static bool apply_materials(const struct job *job, lam_error *error)
 {
@@ -125,15 +125,15 @@ static bool lit_by_environment(const struct job *job)
            lam_scene_rig_lights(job->scene, LAM_RIG_AUTO, lights) == 0;
 }
 
-// Sets the environment that drawing would use for a scene without lights, because options will add some.
+// Sets the environment that drawing would use for a scene without lights, because options will add lights.
 static bool set_studio(const struct job *job, lam_error *error)
 {
     return lam_scene_environment(job->scene) ||
            environment_cache_set(job->environments, "studio", LAM_COLOR_SRGB, job->scene, 0, NULL, error);
 }
 
-// Chooses between the model's lights and the rig's. If no option changes the rig, drawing adds it; otherwise its lights
-// are added to the scene here, placed around the model in its current position.
+// Chooses between the model's lights and the lights of a rig. If no option changes the rig's lights, drawing adds them
+// later. Otherwise this function adds them to the scene, around the model in its current position.
 static bool apply_rig(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -153,7 +153,7 @@ static bool apply_rig(struct job *job, lam_error *error)
     bool classic =
         o->draw.reflection != LAM_REFLECTION_AUTO && !lam_reflection_describe(o->draw.reflection)->microfacet;
     if (job->rig == LAM_RIG_AUTO && classic && lam_scene_light_count(job->scene) == 0)
-        job->rig = LAM_RIG_STUDIO; // if the environment lights physical models
+        job->rig = LAM_RIG_STUDIO; // classic reflection needs lights instead of the environment
     const char *format = lam_scene_format(job->scene);
     job->file_lights = lam_scene_light_count(job->scene) > 0 &&
                        (strcmp(format, "gltf") == 0 ||
@@ -190,7 +190,7 @@ bool job_turn(struct job *job, const struct model_sphere *sphere, lam_error *err
     for (int i = 0; i < o->shading.rotations.count; i++) {
         lam_vec3 axis;
         double angle_deg;
-        // always valid, because store_rotation has parsed it
+        // The text is always valid, because store_rotation has parsed it.
         rotation_parse(o->shading.rotations.items[i], &axis, &angle_deg);
         if (!lam_scene_rotate(job->scene, sphere->centre, axis, radians(angle_deg), error))
             return false;
@@ -267,7 +267,7 @@ static bool is_shown(const lam_draw_params *draw)
     return draw->shading == LAM_SHADING_PHONG && !other;
 }
 
-// The tint of glass is only correct over white, and only some drawing methods show it.
+// Warns that only some drawing methods show glass, and that its tint is only correct over white.
 void job_note_glass(struct job *job, const lam_draw_params *draw)
 {
     for (int i = 0; !is_shown(draw) && i < lam_scene_material_count(job->scene); i++)
@@ -288,7 +288,8 @@ void job_note_glass(struct job *job, const lam_draw_params *draw)
 
 // --- drawing
 
-// Returns a colour that the command line has checked, or else the default. More keys may follow a comma.
+// Returns the colour in `text`, which the command line has checked, or `otherwise` if `text` is NULL. Ignores
+// everything after a comma.
 static lam_rgba color_or(const char *text, int mode, lam_rgba otherwise)
 {
     lam_rgba color;

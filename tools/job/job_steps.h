@@ -7,10 +7,10 @@
 // Fills the control of the next library call: remaining time, memory limit, interrupt flag, progress bar (may be NULL).
 bool job_control(const struct job *job, struct progress *progress, lam_control *control, lam_error *error);
 
-// Returns the camera that fits the scene, for all of its rotations about `centre`.
+// Returns a camera that fits the scene. If the options rotate the model, the camera fits every rotation about `centre`.
 lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig);
 
-// Makes a scene that consists of a box, to fit a camera to it.
+// Makes a scene that consists of a box, to which a camera can be fitted.
 lam_scene *job_box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *error);
 
 // Sets the options for the picture of one of several views.
@@ -25,12 +25,12 @@ bool job_light_again(struct job *job, lam_error *error);
 // Allocates job->image. Fails with LAM_LIMIT.
 bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error);
 
-// Draws the arranged scene `count` times and appends the reports to `reports`. `from` and `span` are its part of the
-// progress.
+// Draws the arranged scene `count` times and stores the reports in `reports`. `from` and `span` are the start and the
+// length of this section of the progress bar.
 bool job_draw_frames(struct job *job, double from, double span, int count, lam_frame_report *reports,
                      struct progress *progress, lam_error *error);
 
-// Sets the times of `count` frames, including the steps of the median one; sorts the reports.
+// Sets the job's times from the reports of `count` frames, including the report of the median frame. Sorts the reports.
 void job_time_frames(struct job *job, lam_frame_report *reports, int count);
 
 // Returns the parameters for encoding; `control` must stay valid.
@@ -41,11 +41,11 @@ bool job_write(struct job *job, lam_error *error);
 
 // --- the scene (job_scene.c)
 
-// Applies materials, sides and the rig: everything before the camera and the rotations. Fills `sphere`.
+// Applies materials, sides and the rig, before the camera is placed and the model is rotated. Fills `sphere`.
 bool job_apply_options(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error);
 
-// Gets the rotation axis of this picture and the others on its sheet; length 0 if there are several axes. Returns false
-// if there is no rotation.
+// Gets the rotation axis of this picture and of the other pictures on its sheet. If there are several axes, `axis` is
+// 0, 0, 0. Returns false if there is no rotation.
 bool job_turn_axis(const struct options *o, lam_vec3 *axis);
 
 // Rotates the model about the sphere's centre.

@@ -14,8 +14,8 @@ void kept_model_forget(struct kept_model *model)
     *model = (struct kept_model){0};
 }
 
-// Returns whether a loaded scene can be used with another value of the option, as for options of picture, view, lights,
-// materials and drawing. All other options are assumed to change the scene.
+// Returns whether a loaded scene can be used again with another value of the option. This is true for options of the
+// picture, view, lights, materials and drawing. All other options are assumed to change the scene.
 static bool changes_drawing_only(const struct option *option)
 {
     static const char *const except[] = {"up", "color-mode", "look"};

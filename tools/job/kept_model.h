@@ -7,13 +7,13 @@
 struct kept_model {
     char *key; // the model and its load options; NULL if not loaded
     lam_scene *scene;
-    bool environment; // whether it has its own environment
+    bool environment; // whether the scene file sets an environment
     double read_ms;
 };
 
-// Gives the model to the job in its original state. Loads it if another model, or the same model with other options, is
-// stored. The job's options, model, device and environments must be set. `progress` shows the loading and may be NULL.
-// Fails like job_load.
+// Gives the model to the job in its original state. Loads the model if another model, or the same model with other
+// options, is stored. The job's options, model, device and environments must be set. `progress` shows the loading and
+// may be NULL. Fails like job_load.
 bool kept_model_take(struct kept_model *model, struct job *job, struct progress *progress, lam_error *error);
 
 void kept_model_forget(struct kept_model *model);

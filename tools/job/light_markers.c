@@ -15,7 +15,8 @@ static lam_vec3 unit(lam_vec3 v)
     return length > 0 ? (lam_vec3){v.x / length, v.y / length, v.z / length} : (lam_vec3){0, -1, 0};
 }
 
-// Returns a transform with its origin at p and axes scaled by `size`, the second along d.
+// Returns a transform with its origin at p. Its second axis has the direction d and the length `along`; its other axes
+// have the length `size`.
 static lam_mat4 placement(lam_vec3 p, lam_vec3 d, double size, double along)
 {
     lam_vec3 other = fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
@@ -64,10 +65,10 @@ static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
     return depth <= 0 || x > kx * depth + radius * sqrt(1 + kx * kx) || y > ky * depth + radius * sqrt(1 + ky * ky);
 }
 
-// Lists the first few lights by name, or else by number, starting at 1, and counts the others.
+// A list of the first few lights, each by its name or else by its number from 1, and the number of further lights.
 struct names {
     char text[160];
-    int count, more; // total number, and number of omitted ones
+    int count, more; // the number of all lights, and of the omitted lights
 };
 
 static void add_name(struct names *names, const lam_light *light, int number)

@@ -1,4 +1,5 @@
-// light_place.c: the frames of lights in the world, and lights that change from frame to frame of an animation.
+// light_place.c: transforms lights from their frames to the world, and changes lights between the frames of an
+// animation.
 #include "light_place.h"
 
 #include <math.h>
@@ -58,7 +59,7 @@ lam_mat4 light_to_world(const struct job *job, const lam_light *light)
         m.m[1][3] = origin.y;
         m.m[2][3] = origin.z;
     } else if (light->frame != LAM_FRAME_WORLD) {
-        // --rotate rotates the whole model, so any object gives the rotation.
+        // --rotate rotates the whole model, so the transform of any object contains the rotation.
         for (int i = 0; i < lam_scene_object_count(job->scene); i++) {
             const lam_object *object = lam_scene_object(job->scene, i);
             bool meant = light->frame == LAM_FRAME_MODEL || !light->object ||
@@ -117,7 +118,7 @@ static struct surroundings surroundings_of(const struct job *job, const lam_ligh
     return s;
 }
 
-// Returns the vector to the light with another azimuth or elevation, and the same length.
+// Returns the vector `way` to the light, changed to another azimuth or elevation, with the same length.
 static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth, double degrees)
 {
     double height = dot(way, s->up), length = sqrt(dot(way, way));
@@ -183,7 +184,7 @@ void light_brighten(lam_light *light, double factor)
     brighten(&light->ground, factor);
 }
 
-// Returns the row of the field for a light's type, or NULL if it has no such field.
+// Returns the row of the field for a light's type, or NULL if this type has no such field.
 static const lam_field *field_of(const lam_light *light, const char *key)
 {
     for (int i = 0; lam_light_field(i); i++)

@@ -1,4 +1,5 @@
-// light_place.h: the frames of lights in the world, and lights that change from frame to frame of an animation.
+// light_place.h: transforms lights from their frames to the world, and changes lights between the frames of an
+// animation.
 #ifndef LIGHT_PLACE_H
 #define LIGHT_PLACE_H
 
@@ -18,7 +19,7 @@ bool light_sweep(const struct job *job, const struct sweep *sweep, double value,
 // Multiplies all colours of a light.
 void light_brighten(lam_light *light, double factor);
 
-// Gets the scene's up axis and the direction of its front, unit.
+// Gets the scene's up axis and the direction of its front, as unit vectors.
 void scene_axes(const lam_scene *scene, lam_vec3 *up, lam_vec3 *front);
 
 lam_vec3 matrix_apply(const lam_mat4 *m, lam_vec3 v, double w);

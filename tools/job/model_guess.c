@@ -28,7 +28,7 @@ static bool nearest_file(const char *model, char nearest[FILE_NAME_SIZE])
         if (is_model_name(entry->d_name))
             suggest_try(&suggestion, entry->d_name);
         if (suggestion.best != best)
-            suggestion.best = strcpy(nearest, entry->d_name); // the entry is overwritten by the next one
+            suggestion.best = strcpy(nearest, entry->d_name); // the next readdir overwrites the entry
     }
     if (entries)
         closedir(entries);

@@ -1,4 +1,5 @@
-// scene_settings.c: the picture settings of a scene file, which the command line overrides; and --save-scene.
+// scene_settings.c: applies the picture settings of a scene file, which the command line overrides, and writes the
+// scene file of --save-scene.
 #include "scene_settings.h"
 
 #include <stdio.h>
@@ -38,7 +39,7 @@ void scene_settings_apply(struct job *job)
     struct options *own = &job->own;
     const lam_picture_settings *s = &job->settings;
     options_drop_settings(own);
-    if (takes_setting(job, LAM_SETTING_SIZE, "size") && !own->picture.has_size) { // a sheet sets its pictures' size
+    if (takes_setting(job, LAM_SETTING_SIZE, "size") && !own->picture.has_size) { // a sheet sets the size itself
         own->picture.width = s->width;
         own->picture.height = s->height;
     }
@@ -78,8 +79,8 @@ bool scene_settings_has_camera(const struct job *job)
     return job->settings.present & LAM_SETTING_CAMERA;
 }
 
-// Stores the environment in use: the command line's, or the scene file's with the command line's rotation. `names`
-// receives the six file names.
+// Stores the environment in use: the environment of the command line, or the environment of the scene file with the
+// rotation of the command line. `names` receives the text of the six file names.
 static bool take_environment(const struct options *o, lam_picture_settings *s, char **names, lam_error *error)
 {
     const char *text = o->shading.environment;
@@ -131,7 +132,7 @@ bool scene_settings_save(const struct job *job, lam_error *error)
     const lam_draw_params *draw = &job->draw;
     lam_picture_settings s = job->settings;
     s.present &= LAM_SETTING_ENVIRONMENT;
-    // A scene file is not brightened automatically, because it states its exposure.
+    // Pictures of scene files are not brightened automatically, so the saved exposure includes the brightening.
     const double brightened = job->times.frame.brightened;
     s.present |= draw->exposure != 0 || brightened != 0 || job->file_lights ? LAM_SETTING_EXPOSURE : 0;
     s.present |= draw->tone != LAM_TONE_AUTO ? LAM_SETTING_TONE : 0;

@@ -1,4 +1,5 @@
-// scene_settings.h: the picture settings of a scene file, which the command line overrides; and --save-scene.
+// scene_settings.h: applies the picture settings of a scene file, which the command line overrides, and writes the
+// scene file of --save-scene.
 #ifndef SCENE_SETTINGS_H
 #define SCENE_SETTINGS_H
 
@@ -8,7 +9,7 @@
 // copy.
 void scene_settings_apply(struct job *job);
 
-// Returns whether the scene file has the camera, and no option of the command line sets another one.
+// Returns whether the scene file contains a camera and no option of the command line sets another camera.
 bool scene_settings_has_camera(const struct job *job);
 
 // Returns false if the scene file of --save-scene refers to a model or a picture of the command line outside its

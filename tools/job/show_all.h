@@ -9,7 +9,7 @@ bool show_is_all(const struct options *options);
 // Checks that the output can store layers. The error says that --show all needs a .exr.
 bool show_all_check(const struct job *job, lam_error *error);
 
-// Draws every term of the job's picture and writes them, with the picture drawn before, to the job's output.
+// Draws every term of the job's picture. Writes the terms and the picture, which is already drawn, to the job's output.
 bool show_all_write(struct job *job, const lam_control *control, lam_error *error);
 
 #endif

@@ -1,5 +1,5 @@
-// batch_isolate.c: draws the models of a pass in a separate process each. The process sends its results back; if it
-// ends before that, its pictures get the class `crashed`.
+// batch_isolate.c: draws each model of a pass in a separate process. The process sends its results back. If the process
+// ends before it has sent them, its pictures get the class `crashed`.
 #include "batch_isolate.h"
 
 #include <errno.h>
@@ -23,11 +23,11 @@
 #include "limit_options.h"
 #include "writer.h"
 
-// Milliseconds between the interrupt of a process and killing it.
+// The milliseconds between interrupting a process and killing it.
 static const double interrupt_ms = 600;
 
-// Returns how long a process may exceed its time limit before it is killed: the limit again, but at least half a second
-// and at most five.
+// Returns how long a process may exceed its time limit before it is killed: as long as the limit itself, but at least
+// half a second and at most five seconds.
 static double grace_ms(double limit_s) { return limit_s > 5 ? 5000 : limit_s > 0.5 ? limit_s * 1e3 : 500; }
 
 // --- the process
@@ -57,7 +57,7 @@ static bool enter(const struct batch *b, const struct batch_task *task, lam_erro
 {
     if (!task->job)
         return batch_reach_enter(b, task->model, 1, error);
-    int none = open("/dev/null", O_RDWR | O_CLOEXEC); // the process must not access the jobs and answers of others
+    int none = open("/dev/null", O_RDWR | O_CLOEXEC); // the process must not read other jobs or write answers
     bool ok = none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(none, STDOUT_FILENO) >= 0;
     return ok ? batch_reach_enter_job(task->job, error)
               : complain(error, LAM_CANNOT_READ, "/dev/null: cannot open: %s", strerror(errno));
@@ -133,7 +133,7 @@ static bool read_text(struct rest *rest, char **to, size_t size)
     return read_bytes(rest, *to, size);
 }
 
-// Parses an answer. Returns false if it is incomplete.
+// Parses an answer. Returns false if the answer is incomplete.
 static bool read_answer(struct batch_unit *u, const struct batch_answer *answer)
 {
     struct rest rest = {answer->data, answer->size};
@@ -219,7 +219,7 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
         batch_remove_parts(u->task.plan, u->task.model, process->writer ? process->writer : process->pid, NULL);
         bool cancelled = u->task.job && u->task.job->cancelled;
         u->interrupted |= cancelled;
-        if (!interrupted() && !cancelled && has_open(u)) // otherwise it only made thumbnails
+        if (!interrupted() && !cancelled && has_open(u)) // otherwise the process only made thumbnails
             fail_process(b, u, process, status);
     }
     free(before);
@@ -228,7 +228,7 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
     batch_process_free(process);
 }
 
-// Starts a process for the next model. Returns false if there is none.
+// Starts a process for the next model. Returns false if there is no next model.
 static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int slot)
 {
     struct batch_task task;
@@ -269,7 +269,7 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
     return false;
 }
 
-// Forwards an interrupt to the processes, and kills those that do not end in time.
+// Forwards an interrupt to the processes, and kills the processes that do not end in time.
 static void end_processes(struct batch_process *processes, int count, double *since_ms)
 {
     if (!interrupted())

@@ -1,4 +1,4 @@
-// batch_isolate.h: draws the models of a pass in a separate process each.
+// batch_isolate.h: draws each model of a pass in a separate process.
 #ifndef BATCH_ISOLATE_H
 #define BATCH_ISOLATE_H
 

@@ -35,7 +35,7 @@ struct batch_jobs {
     pthread_cond_t changed;
     struct list waiting, drawing;
     size_t waiting_count, waiting_bytes; // number of waiting jobs, and the bytes of their models in memory
-    struct batch_job *held;              // already read, but the queue is full
+    struct batch_job *held;              // the job that was read while the queue was full
     bool closed;                         // no more lines are read
     bool given_up;                       // all jobs were cancelled
 };
@@ -206,8 +206,8 @@ static void cancel(struct batch_jobs *jobs, json_t *id, uint64_t line)
     }
 }
 
-// Queues a job. If a job with the same id is still in progress, the answers could not be told apart, so the new job is
-// rejected.
+// Queues a job. Rejects the job if another job with the same id is waiting or being drawn, because their answers could
+// not be distinguished.
 static void hold(struct batch_jobs *jobs, struct batch_job *job, uint64_t line)
 {
     pthread_mutex_lock(&jobs->lock);
@@ -305,7 +305,7 @@ static void close_jobs(struct batch_jobs *jobs)
     pthread_mutex_unlock(&jobs->lock);
 }
 
-// Waits for workers to take or finish jobs. The caller has the lock.
+// Waits for workers to take or finish jobs. The caller holds the lock.
 static void wait_changed(struct batch_jobs *jobs, int wait_ms)
 {
     struct timespec until;
@@ -330,7 +330,7 @@ static bool never(const struct batch_jobs *jobs)
     return false;
 }
 
-// Waits for input. Meanwhile, the reader of the answers may have closed the pipe.
+// Waits for input and reads it. Also detects whether the reader of the answers has closed the pipe.
 static void read_more(struct batch_jobs *jobs, int wait_ms)
 {
     struct pollfd wait[2] = {{.fd = jobs->stream.file, .events = POLLIN}, {.fd = STDOUT_FILENO}};
@@ -435,7 +435,7 @@ bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool wait
 void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit)
 {
     struct batch_job *job = unit->task.job;
-    // This happens before the answer is sent, because its reader may then reuse the id.
+    // Removes the job before sending the answer, because the reader of the answer may reuse the id at once.
     pthread_mutex_lock(&jobs->lock);
     list_remove(&jobs->drawing, job);
     pthread_cond_broadcast(&jobs->changed);

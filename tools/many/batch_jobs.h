@@ -1,5 +1,5 @@
-// batch_jobs.h: --jobs: jobs arrive as lines of JSON, wait for a worker, and are answered by one line each
-// (docs/worker.md).
+// batch_jobs.h: implements --jobs. Jobs arrive as lines of JSON and wait for a worker. The program answers each job
+// with one line (docs/worker.md).
 //
 // The main thread reads lines; workers take jobs and answer them, in any order. Reading pauses while `--ahead` jobs
 // wait. A job is waiting, being drawn, or answered; at most one job per id is waiting or being drawn.
@@ -9,7 +9,7 @@
 #include "batch_unit.h"
 #include "job_roots.h"
 
-// Opens the job stream of the batch's options. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT, LAM_LIMIT.
+// Opens the job stream of the batch's options. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT or LAM_LIMIT.
 struct batch_jobs *batch_jobs_open(struct batch *batch, lam_error *error);
 void batch_jobs_close(struct batch_jobs *jobs); // NULL is allowed
 
@@ -20,7 +20,7 @@ const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs);
 // batch or the answers have failed, cancels all jobs. Only the main thread may call it.
 void batch_jobs_step(struct batch_jobs *jobs, int wait_ms);
 
-// Returns the file to poll() for the next line, or −1 if none is needed now.
+// Returns the file to poll() for the next line, or −1 if no line is needed now.
 int batch_jobs_wanted(const struct batch_jobs *jobs);
 
 // Returns whether batch_jobs_step can make progress without input.
@@ -29,7 +29,8 @@ bool batch_jobs_is_ready(const struct batch_jobs *jobs);
 // Returns whether no job is waiting and none will arrive.
 bool batch_jobs_over(struct batch_jobs *jobs);
 
-// Gets the next waiting job. With `waits`, waits for one. Returns false if there is none. Any thread may call it.
+// Gets the next waiting job. With `waits`, waits until there is a job. Returns false if there is no job. Any thread may
+// call it.
 bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
 
 // Answers a job with its result, and frees it. Any thread may call it.

@@ -1,4 +1,5 @@
-// batch_page.c: --report: one HTML file without scripts, failures first, with thumbnails in a folder beside it.
+// batch_page.c: writes the page of --report: one HTML file without scripts that shows failures first, and thumbnails in
+// a folder beside the page.
 #include "batch_page.h"
 
 #include <stdio.h>

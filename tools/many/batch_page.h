@@ -1,4 +1,4 @@
-// batch_page.h: --report: an HTML page that shows all pictures of a batch, failures first.
+// batch_page.h: writes the page of --report, which shows all pictures of a batch, failures first.
 #ifndef BATCH_PAGE_H
 #define BATCH_PAGE_H
 

@@ -1,4 +1,4 @@
-// batch_pass.c: one pass over the models.
+// batch_pass.c: runs one pass over the models.
 #include "batch_pass.h"
 
 #include <dirent.h>
@@ -16,7 +16,7 @@
 
 // --- selecting the next model
 
-// Makes a failed picture open again if it may be retried.
+// Marks the failed pictures of a model as open if they may be retried. Returns whether there are any.
 static bool reopen(struct batch *b, size_t model)
 {
     bool open = false;
@@ -125,7 +125,7 @@ bool batch_begin_suspects(struct batch *b)
     return true;
 }
 
-// The next pass draws the models that were not suspects.
+// Marks all models without open pictures as taken, so that the next pass draws only the other models.
 void batch_end_suspects(struct batch *b)
 {
     for (size_t i = 0; i < b->plan->count; i++) {

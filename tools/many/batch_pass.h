@@ -1,27 +1,27 @@
-// batch_pass.h: one pass over the models: selects the next model, and processes finished ones.
+// batch_pass.h: runs one pass over the models: selects the next model, and processes the results of finished models.
 #ifndef BATCH_PASS_H
 #define BATCH_PASS_H
 
 #include "batch_unit.h"
 
-// Begins a pass. Pass 0 covers all models that have not been drawn, later passes the failed models that may be retried.
-// Returns false if there is nothing to do, or after an interrupt.
+// Begins a pass. Pass 0 covers all models that have not been drawn. Later passes cover the failed models that may be
+// retried. Returns false if there is nothing to do, or after an interrupt.
 bool batch_begin_pass(struct batch *batch, int pass);
 
 // Begins a pass over the models that a killed run was drawing, and removes the temporary files of its processes.
-// Returns false if there are none.
+// Returns false if there are no such models.
 bool batch_begin_suspects(struct batch *batch);
 void batch_end_suspects(struct batch *batch);
 
 // Gets the next model of the pass, or the next job. With `waits`, waits for a job. Returns false if there is none, or
-// nothing more may begin. Any thread may call it.
+// if the batch must not start any more models. Any thread may call it.
 bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 
 // Processes the results of a unit: counters, journal lines, messages, the answer to a job. Any thread may call it.
 void batch_deliver(struct batch *batch, struct batch_unit *unit);
 
 // Removes the temporary files that a killed process left beside a model's pictures. `host` is the machine of the
-// process; NULL means this one.
+// process; NULL means this machine.
 void batch_remove_parts(const struct batch_plan *plan, size_t model, int process, const char *host);
 
 #endif

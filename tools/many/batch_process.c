@@ -61,7 +61,7 @@ bool batch_process_start(struct batch_process *process, batch_work *work, void *
     return false;
 }
 
-// Reads the available bytes. Returns false at the end.
+// Reads the available bytes. Returns false at the end of the data.
 static bool receive(struct batch_process *process)
 {
     char chunk[16 << 10];

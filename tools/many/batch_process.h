@@ -18,16 +18,17 @@ struct batch_process {
     struct batch_answer answer;
     double stop_ms; // the clock_ms() at which it will be killed, or 0
     bool stopped;   // the process was killed at that time
-    pid_t writer;   // the process that writes its files and ends after it, or 0
+    pid_t writer;   // the process that writes files for this process and ends after it, or 0
 };
 
-// Starts `work` in a copy of this process, which must have no other thread. The result of `work` is sent back. Returns
-// false and sets errno on failure.
+// Starts `work` in a copy of this process, which must have no other thread. The copy sends back the bytes that `work`
+// adds to the answer. Returns false and sets errno on failure.
 typedef void batch_work(void *user, struct batch_answer *answer);
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
 
-// Waits up to `wait_ms` until one of the processes sends something or ends, or until the file `also` (−1 if there is
-// none) is readable. Returns the index of a process that has ended, with its status of waitpid, or −1 if none has.
+// Waits up to `wait_ms` until one of the processes sends data or ends, or until the file `also` (−1 if there is none)
+// is readable. Returns the index of a process that has ended, with its status of waitpid, or −1 if no process has
+// ended.
 int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status);
 
 void batch_process_kill(struct batch_process *process);

@@ -15,7 +15,8 @@
 #include "page_file.h"
 #include "sandbox_start.h"
 
-// Up to this many older pictures are made readable one by one; if there are more, their whole folder is.
+// The maximum number of older pictures that are made readable one by one. If there are more, their whole folder is made
+// readable.
 enum { SINGLE = 64 };
 
 // Returns whether the whole folder of pictures must be readable, because the journal and the page read pictures again.
@@ -57,8 +58,8 @@ static void add_folder(struct sandbox_paths *paths, char *folder)
     free(folder);
 }
 
-// A model in the previous model's folder needs no new rule, unless it is a link, which may lead elsewhere. A shape has
-// no folder.
+// Returns whether the rule for the previous model also covers this model. It does if both are in one folder and this
+// model is neither a scene file nor a link, which may lead elsewhere. A shape has no folder.
 static bool is_within_reach(const char *model, const char *before)
 {
     before = before && lam_shape_find(before) < 0 ? before : NULL;
@@ -71,7 +72,7 @@ static bool is_within_reach(const char *model, const char *before)
     return same && !scene && lstat(model, &about) == 0 && !S_ISLNK(about.st_mode);
 }
 
-// Adds the page template to the readable files. If it is missing, writing a picture reports the error.
+// Adds the page template to the readable files. If the template is missing, writing a picture reports the error.
 static void add_page(struct sandbox_paths *paths)
 {
     lam_error error;
@@ -86,9 +87,9 @@ static void add_page(struct sandbox_paths *paths)
 struct writes {
     const struct batch *batch;
     const struct batch_plan *plan; // the plan of the batch, or of a job
-    size_t first, count;           // range of its models
+    size_t first, count;           // the range of models to draw
     size_t latest;                 // index of the most recently written picture
-    bool whole;                    // whether it is the whole batch; otherwise one model's process
+    bool whole;                    // true for the whole batch, false for a process that draws one model
 };
 
 static bool is_picture_of(const struct writes *w, size_t model, const char *path)
@@ -103,7 +104,7 @@ static bool is_picture_of(const struct writes *w, size_t model, const char *path
     return is;
 }
 
-// Models are drawn approximately in order, so the search begins at the latest one and proceeds in both directions.
+// Models are drawn approximately in order, so the search begins at the latest model and proceeds in both directions.
 static bool is_picture(struct writes *w, const char *path)
 {
     for (size_t distance = 0; distance < w->count; distance++) {
@@ -117,8 +118,8 @@ static bool is_picture(struct writes *w, const char *path)
     return false;
 }
 
-// A run may write the pictures of its plan, its own page and its scene file. A worker with --jobs, whose names are not
-// known in advance, may write any new picture or page below --allow-path.
+// A run may write the pictures of its plan, its own page and its scene file. A worker with --jobs does not know the
+// names in advance, so it may write any new picture or page below --allow-path.
 static enum writer_right right_of(void *user, const char *path)
 {
     struct writes *w = user;

@@ -1,22 +1,23 @@
-// batch_reach.h: the sandbox of a batch: the folders that it reads, and the files that its writer process writes.
+// batch_reach.h: sets up the sandbox of a batch: the folders that it reads, and the files that its writer process
+// writes.
 #ifndef BATCH_REACH_H
 #define BATCH_REACH_H
 
 #include "batch_state.h"
 
-// Creates the folders for pictures, journal and page; the pictures' folders must exist before entering the sandbox.
-// Fails with LAM_CANNOT_WRITE.
+// Creates the folders for pictures, journal and page. The folders of the pictures must exist before the process enters
+// the sandbox. Fails with LAM_CANNOT_WRITE.
 bool batch_reach_make(const struct batch *batch, const char *journal, lam_error *error);
 
-// Enters the sandbox for `count` models from `first` on, and starts a writer for their pictures if there is none. Call
-// it before starting threads. Errors as for sandbox_start.
+// Enters the sandbox for `count` models from `first` on, and starts a writer for their pictures if no writer is
+// running. Call it before starting threads. Fails like sandbox_start.
 bool batch_reach_enter(const struct batch *batch, size_t first, size_t count, lam_error *error);
 
 // Starts the writer for a process that draws one task. Fails with LAM_LIMIT.
 bool batch_reach_write(const struct batch *batch, const struct batch_task *task, lam_error *error);
 
-// Enters the sandbox of a process that draws one job: it may access its model's folder and its pictures' folder, but
-// nothing else of --allow-path.
+// Enters the sandbox of a process that draws one job: it may access its model's folder and its pictures' folder, but no
+// other folder of --allow-path.
 bool batch_reach_enter_job(const struct batch_job *job, lam_error *error);
 
 #endif

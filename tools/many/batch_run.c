@@ -1,8 +1,9 @@
 // batch_run.c: the loop over models: workers take the next model, draw it, and deliver the result.
 //
-// A worker is a thread with its own device, which draws with one thread if there are enough models; with --isolate it
-// is a process for each model. Another thread reads files ahead of the workers, so that reading and drawing overlap. A
-// worker's messages are printed in the order of the models, but its journal lines are written immediately.
+// A worker is a thread with its own device. If there are enough models, each device draws with one thread. With
+// --isolate, a separate process draws each model. Another thread reads files ahead of the workers, so that reading and
+// drawing overlap. A worker's messages are printed in the order of the models, but its journal lines are written
+// immediately.
 #include "batch_run.h"
 
 #include <errno.h>
@@ -36,14 +37,14 @@ enum { WORKERS_MAX = 256 };
 struct worker {
     struct batch *batch;
     int slot;
-    struct options options; // includes its number of threads
+    struct options options; // the options of the batch, with this worker's number of threads
     lam_device *device;
     pthread_t thread;
 };
 
 // --- one worker
 
-// Releases a device's memory after a large picture of a job, because the next job belongs to another user.
+// Releases a device's memory after a large picture of a job, because the next job may belong to another user.
 static void trim(struct worker *w)
 {
     enum { KEPT = 128 << 20 };
@@ -98,8 +99,8 @@ static void *work(void *user)
 
 // --- reading ahead
 
-// Asks the system to read a file into its page cache. The request is split, because the system reads only the beginning
-// of a long one.
+// Asks the system to read a file into its page cache. Splits the request, because the system reads only the beginning
+// of a long range.
 static void warm(const char *path)
 {
     enum { CHUNK = 128 << 10, MAX = 256 << 20 };
@@ -112,8 +113,8 @@ static void warm(const char *path)
         close(file);
 }
 
-// The thread is woken once for a group of models as large as the number of workers, because each wake-up costs the
-// workers processor time and the lock.
+// Reads files ahead of the workers. They wake this thread once for as many models as there are workers, because each
+// wake-up costs processor time and needs the lock.
 static void *read_ahead(void *user)
 {
     struct batch *b = user;
@@ -210,7 +211,8 @@ static void free_workers(const struct batch *b, struct worker *workers)
         lam_device_free(workers[i].device);
 }
 
-// Draws the models that a killed run was drawing, each in a separate process, because one of them may be the cause.
+// Draws the models that a killed run was drawing, each in a separate process, because one of them may have crashed the
+// run.
 static void draw_suspects(struct batch *b)
 {
     if (b->way == JOURNAL_START || !batch_begin_suspects(b))
@@ -248,7 +250,8 @@ static bool draws_with_gl(const struct options *o)
            (o->work.device == DEVICE_AUTO && o->work.gl_device);
 }
 
-// Chooses one worker per processor, with more threads each if there are fewer models than processors.
+// Chooses one worker per processor or, if there are fewer models than processors, one worker per model with several
+// threads.
 static void share_threads(struct batch *b)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
@@ -259,8 +262,8 @@ static void share_threads(struct batch *b)
     b->threads = b->workers == 1 ? b->options->work.threads : threads / b->workers;
 }
 
-// Returns the options that all pictures in the journal share, and the pictures of a model. From malloc; NULL if memory
-// runs out.
+// Returns text from malloc that states the options that all pictures in the journal share, and the side and size of
+// each picture of a model. Returns NULL if memory runs out.
 static char *pictures_text(const struct batch *b)
 {
     const struct batch_plan *plan = b->plan;
@@ -273,7 +276,7 @@ static char *pictures_text(const struct batch *b)
             plan->pattern                ? plan->pattern
             : b->options->picture.output ? b->options->picture.output
                                          : "");
-    if (plan->by_list) // in a list of another size, models are in other shards
+    if (plan->by_list) // if the size of the list changes, models move to other shards
         fprintf(out, "shard-by=list of %" PRIu64 " bytes\n", plan->list_bytes);
     for (int i = 0; i < plan->view_count; i++) {
         const struct job_view *v = &plan->views[i];
@@ -391,9 +394,9 @@ static void free_batch(struct batch *b)
     pthread_mutex_destroy(&b->lock);
 }
 
-// Successive models need about the same memory. Keeping released memory avoids returning it to the system, which would
-// have to clear it again, under a lock that all workers share. This saves 7 % of the processor time for pictures of 256
-// pixels.
+// Successive models need about the same memory. The process therefore keeps released memory instead of returning it to
+// the system. The system would have to clear the memory again, under a lock that all workers share. This saves 7 % of
+// the processor time for pictures of 256 pixels.
 static void keep_memory(void)
 {
 #ifdef __GLIBC__
@@ -418,7 +421,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     interrupt_start();
     keep_memory();
     if (b.options->batch.jobs)
-        signal(SIGPIPE, SIG_IGN); // if the reader of the answers closes, writing fails
+        signal(SIGPIPE, SIG_IGN); // if the reader of the answers closes the pipe, writing fails
     bool started = start(&b, journal, &error), ok = started && run_passes(&b, &error);
     if (started && ok)
         finish(&b);
@@ -430,7 +433,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
     batch_jobs_close(b.jobs);
-    // A single model reports an interrupt itself, unless it had not begun.
+    // A single model reports an interrupt itself, unless drawing had not begun.
     if (interrupted() && ok && !is_batch && plan->count == 1 && !b.interrupted &&
         b.pictures[0].outcome == PICTURE_OPEN) {
         complain(&error, LAM_CANCELLED, "%.400s: interrupted", plan->models[0].path);
@@ -447,7 +450,7 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
     const struct batch_shard *shard = &plan->shard;
     if (!shard->count)
         return run(plan, journal, is_batch, NULL);
-    // Each shard has its own files besides the pictures.
+    // Each shard writes its own journal and its own page.
     struct options options = *plan->options;
     struct batch_plan part = *plan;
     const char *page = options.batch.report_page;

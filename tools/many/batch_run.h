@@ -6,8 +6,8 @@
 #include "batch_use.h"
 
 // Draws the planned models and writes the journal and the page. `journal` is the path of the journal, or NULL. With
-// `is_batch`, prints the messages of `batch` (errors and a summary) instead of `render`'s. Returns the program's exit
-// code.
+// `is_batch`, prints the messages of `batch` (errors and a summary) instead of the messages of `render`. Returns the
+// program's exit code.
 int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch);
 
 // Draws the planned models for a purpose other than writing files. Errors are printed in the order of the models.

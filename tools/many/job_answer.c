@@ -15,7 +15,7 @@
 #include "journal.h"
 #include "option_names.h"
 
-// Bytes that a pipe accepts without blocking if poll() reports space (PIPE_BUF).
+// The number of bytes that a pipe accepts without blocking if poll() reports space (PIPE_BUF).
 enum { CHUNK = 4096 };
 
 // The longest wait for a reader after an interrupt.
@@ -42,7 +42,8 @@ void job_answers_fail(struct job_answers *answers, int reason)
 
 // --- writing
 
-// Waits until more bytes can be written. Returns false if no reader has read them for some time after an interrupt.
+// Waits until more bytes can be written. Returns false if, after an interrupt, no reader has made space for
+// patience_ms.
 static bool wait_writable(double *since_ms)
 {
     struct pollfd wait = {.fd = STDOUT_FILENO, .events = POLLOUT};
@@ -86,7 +87,7 @@ static void put(struct job_answers *answers, json_t *answer)
     json_decref(answer);
 }
 
-// --- their contents
+// // --- the contents of answers
 
 static json_t *start(json_t *id, const char *outcome)
 {
@@ -139,7 +140,7 @@ static const char *outcome_of(const struct batch_unit *u)
     return same ? "same" : "written";
 }
 
-// Returns the first failed picture, whose class and error message the job also gets.
+// Returns the record of the first failed picture. The answer repeats its class and error message.
 static const json_t *failed_record(const struct batch_unit *u)
 {
     for (int i = 0; i < u->picture_count; i++)
@@ -176,7 +177,7 @@ void job_answer_unit(struct job_answers *answers, const struct batch_unit *u)
         json_t *picture = list ? json_object() : json_incref(answer);
         if (u->records[i])
             json_object_update(picture, u->records[i]);
-        json_object_del(list ? picture : NULL, "id"); // a journal line may have another job's id
+        json_object_del(list ? picture : NULL, "id"); // a journal line may contain another job's id
         if (u->contents)
             ok = add_data(picture, &u->contents[i]) && ok;
         if (list)

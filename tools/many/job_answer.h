@@ -1,4 +1,4 @@
-// job_answer.h: the answers of --jobs: a line of JSON for each job, on standard output.
+// job_answer.h: writes the answers of --jobs to standard output: one line of JSON for each job.
 #ifndef JOB_ANSWER_H
 #define JOB_ANSWER_H
 
@@ -7,10 +7,10 @@
 
 #include "batch_unit.h"
 
-// Any thread may write; lines are written completely, one after the other.
+// Any thread may write an answer. Lines are written completely, one after the other.
 struct job_answers {
     pthread_mutex_t lock;
-    int failure; // errno of the first failed write, after which nothing is written. Accessed atomically.
+    int failure; // the errno of the first failed write, after which nothing is written; accessed atomically
 };
 
 void job_answers_start(struct job_answers *answers);

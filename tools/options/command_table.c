@@ -1,4 +1,4 @@
-// command_table.c: the commands and the examples.
+// command_table.c: defines the commands and the examples.
 #include "command_table.h"
 
 #include <string.h>

@@ -28,7 +28,7 @@ struct command {
                                         // options
     int min_operands, max_operands;     // −1 in max_operands means no limit
     const struct own_default *defaults; // NULL if the command has none
-    const char *one_more;               // the correct spelling, for the error about too many operands; may be NULL
+    const char *one_more;               // a hint for the error about too many operands; may be NULL
     bool verbatim;                      // only -h and --help, as the first argument, are parsed as options
 };
 
@@ -40,8 +40,8 @@ const char *brief_of(const struct command *command, const struct option *option)
 const struct command *find_command(const char *name); // returns NULL if there is no such command
 uint64_t find_groups(const char *name);               // returns the groups of a command, 0 if there is no such command
 
-// Returns the text of an option's default for a command: the command's own default, otherwise the option's. Returns
-// NULL if none is shown.
+// Returns the text of an option's default for a command: the command's own default, otherwise the option's default.
+// Returns NULL if the help shows no default.
 const char *default_of(const struct command *command, const struct option *option);
 
 // An example: a command line and its effect. The list ends with NULL.

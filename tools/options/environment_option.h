@@ -5,7 +5,7 @@
 #include "options.h"
 
 // Splits six file names separated by commas. `paths` point into the returned copy, which the caller frees. Returns NULL
-// if there are not six.
+// if `text` does not contain six names.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
 // Returns the built-in environment with this name, or NULL if there is none.

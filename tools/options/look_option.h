@@ -4,11 +4,12 @@
 
 #include "options.h"
 
-// Returns the name and the text of a built-in look by its index from 0, or NULL if the index is out of range.
+// Return the name and the text of the built-in look with this index, counted from 0, or NULL if the index is out of
+// range.
 const char *look_name(int look);
 const char *look_text(int look);
 
-// Returns the built-in look with this name, or NULL if there is none.
+// Returns the text of the built-in look with this name, or NULL if there is no such look.
 const char *look_find(const char *name);
 
 // Writes the summary of a look, the first line of its file, to `out`.

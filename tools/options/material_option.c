@@ -57,7 +57,7 @@ void material_option_mirror(struct material_option *option)
     size_t size = strlen(words) + 1, rest = option->target ? strlen(option->target) + 1 : 0;
     if (size + rest > sizeof option->text)
         return;
-    if (option->target) // stored after the name, in the same text
+    if (option->target) // the target is stored after the name, in the same array
         option->target = memmove(option->text + size, option->target, rest);
     memcpy(option->text, words, size);
 }
@@ -66,12 +66,13 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
 {
     if (option->named) // material_option_mirror has already replaced a metal's name with its keys
         material = lam_material_default();
-    // cannot fail, since the parser has checked the text
+    // This cannot fail, because material_option_parse has checked the text.
     lam_material_parse(option->text, option->mode, &material, NULL);
     return material;
 }
 
-// Colours that are reflected fractions of light have a symbol; emission has none.
+// Returns whether a field is a colour that states the reflected fraction of light. Such colours have a symbol; emission
+// has none.
 static bool is_fraction(const lam_field *field)
 {
     return (field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA) && field->symbol;
@@ -80,7 +81,7 @@ static bool is_fraction(const lam_field *field)
 const char *color_advice(const double rgb[3], char text[COLOR_ADVICE_SIZE])
 {
     unsigned bytes[3];
-    bool fits = rgb[0] >= 16 || rgb[1] >= 16 || rgb[2] >= 16; // the user may intend smaller values
+    bool fits = rgb[0] >= 16 || rgb[1] >= 16 || rgb[2] >= 16; // smaller numbers are probably not bytes
     for (int i = 0; i < 3 && fits; i++) {
         fits = rgb[i] >= 0 && rgb[i] <= 255;
         bytes[i] = fits ? (unsigned)rgb[i] : 0;
@@ -113,7 +114,7 @@ static int warn(const lam_material *material, const char *subject, int limit, la
     return over;
 }
 
-// Applies the option to a white material, so that factors are compared with 1 unchanged.
+// Applies the option to a white material, so that a factor above 1 leads to a coefficient above 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene)
 {
     static const double white[4] = {1, 1, 1, 1};
@@ -131,7 +132,8 @@ void materials_warn(lam_scene *scene)
 {
     enum { REPORTED = 3 };
     int over = 0;
-    // For glTF files, Lambent derives the highlight values itself, so that rough surfaces conserve energy.
+    // For glTF files, Lambent derives the highlight values itself, so that rough surfaces conserve energy. These values
+    // need no warning.
     if (strcmp(lam_scene_format(scene), "gltf") == 0)
         return;
     for (int i = 0; i < lam_scene_material_count(scene); i++) {

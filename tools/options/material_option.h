@@ -18,8 +18,8 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
 // materials.
 const char *material_option_metal(const char *name);
 
-// Makes an option that consists only of a metal's name select the physical metal, which reflects the studio, instead of
-// the classic material.
+// If the option consists only of a metal's name, replaces the classic material of this name with the physical metal,
+// which reflects the studio.
 void material_option_mirror(struct material_option *option);
 
 // Returns `material` as changed by the option.
@@ -28,8 +28,8 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
 // Adds a warning to the scene for each coefficient above 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene);
 
-// Adds the same warnings for the scene's own materials: one for each of the first few materials, and one for all the
-// rest.
+// Adds the same warnings for the scene's own materials: one for each of the first few coefficients, and one for all
+// others.
 void materials_warn(lam_scene *scene);
 
 // Writes "; for 0 to 255 write #ff0000" if the three numbers of a colour look like bytes, otherwise "". Returns `text`.

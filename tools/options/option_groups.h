@@ -12,10 +12,10 @@ struct texts {
     int count;
 };
 
-// Selects automatic exposure: only for files with lights in candela or lux, always, or never.
+// Selects when the exposure is automatic: only for files with lights in candela or lux, always, or never.
 enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
 
-// RIG_DARK is --rig none, which leaves only the ambient light. Extends lam_rig.
+// Values in addition to lam_rig. RIG_DARK is --rig none, which leaves only the ambient light.
 enum { RIG_DARK = 100, RIG_DEFAULT };
 
 // Selects whether a turntable's lights turn with the camera or with the model.
@@ -93,7 +93,7 @@ struct material_options {
     struct texts materials; // as typed, checked
     struct texts back_materials;
     struct texts hidden;       // names of objects, parts or materials that are not drawn
-    const char *model_color;   // the colour of all materials, as typed; NULL keeps their own
+    const char *model_color;   // the colour of all materials, as typed; NULL keeps their own colours
     double shininess, opacity; // valid if the next flag is set
     bool has_shininess, has_opacity;
     lam_rgb reflectivity; // valid if the next flag is set
@@ -121,8 +121,8 @@ struct shading_options {
 
 // Surfaces given by formulas (shape).
 struct shape_options {
-    // For the command `shape`, as typed: a surface over u and v or an implicit surface, and the ranges of u and v or of
-    // x, y and z. The model is named after the option. NULL if not given.
+    // The formulas and the ranges of the command `shape`, as typed; NULL if not given. `parametric` uses the ranges of
+    // u and v, `implicit` uses the ranges of x, y and z. The model is named after the option.
     const char *parametric, *u_range, *v_range, *implicit, *x_range, *y_range, *z_range;
 };
 
@@ -156,7 +156,7 @@ struct limits_options {
     uint64_t file_limit_bytes;
     uint64_t expansion_limit, object_limit, layer_limit; // 0 means a limit that depends on the file size
     int json_depth_limit;
-    bool files_inside; // restricts the files that a scene file names to its folder
+    bool files_inside; // restricts the files that a scene file names to the folder of the scene file
     int sandbox;       // enum sandbox_mode
     struct texts allow_paths;
     // The number of models in progress at the same time, which share the default memory limit. Set by the loop over the
@@ -209,7 +209,7 @@ struct captions_options {
     const char *font; // NULL means the system's font
     bool no_captions;
     const char *title;  // the page's title; NULL means the default
-    struct texts texts; // captions of a sheet's pictures in order; the sheet adds missing ones
+    struct texts texts; // captions of a sheet's pictures in order; the sheet adds missing captions
 };
 
 // Sheets (compare).

@@ -10,7 +10,7 @@ enum { POOL = 192, NAME_SIZE = 40 };
 static struct choice pool[POOL];
 static int pool_used;
 
-// Option names use - instead of the _ in keys.
+// Returns whether a name equals a key, apart from each _ in the key, which is - in the name.
 static bool is_named(const char *name, const char *key)
 {
     while (*name && *key && (*name == *key || (*name == '-' && *key == '_')))
@@ -66,7 +66,7 @@ static void put_number(char *text, double number)
     *text = 0;
 }
 
-// Formats the number, or the word that means 0.
+// Formats the default of a setting: a number, or the word that means 0.
 static const char *standard_of(const lam_setting *setting, char text[NAME_SIZE])
 {
     const char *choice;
@@ -96,7 +96,8 @@ static const struct {
     [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
-// Collects the rows that take data from the table of settings and returns their number. Also counts all rows.
+// Collects the rows without a parser or a summary, which the table of settings completes, and returns their number.
+// Also counts all rows.
 static int open_rows(struct option *table, struct option *open[LAM_SETTINGS_MAX], int *rows)
 {
     int count = 0;

@@ -1,12 +1,12 @@
-// option_table.c: the table of all options. The help, the man page, the completions and docs/command-line.md are
-// generated from it (tools/help).
+// option_table.c: defines the table of all options. The help, the man page, the completions and docs/command-line.md
+// are generated from it (tools/help).
 //
 // The file is longer than 600 lines because it contains one row for each option, in the order of the help.
 #include "options.h"
 
 #include <lambent/check.h>
 
-// The limits in degrees of --fov, and of --camera with only fovy.
+// The limits of --fov in degrees, which also apply to --camera if its only key is fovy.
 #define FOV_MIN 0.1
 #define FOV_MAX 179.9
 

@@ -139,8 +139,8 @@ double radians(double degrees) { return degrees * (3.14159265358979323846 / 180)
 
 const char *read_number(const char *text, double *value)
 {
-    // strtod also accepts spaces, hexadecimal numbers, "inf" and "nan", so only plain decimals are passed to it. It
-    // rounds correctly, and the program never sets a locale.
+    // strtod also accepts spaces, hexadecimal numbers, "inf" and "nan", so only plain decimals are passed to it. strtod
+    // rounds correctly, and expects a decimal point, because the program never sets a locale.
     const char *s = text;
     if (*s == '-' || *s == '+')
         s++;

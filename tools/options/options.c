@@ -56,7 +56,7 @@ bool options_copy(struct options *to, const struct options *from)
 {
     bool ok = true;
     *to = *from;
-    to->lighting.look_text = to->settings.values = NULL; // free a copy before its original
+    to->lighting.look_text = to->settings.values = NULL; // free the copy before the original, which owns the texts
     for (int i = 0; i < LISTS; i++) {
         struct texts *list = list_at(to, i);
         const char **items = malloc(((size_t)list->count + 1) * sizeof *items);
@@ -104,7 +104,7 @@ bool option_given(const struct options *options, const char *name)
     return option && (options->given[option - option_table] || options->by_key[option - option_table]);
 }
 
-// Returns the option that "width" means in the value of `edges`, or NULL.
+// Returns the option that a key in the value of another option sets, such as "width" in the value of `edges`, or NULL.
 static const struct option *find_key(const struct option *option, const char *key, size_t length)
 {
     for (const struct option *o = option_table; option->keyed && o->name; o++)
@@ -130,7 +130,7 @@ static bool unknown_key(const struct option *option, const char *text, lam_error
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s", text, known);
 }
 
-// Stores "width=2" of `length` letters.
+// Stores a key and its value, such as "width=2", which have `length` letters.
 static bool store_key(const struct option *option, const char *text, size_t length, struct options *options,
                       lam_error *error)
 {
@@ -150,8 +150,8 @@ static bool store_key(const struct option *option, const char *text, size_t leng
     return true;
 }
 
-// Stores a value, NULL for a switch, which may contain keys for other options ("all,width=2"). Their values may be
-// followed by a comma and the rest of the text.
+// Stores the value of an option, or NULL for a switch. The value may contain keys for other options, as in
+// "all,width=2".
 static bool option_store(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     char own[256] = "";
@@ -171,7 +171,7 @@ static bool option_store(const struct option *option, const char *value, struct 
     return option->store(option, own, options, error);
 }
 
-// Returns whether other programs use this name for the option.
+// Options with which other programs name the model.
 static const char *const model_names[] = {"i", "in", "input", "infile", "model", "mesh", "shape", "load", "open", NULL};
 
 static bool is_one_of(const char *argument, const char *const *words)
@@ -205,7 +205,7 @@ static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_e
     return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'", typed);
 }
 
-// Suggests a letter only if a row lists it, since similarity is meaningless for single letters.
+// Suggests an option only if its row lists the letter, because similarity is meaningless for single letters.
 static bool unknown_letter(const char *argument, char letter, uint64_t groups, lam_error *error)
 {
     const char typed[2] = {letter, 0};
@@ -268,7 +268,7 @@ static size_t field_size(const struct option *option)
         return sizeof(double);
     if (option->store == store_text || option->store == store_color)
         return sizeof(const char *);
-    return option->store == store_size ? 2 * sizeof(int) : sizeof(int); // works for floats too: they have the same size
+    return option->store == store_size ? 2 * sizeof(int) : sizeof(int); // a float has the size of an int
 }
 
 void options_drop_settings(struct options *options)
@@ -372,7 +372,7 @@ static void look_drop_lights(struct options *options)
     }
 }
 
-// Reports that the intended option belongs to another command than the one that takes `groups`.
+// Reports that the command, which accepts `groups`, does not accept the intended option. Names the commands that do.
 static bool does_not_apply(const struct option *option, const struct option *typed, uint64_t groups, lam_error *error)
 {
     char takers[200] = "";
@@ -433,7 +433,7 @@ static bool is_mistyped(const char *argument)
            access(argument, F_OK) != 0 && lam_shape_find(argument) < 0 && !find_command(argument);
 }
 
-// Returns the value after an option that requires one, or NULL if it is missing.
+// Returns the value after an option that requires a value, or NULL if the value is missing.
 static const char *next_value(const struct option *option, int count, char **words, int *at, lam_error *error)
 {
     if (*at + 1 < count && !is_known_option(words[*at + 1]))
@@ -472,7 +472,7 @@ static bool read_long(int count, char **words, int *at, uint64_t groups, struct 
 // Parses "-q", "-qv", "-ofile" or "-o file".
 static bool read_letters(int count, char **words, int *at, uint64_t groups, struct options *options, lam_error *error)
 {
-    size_t length = strcspn(words[*at] + 1, "="); // -v is also a letter if an option is named --v
+    size_t length = strcspn(words[*at] + 1, "="); // "-fov" may be a mistyped "--fov"
     const struct option *whole = length > 1 ? find_long(words[*at] + 1, length) : NULL;
     if (whole)
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '%s'; did you mean '--%s'?", words[*at], whole->name);

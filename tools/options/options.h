@@ -41,7 +41,7 @@ struct options {
     bool by_key[OPTIONS_MAX];        // a key in the value of another option sets it (option.key)
     bool by_look[OPTIONS_MAX];       // whether the option comes from --look
     int by_config[OPTIONS_MAX];      // the line in the settings file, or 0 if it is not from the file
-    const char *values[OPTIONS_MAX]; // the value in the settings file, or NULL
+    const char *values[OPTIONS_MAX]; // the value on the command line or in the settings file, or NULL
 };
 
 // Bits above the group bits: options that a command accepts without the rest of their group.
@@ -58,7 +58,8 @@ struct options {
 #define TAKES_TITLE          (1ull << 50)
 #define TAKES_MANY           (1ull << 51)
 #define TAKES_UP             (1ull << 52)
-// Set for a command that writes no file of its own. It accepts its groups without the options about the output file.
+// Set for a command that writes no file of its own. Such a command accepts its groups without the options about the
+// output file.
 #define WRITES_NO_FILE (1ull << 63)
 
 // The default background of the sheets of `compare` and `materials`.
@@ -165,7 +166,7 @@ bool options_copy(struct options *to, const struct options *from);
 // Reverts the changes that the user's settings file made, because a scene file describes its picture completely.
 void options_drop_settings(struct options *options);
 
-// Returns the option of a long name, or NULL if there is no such option.
+// Returns the option with a long name, or NULL if there is no such option.
 const struct option *option_find(const char *name);
 
 // Returns the index of the first argument that is neither an option nor an option's value. Returns −1 if there is none,
@@ -187,7 +188,7 @@ bool option_is_taken(const struct option *option, uint64_t groups);
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error);
 
 // Parsers for the `store` member of the table. Each comment names the type of the field.
-option_parser store_switch, store_word_flag; // bool; the second from words with the values 0 and 1
+option_parser store_switch, store_word_flag; // bool; store_word_flag: from words with the values 0 and 1
 option_parser store_text, store_jobs;        // const char *
 option_parser store_color, store_opaque_color, store_show, store_camera; // const char *, checked
 option_parser store_word, store_words, store_glsl, store_up; // int, the value of a word; store_words: a bit mask

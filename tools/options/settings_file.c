@@ -1,5 +1,5 @@
 // settings_file.c: reads lambent.json, which contains the user's own defaults. Its keys are the keys of scene files.
-// Each sets the option that has the same row in the table of settings.
+// Each key sets the option that has the same row in the table of settings.
 #include "settings_file.h"
 
 #include <errno.h>
@@ -205,7 +205,7 @@ static bool take_value(struct reader *r, const char *group, const char *key, con
     size_t size = 0;
     FILE *out = open_memstream(&made, &size);
     bool ok = out && put_value(out, option, value);
-    ok = out && fclose(out) == 0 && ok && size < FILE_MAX; // the space that is left in `values`
+    ok = out && fclose(out) == 0 && ok && size < FILE_MAX; // the space that remains in `values`
     strcpy(text, ok ? made : "");
     free(made);
     if (!ok) {
@@ -243,7 +243,7 @@ static bool take_ground(struct reader *r, const json_t *value)
     return take_value(r, NULL, "ground", option, color ? r->ground_color : value);
 }
 
-// Returns whether the value is a word for the default for which the option has no word.
+// Returns whether the value is a word of scene files that means the default, and the option lacks this word.
 static bool is_plain_default(const lam_setting *setting, const json_t *value)
 {
     const char *choice;
@@ -308,7 +308,7 @@ static bool take_root(struct reader *r, json_t *root)
 
 // --- the file
 
-// A path is accepted only if it is absolute: a relative path could point beside a model.
+// Accepts only absolute paths, because a relative path could lead to a file beside a model.
 static void default_path(char *path, size_t size)
 {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
@@ -321,7 +321,7 @@ static void default_path(char *path, size_t size)
         *path = 0;
 }
 
-// Returns the text, from malloc.
+// Returns the text of the file, from malloc.
 static char *read_text(const char *path, size_t *length, lam_error *error)
 {
     uint64_t unused;

@@ -19,9 +19,9 @@ enum { SWEEP_STOPS_MAX = 16, SWEEP_NAME_MAX = 80 };
 
 struct sweep {
     enum sweep_kind kind;
-    const struct option *option; // the changed option; for SWEEP_MATERIAL and SWEEP_ROTATE, their option
+    const struct option *option; // the changed option; --material for SWEEP_MATERIAL, --rotate for SWEEP_ROTATE
     char key[SWEEP_NAME_MAX];    // "roughness" for SWEEP_MATERIAL, "y" for SWEEP_ROTATE
-    char which[SWEEP_NAME_MAX];  // the part after '@', or the light's name or number; may be ""
+    char which[SWEEP_NAME_MAX];  // the text after '@', or the light's name or number; may be ""
     enum sweep_light light;
     const char *field; // the key of SWEEP_LIGHT_FIELD
     int component;     // the component of the field; −1 means all

@@ -1,5 +1,6 @@
 // without_check.c: replaces the functions of the shader check that tables and the help call, for programs that are
-// built without the check (-Dclassroom=false, and the web page's module). They report no contracts and no mistakes.
+// built without the check (-Dclassroom=false, and the web page's module). The replacements report no contracts and no
+// mistakes.
 #include <lambent/check.h>
 
 #include <stddef.h>

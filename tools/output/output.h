@@ -37,7 +37,8 @@ bool output_is_stream(const char *path);
 // extension.
 const char *output_ending(const char *path);
 
-// Sets `format` to the pixel format of that file format; 8 bits per channel for a stream. Fails with LAM_UNSUPPORTED.
+// Sets `format` to the pixel format of the file format of `path`, which is 8 bits per channel for a stream. Fails with
+// LAM_UNSUPPORTED.
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 
 // Checks that the file format stores 8 bits per channel. Fails like output_format, or with "PATH: a sheet is written as
@@ -45,21 +46,22 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
 // itself.
 bool output_check_bytes(const char *path, const char *noun, const char *others, lam_error *error);
 
-// Returns true if the name has the extension of a model format. Scene files (.json) do not count, since most JSON files
-// are no scenes.
+// Returns true if the name has the extension of a model format. Returns false for scene files (.json), because most
+// JSON files are not scenes.
 bool is_model_name(const char *name);
 
-// Writes a picture to a file, whose missing folder is created, or to a stream. Sets `size` to the number of bytes, or
-// to 0 if the file is not regular.
+// Writes a picture to a file or a stream. Creates the folder of the file if it is missing. Sets `size` to the number of
+// bytes, or to 0 if the file is not regular.
 bool output_save(const lam_image *image, const char *path, const lam_save_params *params, uint64_t *size,
                  lam_error *error);
 
-// A callback for each picture that output_save writes, which gets it as a PNG and as pixels (LAM_RGBA8). With a
-// callback, pictures for "-" are only passed to it and not written. NULL removes the callback.
+// A callback for each picture that output_save writes. The callback receives the picture as a PNG and as pixels
+// (LAM_RGBA8). If a callback is set, pictures for "-" are passed to the callback and not written. NULL removes the
+// callback.
 typedef bool output_show_fn(const lam_bytes *png, const lam_image *image, lam_error *error);
 void output_show_with(output_show_fn *show);
 
-// Does the same for encoded bytes. `durable` is as in lam_save_params.
+// Writes encoded bytes like output_save, but without the callback. `durable` is as in lam_save_params.
 bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, uint64_t *size, lam_error *error);
 
 // Returns the size in bytes of the file at `path`, or 0 if it is not a file.

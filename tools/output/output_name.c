@@ -16,7 +16,7 @@ enum { WORDS = sizeof words / sizeof words[0] };
 
 bool output_name_is_pattern(const char *name) { return name && strpbrk(name, "{}"); }
 
-// A part of a pattern.
+// A part of a pattern: literal text or a placeholder.
 struct part {
     const char *text; // literal text, or a word's name
     int length;

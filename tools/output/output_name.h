@@ -8,7 +8,7 @@
 // "obj".
 struct output_words {
     const char *model; // {stem} is its file name without extension, "model" for "-"
-    const char *root;  // {dir} is the model's folder relative to this one; may be NULL or ""
+    const char *root;  // {dir} is the model's folder relative to this folder; may be NULL or ""
     const char *view;  // {view}; NULL if the pattern does not contain it
     int width, height; // {size}: "256" for a square, otherwise "256x128"
     int frame, digits; // {frame} with at least `digits` digits; OUTPUT_FRAME_OPEN keeps the placeholder
@@ -17,7 +17,7 @@ struct output_words {
 // Keeps the placeholder {frame} in the name until the number of frames is known.
 enum { OUTPUT_FRAME_OPEN = -1 };
 
-// The words that a command supports in addition to {stem}, {ext} and {dir}, as bits.
+// The placeholders that a command supports in addition to {stem}, {ext} and {dir}, as bits.
 enum { NAME_VIEW = 1, NAME_SIZE = 2, NAME_FRAME = 4 };
 
 // Returns true if a name contains a brace of a pattern. "{{" and "}}" are escaped braces.
@@ -26,8 +26,8 @@ bool output_name_is_pattern(const char *name);
 // Returns true if the pattern contains the placeholder, which is given without braces.
 bool output_name_has(const char *pattern, const char *placeholder);
 
-// Checks that a pattern contains only known words in braces and no unmatched brace. `known` is a set of NAME_… bits.
-// Fails with LAM_BAD_ARGUMENT.
+// Checks that a pattern contains only known placeholders and no unmatched brace. `known` is a set of NAME_… bits. Fails
+// with LAM_BAD_ARGUMENT.
 bool output_name_check(const char *pattern, unsigned known, lam_error *error);
 
 // Expands a checked pattern and returns the name, allocated with malloc. {dir} never contains ".", ".." or a leading
@@ -35,7 +35,8 @@ bool output_name_check(const char *pattern, unsigned known, lam_error *error);
 // NULL if memory runs out.
 char *output_name_expand(const char *pattern, const struct output_words *words);
 
-// Returns the start of a model's file name without its extension, `*length` bytes; "model" if there is none.
+// Returns a model's file name, of which the first `*length` bytes are the name without its extension. Returns "model"
+// if there is no name.
 const char *output_stem(const char *model, int *length);
 
 #endif

@@ -9,7 +9,8 @@
 // LAM_LIMIT.
 bool shrink_linear(const lam_image *from, int most, lam_image *to, lam_error *error);
 
-// Does the same for a picture in LAM_RGBA8 without padding, encoded in sRGB. Copies a picture that already fits.
+// Like shrink_linear, but for a picture in LAM_RGBA8 without padding, encoded in sRGB. Copies a picture that already
+// fits.
 bool shrink_bytes(const lam_image *from, int most, lam_image *to, lam_error *error);
 
 #endif

@@ -17,13 +17,13 @@ enum {
 };
 
 static struct terminal terminal = {.kind = TERM_OFF};
-static bool missing_chafa; // the terminal has sixels, but the library is not installed
+static bool missing_chafa; // the terminal supports sixels, but libchafa is not installed
 
 bool terminal_shows(void) { return terminal.kind != TERM_OFF; }
 
 static bool show(const lam_bytes *png, const lam_image *image, lam_error *error);
 
-// Returns the name of a --term word.
+// Returns the word of --term for a protocol.
 static const char *word_of(enum term_kind kind)
 {
     const struct choice *method = option_find("term")->words;
@@ -99,7 +99,7 @@ bool terminal_refuse(const char *command, lam_error *error)
                     command);
 }
 
-// Returns the factor below 1 that fits a large picture into the terminal, and whether the height is the limit.
+// Returns the factor that fits a picture into the terminal. Sets `tall` if the height is the limit.
 static double scale_of(const lam_image *image, bool *tall)
 {
     const struct terminal *t = &terminal;

@@ -1,6 +1,6 @@
 // terminal_probe.c: detects the graphics protocol of a terminal. Environment variables identify kitty, Ghostty, iTerm2
-// and WezTerm. Other terminals get two queries: kitty's query, and "primary device attributes", which every terminal
-// answers, so that the wait ends.
+// and WezTerm. The program sends two queries to other terminals: kitty's query, and "primary device attributes". Every
+// terminal answers the second query, so the program then stops waiting.
 //
 // Kitty: https://sw.kovidgoyal.net/kitty/graphics-protocol/#querying-support-and-available-transmission-mediums
 // Attributes (4 means sixel graphics) and the cell size (16 t): https://invisible-island.net/xterm/ctlseqs/ctlseqs.html
@@ -39,8 +39,8 @@ static bool is_multiplexed(void)
     return getenv("TMUX") || env_starts("TERM", "screen") || env_starts("TERM", "tmux");
 }
 
-// Identifies the terminals that name themselves, and names that exclude pictures. TERM_AUTO means that a query is
-// needed.
+// Identifies the terminal by its environment variables. Returns TERM_OFF for a terminal without pictures, and TERM_AUTO
+// if a query is needed.
 static enum term_kind kind_by_name(void)
 {
     const char *term = getenv("TERM");
@@ -57,7 +57,7 @@ static enum term_kind kind_by_name(void)
     return TERM_AUTO;
 }
 
-// Returns the answer "ESC [ ? numbers c" in the bytes read, or NULL if it has not arrived yet.
+// Returns the position of the numbers in the answer "ESC [ ? numbers c", or NULL if the answer has not arrived yet.
 static const char *find_attributes(const char *text)
 {
     for (const char *at = strstr(text, "\033[?"); at; at = strstr(at + 1, "\033[?"))

@@ -9,12 +9,12 @@ bool page_is_named(const char *output);
 
 // Returns the path of the page, allocated with malloc. Searches LAMBENT_PAGE, the installed file
 // share/lambent/lambent.html in the parent of the program's folder, and build-web/lambent.html in the parent of the
-// build folder. Fails with LAM_UNSUPPORTED if there is no page, or LAM_LIMIT.
+// build folder. Fails with LAM_UNSUPPORTED if there is no page, or with LAM_LIMIT if memory runs out.
 char *page_file_find(lam_error *error);
 
-// Returns the contents of a file, `*size` bytes with a zero after them, allocated with malloc. Fails with
-// LAM_CANNOT_READ, or with LAM_LIMIT if the file has more than `most` bytes (then *size is the file's size, otherwise
-// 0) or if memory runs out.
+// Returns the contents of a file, `*size` bytes followed by a zero, allocated with malloc. Fails with LAM_CANNOT_READ,
+// or with LAM_LIMIT if the file has more than `most` bytes (then *size is the file's size, otherwise 0) or if memory
+// runs out.
 char *page_file_read(const char *path, size_t most, size_t *size, lam_error *error);
 
 #endif

@@ -60,7 +60,7 @@ static bool is_below(const char *folder, const char *path)
     return below;
 }
 
-// Adds the model and the files that it names, with their names in the model's folder, which is "/" in the page.
+// Adds the model and the files that the model names. In the page, the model's folder is "/".
 static bool add_files(const struct job *job, struct page_model *model, lam_error *error)
 {
     const char *slash = strrchr(job->model, '/'), *path;
@@ -139,7 +139,7 @@ void page_model_free(struct page_model *model)
 
 // File types that the page's module cannot decode.
 static const struct {
-    const char *ending, *extension; // NULL if it is not recognised this way
+    const char *ending, *extension; // NULL if not used to recognise the type
     const char *sentence;
 } unreadable[] = {
     {".webp", "EXT_texture_webp", "the page cannot read pictures in WebP"},
@@ -168,8 +168,8 @@ const char *page_model_lacks(const struct page_model *model, const lam_file_info
 
 // --- words
 
-// Returns whether an option concerns the picture and has a control in the page. A look is replaced by the options that
-// it sets.
+// Returns whether an option concerns the picture and has a control in the page. Returns false for --look, because the
+// options that the look sets replace it.
 bool page_model_has_option(const struct option *option)
 {
     static const char *const without[] = {"output", "save-scene", "durable", "compress", "quality", "look"};

@@ -29,8 +29,8 @@ void page_model_free(struct page_model *model);
 // ends the list.
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
-// Returns whether an option concerns the picture and has a control in the page. A look is replaced by the options that
-// it sets.
+// Returns whether an option concerns the picture and has a control in the page. Returns false for --look, because the
+// options that the look sets replace it.
 bool page_model_has_option(const struct option *option);
 
 // Prints the words of the picture's command line as a JSON list without '<': the model, and each option with its value

@@ -11,8 +11,8 @@ enum { PAGE_FILES_MAX = 100000000 };
 bool page_wanted(const struct job *job);
 
 // Replaces job_run for a page. Draws the picture, to detect errors in the model or the options, and writes the page.
-// Fails like job_run, with LAM_UNSUPPORTED if no page is installed or a file is outside the model's folder, or with
-// LAM_LIMIT for more than PAGE_FILES_MAX bytes.
+// Fails like job_run. Also fails with LAM_UNSUPPORTED if no page is installed or a file is outside the model's folder,
+// and with LAM_LIMIT for more than PAGE_FILES_MAX bytes.
 bool page_run(struct job *job, struct progress *progress, lam_error *error);
 
 // Reports that a page can contain only one picture, with LAM_BAD_ARGUMENT. Returns false.

@@ -317,7 +317,7 @@ static void write_places(struct json *json, const lam_explained_fragment *f)
     json_number(json, "winding", f->winding);
 }
 
-// Writes the reflection model and its formulas. With `gated`, the model is zero where n·l is not positive.
+// Writes the reflection model and its formulas. The key "gated" means that the result is 0 if n·l is not positive.
 static void write_formulas(struct json *json, const lam_explained_fragment *f)
 {
     const lam_reflection_info *model = lam_reflection_describe(f->reflection);

@@ -1,4 +1,4 @@
-// plan.c: --dry-run: lists the pictures and files without drawing.
+// plan.c: implements --dry-run: lists the pictures and files without drawing.
 #include "plan.h"
 
 #include <inttypes.h>
@@ -42,7 +42,7 @@ void each_given_option(const struct options *options, option_visit *visit, void 
     }
 }
 
-// Quotes the value if a shell would split it.
+// Prints an option. Quotes the value if a shell would split it.
 static void print_option(void *user, const char *name, const char *value)
 {
     FILE *out = user;

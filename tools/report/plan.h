@@ -1,4 +1,4 @@
-// plan.h: --dry-run: lists the pictures and files without drawing.
+// plan.h: implements --dry-run: lists the pictures and files without drawing.
 #ifndef PLAN_H
 #define PLAN_H
 

@@ -20,7 +20,8 @@ static const char *format_of(const lam_scene *scene)
     return format && *format ? format : "shape";
 }
 
-// Rounds to thirteen digits, which survive the conversion to radians and back.
+// Converts radians to degrees. Rounds to thirteen digits, because a conversion to radians and back does not change
+// these digits.
 static double degrees(double angle_rad)
 {
     char text[32];
@@ -371,7 +372,7 @@ FILE *report_stream(const struct options *options)
     return options->picture.output && strcmp(options->picture.output, "-") == 0 ? stderr : stdout;
 }
 
-// Refers to the help of the option or command at the start of a usage error.
+// Refers the user to the help of the option or command with which a usage error begins.
 static void say_where_to_look(const char *text)
 {
     char name[64];

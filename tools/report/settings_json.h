@@ -8,8 +8,8 @@
 // Returns whether the settings file changed an option.
 bool settings_are_used(const struct options *options);
 
-// Prints "settings", which lists the options from the settings file with their values. Prints nothing if there are
-// none.
+// Prints "settings", which lists the options from the settings file with their values. Prints nothing if there are no
+// such options.
 void settings_json(struct json *json, const struct options *options);
 
 // Prints the name and the value of an option.

@@ -11,7 +11,7 @@
 static lam_cancel cancel;
 static volatile sig_atomic_t caught;
 
-// A second Ctrl-C ends the program, because Windows removes the handler when it calls it.
+// A second Ctrl-C ends the program, because Windows removes the handler before calling it.
 static void catch (int number)
 {
     caught = number;

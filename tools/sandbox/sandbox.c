@@ -86,17 +86,17 @@ enum {
     READ_FILE = 1 << 2,
     READ_DIR = 1 << 3,
     VERSION_1 = (1 << 13) - 1,
-    REFER = 1 << 13,    // 2
-    TRUNCATE = 1 << 14, // TRUNCATE_VERSION
+    REFER = 1 << 13,    // since version 2
+    TRUNCATE = 1 << 14, // since TRUNCATE_VERSION
     TRUNCATE_VERSION = 3,
-    IOCTL_DEV = 1 << 15, // 5
+    IOCTL_DEV = 1 << 15, // since version 5
     OF_FILES = EXECUTE | WRITE_FILE | READ_FILE | TRUNCATE | IOCTL_DEV,
 };
 
 struct ruleset {
     uint64_t files;
-    uint64_t network; // 4: binding and connecting TCP
-    uint64_t scoped;  // 6: sockets without a path, signals
+    uint64_t network; // since version 4: binding and connecting TCP sockets
+    uint64_t scoped;  // since version 6: sockets without a path, and signals
 };
 
 struct path_beneath {
@@ -138,11 +138,12 @@ static uint64_t rights_of(int version)
            (version >= 5 ? IOCTL_DEV : 0);
 }
 
-// The process has no file handle or memory left, which is unrelated to the kernel's sandbox or the path.
+// Returns whether the process has run out of file handles or memory. This error is unrelated to the sandbox and to the
+// path.
 static bool is_exhausted(int reason) { return reason == EMFILE || reason == ENFILE || reason == ENOMEM; }
 
-// Returns false if the kernel rejects the rule or is_exhausted(errno). A path that does not exist or cannot be opened
-// needs no rule.
+// Adds a rule for a path. Returns false if the kernel rejects the rule, or if file handles or memory run out. A path
+// that does not exist or cannot be opened needs no rule.
 static bool add_path(int rules, const struct sandbox_path *path, uint64_t handled)
 {
     struct stat about;
@@ -185,8 +186,8 @@ static bool enter_landlock(const struct sandbox_paths *paths, int version)
     return ok;
 }
 
-// Keeps only root's privileges to read any file. For example, CAP_PERFMON reveals the environment of other processes in
-// spite of Landlock.
+// Drops all privileges of root except access to any file. For example, CAP_PERFMON would reveal the environment of
+// other processes in spite of Landlock.
 static void drop_capabilities(void)
 {
     struct __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};

@@ -1,6 +1,6 @@
 // sandbox.h: drops the privileges that reading untrusted files does not need: access to files outside a few folders
 // (Landlock), to other programs, the network and other processes (a seccomp filter). Dropped privileges cannot be
-// regained. It works on Linux on x86-64 and aarch64; other systems have no sandbox.
+// regained. The sandbox works on Linux on x86-64 and aarch64; other systems have no sandbox.
 #ifndef SANDBOX_H
 #define SANDBOX_H
 
@@ -9,7 +9,8 @@
 enum {
     SANDBOX_READ = 1,  // a file, or all files in a folder and its subfolders
     SANDBOX_WRITE = 2, // a pipe or a device; the writer writes files (writer.h)
-    // Lets the writer create a file, and replace a file written by Lambent, or any file.
+    // SANDBOX_MAKE lets the writer create a file, and replace a file that Lambent wrote. SANDBOX_REPLACE lets the
+    // writer replace any file.
     SANDBOX_MAKE = 4,
     SANDBOX_REPLACE = 8,
 };
@@ -26,8 +27,8 @@ struct sandbox_paths {
     bool failed;      // memory ran out; sandbox_enter then fails
     bool scene_files; // a scene file may name files anywhere (sandbox_start.c)
     bool serves;      // selects the filter SANDBOX_SERVES
-    // Decides which files the writer writes, for the given number of threads (0 means 1). NULL uses SANDBOX_MAKE and
-    // SANDBOX_REPLACE.
+    // Decides which files the writer may write; if NULL, SANDBOX_MAKE and SANDBOX_REPLACE decide. `writers` is the
+    // number of threads that the writer serves (0 means 1).
     writer_rule *may_write;
     void *user;
     int writers;
@@ -39,13 +40,13 @@ void sandbox_paths_free(struct sandbox_paths *paths);
 
 // The protections that are active, or available on this machine.
 struct sandbox_state {
-    int landlock;          // the kernel's Landlock version; 0 if there is none
+    int landlock;          // the kernel's Landlock version; 0 without Landlock
     bool filter;           // the seccomp filter
     bool reads_everything; // all files are readable
     const char *reason;    // why a protection is missing; NULL if both are active
 };
 
-// Returns the protections that the kernel offers without changing anything.
+// Returns the protections that the kernel offers. Changes nothing.
 struct sandbox_state sandbox_offered(void);
 
 // Enters the sandbox. Landlock applies to this thread and the threads that it starts later, the filter to all threads,
@@ -61,7 +62,7 @@ const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEX
 enum sandbox_filter {
     SANDBOX_DRAWS = 0, // reading and drawing: no processes, no sockets, files only read
     // Also accepts connections on listening sockets, watches files, and starts and ends processes of its own program,
-    // which may then install SANDBOX_DRAWS. It cannot create, bind or connect sockets or run programs.
+    // which may then install SANDBOX_DRAWS. The process still cannot create, bind or connect sockets or run programs.
     SANDBOX_SERVES = 1,
     SANDBOX_OPENS_PIPES = 2, // also opens existing files for writing, if Landlock permits it
     // Forbids openat2, whose flags a filter cannot check, for kernels whose Landlock does not stop truncation.

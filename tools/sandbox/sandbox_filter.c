@@ -1,11 +1,11 @@
 // sandbox_filter.c: installs the seccomp filter, which allows the system calls needed for reading and drawing. All
-// others fail with ENOSYS. The process therefore cannot run programs, create sockets, create, trace, signal, measure or
-// slow down other processes, create, rename, remove or change the permissions of files, or mount file systems.
-// https://docs.kernel.org/userspace-api/seccomp_filter.html
-//
+// other calls fail with ENOSYS. The process therefore cannot run programs, create sockets, create, trace, signal,
+// measure or slow down other processes, create, rename, remove or change the permissions of files, or mount file
+// systems. https://docs.kernel.org/userspace-api/seccomp_filter.html
+
 // The filter returns ENOSYS instead of killing the process, so that C libraries that try a newer call fall back to an
-// older one. It is written by hand because it consists of two lists, and libseccomp would be another library to load at
-// every start.
+// older one. The filter is written by hand because it consists of two lists, and libseccomp would be another library to
+// load at every start.
 #include "sandbox.h"
 
 #if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__))
@@ -30,7 +30,7 @@
 #define ARCHITECTURE AUDIT_ARCH_AARCH64
 #endif
 
-// Allowed with any arguments. A call that is missing in this machine's headers has no number here.
+// The calls that are allowed with any arguments. A call is omitted if this machine's headers do not define its number.
 static const unsigned allowed[] = {
     // Files. Landlock decides which files can be opened, and the conditions below decide how.
     SYS_read,
@@ -93,7 +93,7 @@ static const unsigned allowed[] = {
     SYS_geteuid,
     SYS_getgid,
     SYS_getegid,
-    SYS_wait4, // for the writer
+    SYS_wait4, // to wait for the writer
 #ifdef SYS_statx
     SYS_statx,
 #endif
@@ -112,7 +112,7 @@ static const unsigned allowed[] = {
 #ifdef SYS_getrlimit
     SYS_getrlimit,
 #endif
-#if defined(__x86_64__) // x86-64 still has the older calls
+#if defined(__x86_64__) // x86-64 still supports the older calls
     SYS_stat,
     SYS_lstat,
     SYS_access,
@@ -137,8 +137,8 @@ static const unsigned served[] = {
 #endif
 };
 
-// Allows a call if one half of an argument, masked with `mask`, equals one of the values. All consecutive rows of a
-// call must match.
+// Allows a call if one half (32 bits) of an argument, masked with `mask`, equals one of the values. All consecutive
+// rows of a call must match.
 struct condition {
     unsigned call;
     int half; // LOW(argument) or HIGH(argument)
@@ -173,8 +173,8 @@ enum {
 #define NEGATIVE 0x80000000U // a negative clock ID belongs to another process
 
 static const struct condition conditions[] = {
-    // The size and state of the terminal. TIOCSTI, which types into it, and FIOASYNC and SIOCSPGRP, which redirect
-    // signals, stay forbidden.
+    // Queries of the terminal's size and state. TIOCSTI, which types into the terminal, and FIOASYNC and SIOCSPGRP,
+    // which redirect signals, stay forbidden.
     {SYS_ioctl, LOW(1), ALL, ENOSYS, 4, {TCGETS, TIOCGWINSZ, TIOCGPGRP, FIONREAD}},
     {SYS_prctl, LOW(0), ALL, ENOSYS, 5, {PR_SET_NAME, PR_GET_NAME, PR_SET_VMA, PR_GET_DUMPABLE, PR_GET_SECCOMP}},
     // Commands that redirect signals (F_SETOWN, O_ASYNC with F_SETFL), lock files or turn off appending to a journal
@@ -195,9 +195,9 @@ static const struct condition conditions[] = {
     {SYS_clone, LOW(0), CLONE_THREAD | NAMESPACES, EPERM, 1, {CLONE_THREAD}},
 };
 
-// The conditions of SANDBOX_SERVES, tested before the others. They allow signals that end its child processes or cancel
-// their work (Landlock blocks other targets since version 6), calls of a new process on itself, and the stricter
-// filter. MSG_FASTOPEN is excluded because it would connect a socket.
+// The conditions of SANDBOX_SERVES, tested before the others. They allow signals that end child processes or cancel
+// their work (since version 6, Landlock blocks signals to other processes). They also allow a new process to restrict
+// itself and to install the stricter filter. MSG_FASTOPEN is excluded because it would connect a socket.
 static const struct condition served_conditions[] = {
     {SYS_kill, LOW(1), ALL, ENOSYS, 2, {SIGKILL, SIGUSR1}},
     {SYS_kill, LOW(0), NEGATIVE, EPERM, 1, {0}},
@@ -246,8 +246,8 @@ static void put(struct program *p, unsigned short code, unsigned k, unsigned cha
 static void load(struct program *p, size_t offset) { put(p, BPF_LD | BPF_W | BPF_ABS, (unsigned)offset, 0, 0); }
 static void end(struct program *p, unsigned result) { put(p, BPF_RET | BPF_K, result, 0, 0); }
 
-// Executes the next `length` instructions only for this call; they end the program. Expects the number of the call to
-// be loaded.
+// Executes the next `length` instructions, which end the program, only for this call. The number of the call must
+// already be loaded.
 static void if_call(struct program *p, unsigned call, size_t length)
 {
     put(p, BPF_JMP | BPF_JEQ | BPF_K, call, 0, (unsigned char)length);
@@ -255,7 +255,7 @@ static void if_call(struct program *p, unsigned call, size_t length)
 
 static void allow(struct program *p, const unsigned *calls, size_t count)
 {
-    for (size_t i = 0; i < count; i++) { // greater than or equal to the first number of x32
+    for (size_t i = 0; i < count; i++) {
         if_call(p, calls[i], 1);
         end(p, SECCOMP_RET_ALLOW);
     }
@@ -273,7 +273,7 @@ static void check(struct program *p, const struct condition *c)
     end(p, SECCOMP_RET_ERRNO | (unsigned)c->error);
 }
 
-// The first list that contains a call decides about it.
+// Adds a list of conditions. If several lists contain a call, the first of them decides about the call.
 static void allow_some(struct program *p, const struct condition *list, size_t count)
 {
     for (size_t i = 0, next; i < count; i = next) {
@@ -323,7 +323,7 @@ bool sandbox_filter_install(unsigned kind)
         return false;
     }
     const struct sock_fprog filter = {p.length, p.code};
-    // Applies the filter to all threads. If a thread cannot be synchronised, the call returns its ID.
+    // Applies the filter to all threads. If a thread cannot be synchronised, the call returns the thread's ID.
     return syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_TSYNC, &filter) == 0;
 }
 

@@ -24,8 +24,8 @@ const char *sandbox_advice(const lam_error *error)
                : "";
 }
 
-// Adds the folder of a path: the text up to and including its last "/", or "." if there is none. Returns false if
-// memory runs out.
+// Adds the folder of a path: the text up to and including its last "/", or "." if the path contains no "/". Returns
+// false if memory runs out.
 static bool add_folder_of(struct sandbox_paths *paths, const char *path, int access)
 {
     const char *slash = strrchr(path, '/');
@@ -60,7 +60,7 @@ void sandbox_add_older(struct sandbox_paths *paths, const char *path)
     if (strcmp(path, "-") == 0 || stat(path, &about) != 0)
         return;
     if (S_ISREG(about.st_mode))
-        sandbox_add(paths, path, SANDBOX_READ); // it is read because only a file of Lambent may be replaced
+        sandbox_add(paths, path, SANDBOX_READ); // reading shows whether Lambent wrote the file
     else if (!S_ISDIR(about.st_mode))
         sandbox_add(paths, path, SANDBOX_WRITE);
 }
@@ -86,7 +86,7 @@ static void add_list(struct sandbox_paths *paths, const char *list, char separat
     }
 }
 
-// Adds the files that the program opens itself: shared libraries, fonts, the number of processors, and the seed of
+// Adds the system files that the program reads: shared libraries, fonts, the number of processors, and the seed of
 // Jansson's hash tables.
 static void add_system(struct sandbox_paths *paths)
 {
@@ -166,7 +166,7 @@ static enum writer_right right_of(void *user, const char *path)
     return right;
 }
 
-// Starts the writer with the current paths.
+// Starts the writer if a file may be written and no writer is running.
 static bool start_writer(const struct options *o, struct sandbox_paths *paths, lam_error *error)
 {
     bool writes = paths->may_write;

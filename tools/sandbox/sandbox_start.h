@@ -17,8 +17,8 @@ void sandbox_add_input(struct sandbox_paths *paths, const char *model);
 void sandbox_add_file(struct sandbox_paths *paths, const char *file);
 
 // Allows the writer to create or replace a file, in a folder that may not exist yet. With `by_model`, the name comes
-// from the model, and only a file written by Lambent may be replaced. Pipes and devices are opened inside the sandbox.
-// "-" needs no permission.
+// from the model, and only a file written by Lambent may be replaced. The process in the sandbox opens pipes and
+// devices itself. "-" needs no permission.
 void sandbox_add_output(struct sandbox_paths *paths, const char *path, bool by_model);
 
 // Allows access to the files that options name: environments, looks, the font, --allow-path and --save-scene.
@@ -33,7 +33,8 @@ bool sandbox_is_wanted(const struct options *options);
 
 // Starts the writer unless it already runs or nothing may be written. Then enters the sandbox selected by the options,
 // with the given paths, the options' paths and the system's libraries and fonts. Always frees `paths`. Must be called
-// before threads start. Fails with LAM_UNSUPPORTED if --sandbox require is not available, or LAM_LIMIT.
+// before threads start. Fails with LAM_UNSUPPORTED if --sandbox require is set and a protection is missing, or with
+// LAM_LIMIT.
 bool sandbox_start(const struct options *options, struct sandbox_paths *paths, lam_error *error);
 
 // Returns the protections that are active in this process, none before sandbox_start.

@@ -1,9 +1,9 @@
-// writer.c: the process that writes files for the process in the sandbox.
+// writer.c: implements the writer, the process that writes files for the process in the sandbox.
 //
-// There is one socket pair for each thread that it can serve. A request consists of a header, the path and the
+// There is one socket pair for each thread that the writer can serve. A request consists of a header, the path and the
 // contents; the answer is a lam_error. The requesting thread blocks signals until the answer arrives, so that a signal
-// that ends the process finds the file complete. After SIGKILL the writer finishes files that it has received
-// completely and discards the others.
+// cannot end the process before the file is complete. If SIGKILL ends the process, the writer finishes the files that
+// it has received completely and discards all other files.
 #include "writer.h"
 
 #include <stdlib.h>
@@ -37,7 +37,7 @@ enum action { SAVE, SAVE_DURABLY, REMOVE, STAGE, COMMIT, DROP };
 struct request {
     uint32_t action;
     uint32_t path_size; // including the terminating zero
-    uint64_t size;      // the size of the contents; 0 unless it saves or stages
+    uint64_t size;      // the size of the contents; 0 unless the action is to save or stage
 };
 
 // Sends everything in one call if possible, so that the receiver wakes once.
@@ -72,7 +72,7 @@ static struct {
     void *user;
     uint64_t largest;             // the largest size of the contents; 0 means unlimited
     pthread_mutex_t lock;         // protects the rule and the list
-    struct own_file own[OWN_MAX]; // the most recent files; older ones count as foreign
+    struct own_file own[OWN_MAX]; // the most recent files; older files count as foreign
     size_t own_count;
 } writing = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
@@ -84,7 +84,7 @@ static bool own_of(const char *path, struct own_file *own)
     return found;
 }
 
-// Returns whether this run wrote the file and it has not changed since.
+// Returns whether this run wrote the file and the file has not changed since.
 static bool is_of_run(const char *path)
 {
     struct own_file file;
@@ -112,7 +112,7 @@ static void note_own(const char *path)
     pthread_mutex_unlock(&writing.lock);
 }
 
-// Returns whether the run may write the file, before its contents are received.
+// Returns whether the run may write the file. Called before the contents are received.
 static bool may_write(const struct request *request, const char *path, enum writer_right right, lam_error *error)
 {
     enum writer_right given = right & ~WRITER_IMPLIED;
@@ -140,7 +140,7 @@ static bool save(enum action action, const char *path, const lam_bytes *bytes, e
     return ok;
 }
 
-// Receives contents that are not wanted, so that the other side can read the answer.
+// Receives and discards contents, so that the requesting process can read the answer.
 static bool skip(int from, uint64_t size)
 {
     char part[16 << 10];
@@ -150,7 +150,7 @@ static bool skip(int from, uint64_t size)
     return true;
 }
 
-// Receives the contents and acts. Returns false if the other side has ended.
+// Receives the contents and executes the request. Returns false if the requesting process has ended.
 static bool act(int connection, const struct request *request, const char *path, lam_error *error)
 {
     if (request->action == COMMIT || request->action == DROP) {
@@ -253,13 +253,13 @@ static _Noreturn void run(int *connections, int count)
     pthread_attr_init(&small);
     pthread_attr_setstacksize(&small, STACK);
     pthread_t threads[THREADS_MAX];
-    int own = count; // this thread serves the connections without own threads
+    int own = count; // this thread serves the connections that have no thread of their own
     while (own > 1 && pthread_create(&threads[own - 1], &small, serve_one, &connections[own - 1]) == 0)
         own--;
     serve(connections, own);
     for (int i = own; i < count; i++)
         pthread_join(threads[i], NULL);
-    writer_files_drop(); // drops the files of a process that ended before it had all of them
+    writer_files_drop(); // removes the hidden files of an incomplete set
     _exit(0);
 }
 
@@ -274,7 +274,7 @@ static struct {
     pthread_cond_t given;
 } writer = {.lock = PTHREAD_MUTEX_INITIALIZER, .given = PTHREAD_COND_INITIALIZER};
 
-// Makes a socket pair whose numbers are above the standard streams, which may be closed.
+// Makes a socket pair with descriptors above 2, because the standard streams may be closed.
 static bool make_pair(int *here, int *there)
 {
     int pair[2];
@@ -394,7 +394,7 @@ static bool ask(enum action action, const char *path, const lam_bytes *bytes, la
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
 {
     struct stat there;
-    // This process opens pipes and devices that the user names itself, because a writer that waits for a reader could
+    // This process itself opens pipes and devices that the user names, because a writer that waits for a reader could
     // not be interrupted.
     if (!writer_is_there() || (stat(path, &there) == 0 && !S_ISREG(there.st_mode)))
         return writer_files_save(path, bytes, durable, error);

@@ -1,9 +1,9 @@
-// writer.h: writes files in a small process outside the sandbox, because the process inside may not write any.
+// writer.h: writes files in a small process outside the sandbox, because the process inside may not write files.
 //
 // The writer starts before an untrusted file is read. It accepts a path and the complete contents, checks that the run
-// may write this path, and replaces the file atomically (lam_bytes_save). The process inside the sandbox therefore
-// needs write access to no folder, and even compromised code can change no other file. The writer has no requests to
-// run programs or read files, and it ends with the process that it serves.
+// may write this path, and replaces the file atomically (lam_bytes_save). The process inside the sandbox therefore does
+// not need write access to any folder, and even compromised code cannot change other files. The writer accepts no
+// requests to run programs or to read files. It ends with the process that it serves.
 #ifndef WRITER_H
 #define WRITER_H
 
@@ -11,23 +11,23 @@
 
 #include <lambent/image.h>
 
-// The rights to a file. WRITER_IMPLIED is a bit of the rights to write.
+// The rights to a file. WRITER_IMPLIED is a bit that can be added to a right to write.
 enum writer_right {
     WRITER_NONE,
     WRITER_NEW,         // a new file
-    WRITER_NEW_OR_OURS, // a new file, or one written by this run or marked as Lambent's
+    WRITER_NEW_OR_OURS, // a new file, or a file that this run wrote or that is marked as Lambent's
     WRITER_ANY,         // replaces any existing file
     WRITER_REMOVES,     // the file may only be removed
-    // The user did not give the file's name; it follows from another name. The file must be regular or missing, and the
-    // writer follows no link.
+    // The file's name was derived from another name, and not given by the user. The file must be regular or missing,
+    // and the writer follows no link.
     WRITER_IMPLIED = 8,
 };
 
 // Returns the right to a path. Called in the writer, by one thread at a time.
 typedef enum writer_right writer_rule(void *user, const char *path);
 
-// Starts the writer with `count` connections for as many threads. It writes files of at most `largest` bytes (0 means
-// unlimited). Must be called before threads start. Fails with LAM_LIMIT.
+// Starts the writer with `count` connections for as many threads. The writer writes files of at most `largest` bytes (0
+// means unlimited). Must be called before threads start. Fails with LAM_LIMIT.
 bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, lam_error *error);
 
 // Returns whether this process or its parent has started the writer.
@@ -37,14 +37,14 @@ bool writer_is_there(void);
 // no writer.
 pid_t writer_process(void);
 
-// Detaches this process from a writer that a child process continues to use. Returns its process ID for waitpid(), or 0
-// if there was none.
+// Detaches this process from a writer that a child process continues to use. Returns the writer's process ID for
+// waitpid(), or 0 if there was no writer.
 pid_t writer_leave(void);
 
 // Lets the writer end without waiting for it. Nothing can be written afterwards.
 void writer_finish(void);
 
-// Does the same and waits until the writer has ended.
+// Like writer_finish, but waits until the writer has ended.
 void writer_end(void);
 
 // Writes a file completely or not at all, and creates its missing folder. Without a writer, this process writes the
@@ -58,8 +58,9 @@ struct writer_file {
     enum writer_right right;
 };
 
-// Writes all of the files or none: all are complete before they get their names, in the given order. Their folders must
-// exist. After a signal or on a full disk the older files are unchanged. Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
+// Writes all of the files or none. When all are complete, the files get their names, in the given order. Their folders
+// must exist. After a signal, or if the disk is full, the older files are unchanged. Fails with LAM_CANNOT_WRITE or
+// LAM_LIMIT.
 bool writer_save_all(const struct writer_file *files, int count, lam_error *error);
 
 // Returns whether the path contains no links after its first `named` bytes, which the user gave. Fails with

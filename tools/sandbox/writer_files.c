@@ -14,7 +14,7 @@
 #include "file_io.h"
 #include "output_folder.h"
 
-#ifdef __wasm__ // wasi-libc has no chmod, and the files of a page have no rights
+#ifdef __wasm__ // wasi-libc lacks chmod, and the files of a page have no permissions
 #define chmod(path, mode) 0
 #endif
 
@@ -67,7 +67,7 @@ static struct {
         char *hidden, *target; // from malloc
     } files[STAGED_MAX];
     size_t count;
-    bool locked; // atomic; threads of the writer rarely meet here
+    bool locked; // atomic; threads of the writer rarely wait for each other here
 } set;
 
 static void lock_set(void)
@@ -83,7 +83,8 @@ static bool fail_writing(const char *path, lam_error *error)
     return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: %s", path, strerror(errno));
 }
 
-// Creates a file beside the target, and keeps the rights of the target to read and write, as lam_bytes_save does.
+// Writes the contents to a new hidden file beside the target. The new file gets the target's permissions to read and
+// write, as in lam_bytes_save.
 static bool fill_hidden(struct staged *staged, const lam_bytes *bytes)
 {
     const char *slash = strrchr(staged->target, '/');
@@ -132,7 +133,7 @@ bool writer_files_stage(const char *path, const lam_bytes *bytes, lam_error *err
     return ok;
 }
 
-// Ends the set. With `renames`, the files get their names.
+// Ends the set. With `renames`, renames the hidden files to their names, otherwise removes them.
 static bool finish(bool renames, lam_error *error)
 {
     lock_set();

@@ -69,7 +69,7 @@ static void warn_unseen(const struct options *options, lam_scene *scene)
         return;
     }
     if (options->shading.environment && !option_given(options, "environment"))
-        return; // the setting applies to all models, so no warning
+        return; // the settings file applies to all models, so it causes no warning
     for (int i = 0; i < lam_scene_object_count(scene); i++)
         if (object_mirrors(scene, lam_scene_object(scene, i)))
             return;

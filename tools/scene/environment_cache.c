@@ -64,8 +64,8 @@ void environment_cache_free(struct environment_cache *cache)
     free(cache);
 }
 
-// Returns false if a file cannot be found or the text is not a list of files. Reading the environment reports the
-// cause.
+// Identifies the files of an environment. Returns false if a file cannot be found or the text is not a list of files.
+// Reading the environment reports the cause.
 static bool identify(const char *text, struct identity *identity)
 {
     const char *paths[LAM_FACE_COUNT] = {text};
@@ -130,7 +130,7 @@ static bool set(lam_scene *scene, const lam_environment *environment, double rot
     return lam_scene_set_environment(scene, environment, rotation_rad, error); // the scene keeps a reference
 }
 
-// The caller holds the lock; the function releases it while it reads the environment.
+// The caller holds the lock; the function releases the lock while it reads the environment.
 static bool set_shared(struct environment_cache *cache, const char *text, lam_color_mode color,
                        const struct identity *identity, lam_scene *scene, double rotation_rad,
                        const lam_control *control, lam_error *error)

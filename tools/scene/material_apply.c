@@ -68,7 +68,7 @@ static bool set_front(const struct material_option *option, const char *name, in
     bool whole = option->named, first;
     int front = front_of(scene, &object), users = users_of(scene, object.mesh, index, &first);
     bool by_part = object.material < 0 && lam_scene_mesh(scene, object.mesh)->part_count;
-    if (by_part && users == 1) // so that a later option can still change only one of them
+    if (by_part && users == 1) // so that a later option can still change a single part
         return change_parts(option, object.mesh, scene, error);
     if (front == -2 && !whole) {
         if (!option->target)
@@ -196,7 +196,8 @@ bool material_option_set(const struct material_option *option, bool back, const 
     return found > 0;
 }
 
-// Returns a copy of a material that a mask removes everywhere: it is not drawn and does not block light.
+// Returns a copy of a material that is masked out everywhere: surfaces with the copy are not drawn and do not block
+// light.
 static lam_material clear_copy(lam_material material)
 {
     material.diffuse.a = 0;
@@ -205,7 +206,7 @@ static lam_material clear_copy(lam_material material)
     return material;
 }
 
-// Returns the number of objects with this name, or −1 and fills the error.
+// Hides the objects with this name. Returns their number, or −1 and an error.
 static int hide_objects(const char *target, lam_scene *scene, lam_error *error)
 {
     int found = 0;
@@ -235,7 +236,7 @@ static int hide_parts(const char *target, lam_scene *scene, lam_error *error)
     return found;
 }
 
-// An object that shows only this material is hidden as a whole, so that fitting the camera ignores its box.
+// Hides the objects that show only this material, so that fitting the camera ignores their boxes.
 static bool hide_objects_of(int material, lam_scene *scene, lam_error *error)
 {
     for (int i = 0; i < lam_scene_object_count(scene); i++)

@@ -8,9 +8,9 @@
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                          lam_error *error);
 
-// Hides the objects with this name; if there are none, the parts; if there are none either, the surfaces with a
-// material of this name (--hide). If the model has no such name, adds a warning if it `may_lack` one, and fails
-// otherwise.
+// Hides the objects with this name (--hide). If there are no such objects, hides the parts with this name. If there are
+// no such parts either, hides the surfaces with a material of this name. If the model does not contain the name, adds a
+// warning if `may_lack` is set, and fails otherwise.
 bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, lam_error *error);
 
 #endif

@@ -80,8 +80,8 @@ static void blend(uint8_t *pixel, uint32_t color, double cover)
     }
 }
 
-// Returns how much of a pixel a line with this half width covers. The edge is a ramp one pixel wide, which is exact for
-// horizontal and vertical edges and approximate for others.
+// Returns the fraction of a pixel that a line with this half width covers. The edge is a ramp one pixel wide, which is
+// exact for horizontal and vertical edges and approximate for other edges.
 static double cover_at(struct point a, struct point b, double half, double x, double y)
 {
     double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
@@ -134,7 +134,7 @@ static bool paint_line(struct drawing *d, const struct point *p, int count, doub
     return true;
 }
 
-// Splits a line into dashes along its length.
+// Draws a line as dashes of equal length.
 static bool paint_dashes(struct drawing *d, const struct point *p, int count, double width, uint32_t color, double dash,
                          lam_error *error)
 {
@@ -229,7 +229,7 @@ static int letter_bytes(const char *text)
     return low || high || none || (at[0] < 32 && at[0] != '\t' && at[0] != '\n') ? 0 : bytes;
 }
 
-// Writes the text of an element and its end tag. Replaces characters that XML does not allow by U+FFFD.
+// Writes the text of an element and its end tag. Replaces characters that XML does not allow with U+FFFD.
 static void svg_letters(FILE *file, const char *text, const char *element)
 {
     while (*text) {
@@ -246,7 +246,7 @@ static void svg_letters(FILE *file, const char *text, const char *element)
 }
 
 // Scripts that are written from left to right without shaping: Unicode ranges
-// (https://www.unicode.org/Public/UCD/latest/ucd/Blocks.txt). The default font contains the first ones.
+// (https://www.unicode.org/Public/UCD/latest/ucd/Blocks.txt). The default font contains the first three ranges.
 static const struct {
     uint32_t first, last;
     bool own_font; // the default font contains none of them

@@ -140,7 +140,7 @@ static bool add_variant(struct sheet *sheet, const char *dashed, const char *nam
     return true;
 }
 
-// Adds each value of the option once, without "auto", which selects one of the others.
+// Adds each value of the option once, without "auto", which selects one of the other values.
 static bool add_words(struct sheet *sheet, const char *dashed, const struct option *option, lam_error *error)
 {
     for (const struct choice *w = option->words; w->name; w++) {
@@ -153,7 +153,8 @@ static bool add_words(struct sheet *sheet, const char *dashed, const struct opti
     return true;
 }
 
-// Returns true if commas separate values that contain commas: in "point,spot:cutoff=9" a type follows a comma.
+// Returns true if commas separate lights, which need semicolons. In "point,spot:cutoff=9", the type of a light follows
+// a comma.
 static bool lacks_semicolons(const struct option *option, const char *values)
 {
     if (strcmp(option->name, "light") != 0 || strchr(values, ';'))
@@ -303,7 +304,8 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
         return complain(error, LAM_LIMIT, "out of memory");
     sprintf(*store, "--%s", option->name);
     *sheet = (struct sheet){.name = option->name, .across = true};
-    // Single terms and numbers show the unchanged model. For all five terms the scene is changed to make them visible.
+    // Single terms and numbers show the unchanged model. For all five terms, the row's defaults change the scene, so
+    // that every term is visible.
     if (row && (all_terms || strcmp(option->name, "show") != 0))
         memcpy(sheet->defaults, row->defaults, sizeof sheet->defaults);
     title_of(option->name, sheet->title, sizeof sheet->title);
@@ -324,13 +326,14 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
             value = end;
         }
     }
-    // Puts up to six pictures in a row and distributes more evenly over several rows.
+    // Puts up to six pictures in one row, and distributes more pictures evenly over several rows.
     int rows = (sheet->count + 5) / 6;
     sheet->columns = rows ? (sheet->count + rows - 1) / rows : 1;
     return ok;
 }
 
-// Combines two rows into a table with a row for each picture of the first and a column for each picture of the second.
+// Combines two sheets into a table with one row for each picture of `lines` and one column for each picture of
+// `columns`.
 static bool cross(const struct sheet *lines, const struct sheet *columns, struct sheet *sheet, lam_error *error)
 {
     *sheet = (struct sheet){.name = "across", .columns = columns->count, .across = true};

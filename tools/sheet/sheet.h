@@ -8,13 +8,13 @@ enum { CELLS_MAX = 64, CELL_WORDS = 8, SHEET_DEFAULTS_MAX = 4 };
 
 struct cell {
     char caption[96];
-    const char *words[CELL_WORDS]; // this picture's options, which follow the command line's; ends with NULL
-    // The changes of the sheet's default material for this picture, in the syntax of --material. May be NULL.
+    const char *words[CELL_WORDS]; // the options that this picture adds to the command line; ends with NULL
+    // Changes to the sheet's default material for this picture, in the syntax of --material. May be NULL.
     const char *look;
-    const char *mistake; // the mistake of the shader that draws it (--mistake), or NULL
+    const char *mistake; // the mistake in the shader that draws the picture (--mistake), or NULL
 };
 
-// An option that applies to all pictures unless it is given (sheet_defaults.h).
+// An option that applies to all pictures unless the command line contains it (sheet_defaults.h).
 struct sheet_default {
     const char *option; // "--light"
     const char *value;  // NULL for --segments selects a few segments for the shape
@@ -26,8 +26,8 @@ struct sheet {
     int columns;
     bool inset;  // frames and enlarges the brightest highlight
     bool across; // a row of variants: each picture's words are options with values
-    // The first picture is correct, the others have mistakes. With `all`, mistakes that the scene cannot show are
-    // omitted.
+    // The first picture is correct; the shaders of the other pictures contain mistakes. With `all`, mistakes that the
+    // scene cannot show are omitted.
     bool mistakes, all;
     struct sheet_default defaults[SHEET_DEFAULTS_MAX + 1];
     int count;

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-// Numbers of segments with which a shape clearly shows its facets; the others use 24x12. The teapot counts stacks for
-// each patch, the knot is long, and implicit surfaces count cells.
+// The numbers of segments with which a shape clearly shows its facets. All other shapes use 24x12. The numbers differ
+// because the teapot's stacks are per patch, the knot is long, and implicit surfaces are divided into cells.
 static const struct {
     const char *shape, *segments;
 } coarse_shapes[] = {{"teapot", "24x4"}, {"torus-knot", "72x10"}, {"gyroid", "32"}, {"metaballs", "24"}};
@@ -17,7 +17,7 @@ static const char *coarse(const char *shape)
     return "24x12";
 }
 
-// In a row of variants, the varied option counts as given.
+// Returns whether the command line contains an option, or whether the option is varied in a row of variants.
 static bool is_given(const struct sheet *sheet, const struct options *options, const char *dashed)
 {
     if (option_given(options, dashed + 2))
@@ -29,7 +29,7 @@ static bool is_given(const struct sheet *sheet, const struct options *options, c
     return false;
 }
 
-// Returns whether the command line leaves a default to the model.
+// Returns whether a default may apply, because the command line contains no option that replaces it.
 static bool is_open(const struct sheet *sheet, const struct options *options, const struct sheet_default *one)
 {
     bool light = strcmp(one->option, "--light") == 0;

@@ -1,11 +1,11 @@
-// gallery.js: the gallery of a folder: pictures of the models that are seen first, search, order, keys. The search and
-// the sort order are kept for the browser tab, so that a model's page leads back to the same list.
+// gallery.js: the gallery of a folder. It shows pictures of the folder's models, and can be searched, sorted, and used by
+// keys. The search and the sort order are kept for the browser tab, so that a model's page leads back to the same list.
 const list = document.querySelector('ul'), items = [...list.children], search = document.getElementById('search'), order = document.getElementById('order');
 const count = document.getElementById('count'), AT_ONCE = 4;
 
 for (const item of items) item.name = item.querySelector('a').dataset.name;
 
-// --- pictures: those in the window first, a few at a time
+// --- pictures: the pictures in the window are drawn first, and only a few at the same time
 
 const seen = new Set();
 let running = 0;
@@ -74,7 +74,7 @@ function remember() {
   try {
     sessionStorage.setItem('lambent-gallery', JSON.stringify({ search: search.value, order: order.value }));
   } catch {
-    // a page may have no storage
+    // the page may be denied storage
   }
 }
 
@@ -83,7 +83,7 @@ try {
   search.value = kept.search ?? '';
   if (orders[kept.order]) order.value = kept.order;
 } catch {
-  // what another page has written there
+  // the stored text may come from another page
 }
 search.oninput = find;
 order.onchange = () => {
@@ -94,7 +94,7 @@ order.onchange = () => {
 arrange();
 find();
 
-// --- keys: / searches, arrows go from model to model
+// --- keys: the key / starts a search, and the arrow keys go from model to model
 
 addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey) return;

@@ -1,4 +1,4 @@
-// http.c: opens libmicrohttpd.
+// http.c: loads libmicrohttpd.
 #include "http.h"
 
 #include <dlfcn.h>
@@ -6,7 +6,8 @@
 
 #include "console.h"
 
-// Finds the address of a function. ISO C does not allow the conversion of a void * to a function pointer.
+// Finds the address of a function. Copies the address, because ISO C does not allow the conversion of a void * to a
+// function pointer.
 static bool find(void *library, const char *name, void *function)
 {
     void *address = dlsym(library, name);

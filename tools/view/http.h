@@ -1,4 +1,4 @@
-// http.h: the functions of libmicrohttpd, which `lambent view` loads with dlopen.
+// http.h: declares the functions of libmicrohttpd, which `lambent view` loads with dlopen.
 // https://www.gnu.org/software/libmicrohttpd/manual/libmicrohttpd.html
 #ifndef HTTP_H
 #define HTTP_H

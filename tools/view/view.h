@@ -1,5 +1,5 @@
-// view.h: `lambent view`: a server, reachable only from this machine, for the page that shows a model or the gallery of
-// a folder.
+// view.h: implements `lambent view`: a server, reachable only from this machine, for the page that shows a model or the
+// gallery of a folder.
 #ifndef VIEW_H
 #define VIEW_H
 
@@ -43,7 +43,7 @@ struct view_sockets {
 struct view_connection {
     struct view *view;
     struct MHD_Connection *connection;
-    struct view_task *task; // the task that it waits for
+    struct view_task *task; // the task that the request waits for
     struct view_result result;
     bool finished; // the task is finished and `result` is set
     enum view_kind kind;

@@ -22,7 +22,7 @@ void view_answer_headers(const struct view *view, struct MHD_Response *response,
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++)
         view->http.MHD_add_response_header(response, headers[i][0], headers[i][1]);
     view->http.MHD_add_response_header(response, "Content-Type", type);
-    // The page contains its own policy; other contents get a strict one.
+    // The page contains its own policy; other contents get a strict policy.
     view->http.MHD_add_response_header(response, "Content-Security-Policy",
                                        strncmp(type, "text/html", 9) == 0 ? "frame-ancestors 'none'"
                                                                           : "default-src 'none'; sandbox");
@@ -82,7 +82,7 @@ enum MHD_Result view_answer_result(struct view_connection *c)
         return view_answer_text(c->view, c->connection, 503, "out of memory");
     size_t size = result.notes + result.data;
     memmove(result.bytes, result.bytes + result.notes_at, size);
-    if (c->thumbnail && result.status == 422) { // browsers also show the picture of an error status
+    if (c->thumbnail && result.status == 422) { // browsers show a picture even if the status is an error
         result.bytes[size] = 0;                 // the process has reserved a byte for it
         char *picture = view_gallery_failed(c->view, result.bytes, &size);
         free(result.bytes);

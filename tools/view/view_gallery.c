@@ -30,7 +30,8 @@ char *view_gallery_words(const struct view *view, const char *model, size_t *siz
     return words;
 }
 
-// Reads a model's size and time. Returns false if it cannot be opened: a link that leads out of the folder.
+// Reads a model's size and time. Returns false if the file cannot be opened, for example because it is a link that
+// leads out of the folder.
 static bool is_open(const struct view *view, const char *path, struct stat *about)
 {
     int file = view_files_open(&view->files, path);
@@ -66,7 +67,7 @@ static void put_models(FILE *out, const struct view *view, const struct batch_pl
     fputs("<ul>\n", out);
     for (size_t i = 0; i < plan->count; i++) {
         const char *path = plan->models[i].path + prefix;
-        path += *path == '/' && path[1] == '/'; // the folder's name ends with '/'
+        path += *path == '/' && path[1] == '/'; // if the folder's name ends with '/'
         struct stat about;
         if (is_open(view, path, &about)) // false for a link that leads out of the folder
             put_model(out, view, path, &about);

@@ -12,7 +12,7 @@ enum { VIEW_THUMBNAIL = 256 }; // pixels, the width and height
 bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_error *error);
 
 // Returns an SVG with a sentence, shown for a picture that cannot be drawn; the sentence names the file relative to the
-// folder. It is allocated with malloc; NULL if memory runs out.
+// folder. The SVG is allocated with malloc. Returns NULL if memory runs out.
 char *view_gallery_failed(const struct view *view, const char *sentence, size_t *size);
 
 extern const char *const view_gallery_style, *const view_gallery_script; // "gallery.css", "gallery.js"

@@ -18,7 +18,7 @@ enum { PAGE_MAX = 64 << 20 }; // the maximum size of the page
 
 // --- the options of the command line
 
-// Stores the real paths of the files and replaces them by paths in the page.
+// Stores the real paths of the environment's files in `files`.
 static bool take_environment(struct view_files *files, const struct page_model *model, lam_error *error)
 {
     files->environment = calloc((size_t)model->count + 1, sizeof *files->environment);
@@ -35,7 +35,7 @@ static bool take_environment(struct view_files *files, const struct page_model *
 
 struct words {
     FILE *words, *fragment;
-    const char *environment; // NULL leaves it unchanged
+    const char *environment; // NULL leaves the value unchanged
 };
 
 static void put_option(void *user, const char *name, const char *value)
@@ -112,7 +112,8 @@ static bool put_data(FILE *out, const struct view_page *page, const char *model,
     return ok;
 }
 
-// The page's policy forbids all connections; this one allows connections to the page's own server.
+// The policy in the page's file forbids all connections. own_policy replaces it and allows connections to the page's
+// own server.
 static const char *const policy = "; base-uri 'none'", *const own_policy = "; connect-src 'self'; base-uri 'none'";
 
 static bool fill(struct view_page *page, const char *text, const char *model, lam_error *error)

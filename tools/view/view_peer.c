@@ -23,7 +23,7 @@ void view_peers_close(struct view_peers *peers)
 }
 
 // Parses a line of a table: "SL: LOCAL:PORT REMOTE:PORT STATE TX:RX TIMER:WHEN RETRANSMITS UID …", with hexadecimal
-// numbers except for UID. Returns true if it describes the other end of the given connection.
+// numbers except for UID. Returns true if the line describes the other end of the given connection.
 static bool is_other_end(const char *line, int other_port, int port, unsigned *state, unsigned *user)
 {
     char local[33], remote[33];

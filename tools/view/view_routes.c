@@ -1,6 +1,6 @@
 // view_routes.c: decides which requests are answered. A page of another site can send requests here, and its host name
-// can resolve to this machine. But it does not know the token, its Host and Origin headers differ, and it cannot read
-// the answers (view_answer.c).
+// can resolve to this machine. But such a page does not know the token, its Host and Origin headers differ, and it
+// cannot read the answers (view_answer.c).
 #include "view_routes.h"
 
 #include <arpa/inet.h>
@@ -18,7 +18,7 @@
 
 // --- who asks
 
-// Takes a time that does not depend on the position of the first difference.
+// Compares two tokens in a time that does not depend on the position of the first difference.
 static bool same_token(const char *given, const char *token)
 {
     unsigned difference = 0;
@@ -64,7 +64,7 @@ static bool is_own_host(const struct view *view, const char *host)
 }
 
 // Returns whether the browser's headers say that the request is for this server and comes from one of its pages. Each
-// header may occur only once, because a relay may have checked the other one.
+// header may occur only once, because a relay may have checked another occurrence.
 static bool is_from_here(const struct view_connection *c)
 {
     const struct header host = header(c, "Host"), origin = header(c, "Origin"), site = header(c, "Sec-Fetch-Site");
@@ -101,7 +101,7 @@ static int number_of(const struct view_connection *c, const char *key)
     return text && *text && !*end && number >= 0 && number < 1 << 20 ? (int)number : -1;
 }
 
-// Starts a task. When the request is finished, the connection is answered.
+// Starts a task. The connection is answered when the task is finished.
 static enum MHD_Result begin(struct view_connection *c, enum view_kind kind, const char *words, size_t size,
                              const char *client)
 {
@@ -209,7 +209,7 @@ static enum MHD_Result answer_page(struct view_connection *c)
     return view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", page->text, page->size, VIEW_BORROWED);
 }
 
-// Returns the rest of an address after a prefix, which is a path in the page.
+// Returns the path in the page that follows a route in an address, or NULL if the address has another route.
 static const char *path_after(const char *address, const char *route)
 {
     size_t length = strlen(route);
@@ -252,7 +252,7 @@ static enum MHD_Result answer_address(struct view_connection *c, const char *add
     return view_answer_text(view, c->connection, 404, "no such page");
 }
 
-// Another user can read the token in the arguments of xdg-open in /proc.
+// Returns whether the request is from this user. Another user can read the token in the arguments of xdg-open in /proc.
 static bool is_own_user(const struct view_connection *c)
 {
     struct sockaddr_in other = {0};

@@ -1,8 +1,8 @@
-// view_routes.h: answers the requests.
+// view_routes.h: answers HTTP requests.
 //
 // Every address starts with the token, "/0123…cdef/". The routes are "" (the page, or the gallery of a folder), "page",
 // "gallery.css", "files/PATH", "thumb/PATH" and "events". The routes "model", "draw", "picture" and "explain" (x=, y=)
-// take the words of the page's command line (w=…, repeated; c=… identifies the page).
+// read the words of the page's command line (w=…, repeated; c=… identifies the page).
 #ifndef VIEW_ROUTES_H
 #define VIEW_ROUTES_H
 

@@ -1,5 +1,5 @@
-// view_server.c: the start, the loop and the end of the server. It has one thread, because every event is a file that
-// becomes readable.
+// view_server.c: starts the server, runs its loop and ends it. The server needs only one thread, because every event
+// makes a file readable.
 #include "view.h"
 
 #include <arpa/inet.h>

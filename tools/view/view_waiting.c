@@ -86,7 +86,7 @@ void view_waiting_begin(struct view *view, struct MHD_Connection *connection)
 
 // Shuts down both directions of the connection, so that the library closes it. If only reading were shut down, the
 // kernel would still accept bytes, and the library would wait for more. Without a linger time the kernel immediately
-// forgets a closed connection. Otherwise an attacker could fill its table, which is read for each request
+// forgets a closed connection. Otherwise an attacker could fill the kernel's table, which is read for each request
 // (view_peer.c).
 static void drop(struct view_sockets *list, struct view_socket *s)
 {

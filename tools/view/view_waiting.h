@@ -1,5 +1,6 @@
 // view_waiting.h: limits the connections whose next request has not arrived completely. Any user of this machine can
-// open many connections and send nothing; the oldest ones are closed, so that other requests are answered.
+// open many connections and send nothing; the server closes the oldest connections, so that other requests are
+// answered.
 #ifndef VIEW_WAITING_H
 #define VIEW_WAITING_H
 
@@ -20,7 +21,8 @@ const struct view_socket *view_waiting_end(struct view *view, struct MHD_Connect
 // Must be called when a connection has been answered and may send another request.
 void view_waiting_begin(struct view *view, struct MHD_Connection *connection);
 
-// Closes connections that have waited for some seconds, and the oldest if there are more than VIEW_WAITING_MAX.
+// Closes connections that have waited for some seconds, and the oldest connections if there are more than
+// VIEW_WAITING_MAX.
 void view_waiting_drop(struct view *view);
 
 #endif

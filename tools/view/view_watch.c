@@ -1,5 +1,5 @@
-// view_watch.c: watches folders for changed files. Watching the files themselves would not work, since editors replace
-// a file by a new one.
+// view_watch.c: watches folders for changed files. Watching the files themselves would not work, because editors
+// replace a file with a new file.
 #include "view_watch.h"
 
 #include <limits.h>
@@ -46,7 +46,7 @@ static void add(struct view_watch *watch, const char *real_path, char *folder, c
         struct view_watched *w = &watch->items[i];
         bool same = strcmp(w->folder, folder) == 0 && (only ? w->only && strcmp(w->only, only) == 0 : !w->only);
         if (same && strcmp(w->real_path, real_path) == 0) {
-            w->number = number; // another folder may have taken its name
+            w->number = number; // another folder may now have this name
             number = -1;
         }
     }

@@ -5,10 +5,10 @@
 #include "view_files.h"
 
 struct view_watched {
-    int number;      // the kernel's number; −1 if the folder is missing
+    int number;      // inotify's number for the watch; −1 if the folder is missing
     char *real_path; // the path on this machine
     char *folder;    // the path in the page: "", "/textures"
-    char *only;      // the only relevant name in the folder, for the model; NULL means all
+    char *only;      // the only relevant name in the folder, for the model; NULL means all names
 };
 
 struct view_watch {

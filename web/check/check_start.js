@@ -1,4 +1,4 @@
-// check_start.js: starts the worker of checks and the text editor. Fetched when the tab of shaders is opened.
+// check_start.js: starts the worker of checks and the text editor. The page fetches this file when the tab of shaders is opened.
 import { caller } from './caller.js';
 import { insideScript, insideStream, insideText } from './inside.js';
 import { fetchModule } from './start.js';

@@ -10,7 +10,7 @@ const calls = {
     return check.lists();
   },
   exercise: ({ mistake }) => check.exercise(mistake),
-  // The report, with the pictures of each scene: RGBA of size² pixels.
+  // Returns the report with the pictures of each scene. A picture is the RGBA of size² pixels.
   check({ size, ...asked }) {
     const report = check.check({ ...asked, size });
     for (const [i, scene] of (report.scenes ?? []).entries())

@@ -1,5 +1,5 @@
-// codemirror.src.js: the parts of CodeMirror 6 (npm, MIT) that the page uses. esbuild bundles them into codemirror.js (web/build.py). Styles go to the shadow
-// root of the editor's element, where the page's content security policy allows them.
+// codemirror.src.js: imports the modules of CodeMirror 6 (npm, MIT) that the page uses, and makes an editor with them. esbuild bundles them into codemirror.js
+// (web/build.py). CodeMirror's styles are added to the shadow root of the editor's element, because the page's content security policy allows them there.
 import { indentWithTab } from '@codemirror/commands';
 import { HighlightStyle, StreamLanguage, syntaxHighlighting } from '@codemirror/language';
 import { shader } from '@codemirror/legacy-modes/mode/clike';
@@ -26,7 +26,7 @@ const theme = EditorView.theme({
   '.cm-tooltip, .cm-panels': { color: 'var(--front)', backgroundColor: 'var(--back)' },
 });
 
-// An editor in `place`: its text, the messages of a compiler, [{line, text}], and a line to scroll to.
+// Makes an editor in `place`. Its `text` can be read and set, showErrors([{line, text}]) shows the messages of a compiler, and goTo(line) scrolls to a line.
 export function makeEditor(place, { label, onchange }) {
   const root = place.attachShadow({ mode: 'open' });
   let silent = false;

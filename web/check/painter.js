@@ -1,10 +1,10 @@
-// painter.js: draws with WebGL 2 for the module of checks, through the functions that painter.c imports. Pictures are floats if the browser can draw to them
-// (EXT_color_buffer_float), or else bytes.
+// painter.js: draws with WebGL 2 for the module of checks, through the functions that painter.c imports. The pixels of pictures are floats if the browser can
+// draw to floats (EXT_color_buffer_float). Otherwise they are bytes.
 
 // Maps GLSL types to lam_check_type.
 const TYPES = new Map([['FLOAT', 1], ['INT', 2], ['BOOL', 3], ['FLOAT_VEC2', 4], ['FLOAT_VEC3', 5], ['FLOAT_VEC4', 6], ['FLOAT_MAT3', 7], ['FLOAT_MAT4', 8],
   ['SAMPLER_2D', 9]]);
-// Columns and rows of a lam_check_type.
+// The numbers of columns and rows of each lam_check_type.
 const SHAPES = [[0, 0], [1, 1], [1, 1], [1, 1], [1, 2], [1, 3], [1, 4], [3, 3], [4, 4], [1, 4]];
 const NONE = 0, FRONT = 2; // of lam_check_cull
 
@@ -18,7 +18,7 @@ export class Painter {
   #memory = null;
   #canvas;
 
-  // `canvas()` creates a canvas; in a worker, an OffscreenCanvas.
+  // `canvas()` creates a canvas. In a worker it creates an OffscreenCanvas.
   constructor(canvas) {
     this.#canvas = canvas;
   }
@@ -27,7 +27,7 @@ export class Painter {
     this.#memory = instance.exports.memory;
   }
 
-  // The imports of the module.
+  // Returns the imports of the module.
   get imports() {
     const call = (name) => (...all) => this[name](...all);
     return Object.fromEntries(['open', 'close', 'compile', 'input_count', 'input', 'forget', 'mesh', 'value', 'stream', 'draw'].map((name) => [name, call(name)]));
@@ -38,7 +38,7 @@ export class Painter {
     return new TextDecoder().decode(bytes.slice(0, end));
   }
 
-  // Writes a text with a terminating 0. If it is too long, it is cut off between two characters.
+  // Writes a text with a terminating 0. If the text is too long, it is cut off between two characters.
   #write(at, capacity, text) {
     const bytes = new Uint8Array(this.#memory.buffer, at, capacity);
     const { written } = new TextEncoder().encodeInto(text ?? '', bytes.subarray(0, capacity - 1));
@@ -173,7 +173,7 @@ export class Painter {
 
   // --- values
 
-  // The location of element `index` of a uniform.
+  // Returns the location of element `index` of a uniform.
   #location(own, input, index) {
     const name = input.size > 1 || input.name.endsWith('[0]') ? input.name.replace(/\[0\]$/, '') + `[${index}]` : input.name;
     return (input.places[index] ??= this.#gl.getUniformLocation(own.program, name));
@@ -210,7 +210,7 @@ export class Painter {
         }
   }
 
-  // A texture of one texel.
+  // Binds a texture of one texel.
   #sampler(own, location, color) {
     const gl = this.#gl, unit = own.units++;
     own.textures[unit] ??= gl.createTexture();

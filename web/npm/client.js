@@ -1,4 +1,4 @@
-// client.js: a Lambent in a worker, one call at a time. Aborting a call ends its worker, and the next call starts a new one.
+// client.js: runs a Lambent in a worker, one call at a time. If a call is aborted, its worker is ended, and the next call starts a new worker.
 import { Files, typeError } from './files.js';
 import { LambentError } from './lambent.js';
 import { checkCall, wordsOf } from './words.js';
@@ -82,7 +82,7 @@ export class LambentWorker {
     }
   }
 
-  // Runs one call at a time.
+  // Runs the call after the previous calls have ended.
   #queue(method, args, call = {}) {
     const answer = this.#last.then(() => this.#ask(method, args, call));
     this.#last = answer.catch(() => {});

@@ -11,8 +11,8 @@ function checkPath(where, path) {
 }
 
 export class Files extends Plain {
-  changed = false; // since the last picture
-  // Called with each change, for a worker; null: not used.
+  changed = false; // whether files have changed since the last call
+  // Called with each change of the files, or null. A LambentWorker sets it (client.js).
   onChange = null;
 
   // Bytes are not copied. A string is stored as UTF-8.

@@ -1,4 +1,4 @@
-// index.js: Lambent as an npm package (docs/npm.md): pictures of 3D models in node and browsers, from files in memory.
+// index.js: the npm package (docs/npm.md). It draws pictures of 3D models in node and browsers, from files in memory.
 //
 //   const lambent = await open();
 //   lambent.files.set('/bunny.stl', bytes);
@@ -24,7 +24,7 @@ async function compileResponse(response) {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-// The module from a URL, a Response, bytes or a compiled module; by default the package's own file.
+// Compiles the module from a URL, a Response or bytes, or returns `source` if it is a compiled module. The default is the package's own file.
 async function compile(source, signal) {
   source = await source;
   if (source === undefined) source = new URL('./lambent.wasm', import.meta.url);
@@ -40,7 +40,7 @@ export class Lambent {
   #compiled;
   #module = null; // created on first use; an aborted drawing or a trap makes it unusable
   #disposed = false;
-  #progress = null; // of the running call
+  #progress = null; // called with the progress of the running call
 
   constructor(module, files = new Files()) {
     if (!(module instanceof WebAssembly.Module)) throw typeError('Lambent', 'module', module, 'a WebAssembly.Module');
@@ -71,7 +71,7 @@ export class Lambent {
     }
   }
 
-  // The picture: pixels, or the bytes of a file with { as: 'png' } and similar.
+  // Returns the picture: its pixels, or the bytes of a file with { as: 'png' } and similar.
   draw(model, options = undefined, call = undefined) {
     const words = wordsOf('draw', model, options);
     const about = checkCall('draw', Array.isArray(model) ? (call ?? options) : call);
@@ -83,20 +83,20 @@ export class Lambent {
     });
   }
 
-  // One pixel, as `lambent explain --json` prints it.
+  // Returns the explanation of one pixel, as `lambent explain --json` prints it.
   explain(model, x, y, options = undefined) {
     for (const [name, value] of [['x', x], ['y', y]]) if (!Number.isInteger(value)) throw typeError('explain', name, value, 'a whole number');
     const words = wordsOf('explain', model, options);
     return this.#run({}, (module) => module.explain(words, x, y));
   }
 
-  // The picture's lights, as `lambent lights` prints them.
+  // Returns the picture's lights, as `lambent lights` prints them.
   lights(model, options = undefined) {
     const words = wordsOf('lights', model, options);
     return this.#run({}, (module) => module.lights(words));
   }
 
-  // The options of `draw`, as the program's help describes them, the names of shapes and the version.
+  // Returns the options of `draw` as the program's help describes them, the names of the shapes, and the version.
   describe() {
     return this.#run({}, (module) => module.options());
   }
@@ -114,7 +114,7 @@ export async function open(source = undefined, { signal } = {}) {
   return new Lambent(await compile(source, signal));
 }
 
-// `worker`: creates the worker, for bundlers that do not find worker.js by its URL.
+// `worker` is a function that creates the worker. It is for bundlers that do not find worker.js by its URL.
 export async function openWorker(source = undefined, { signal, worker } = {}) {
   signal?.throwIfAborted();
   if (worker !== undefined && typeof worker !== 'function') throw typeError('openWorker', 'worker', worker, 'a function');

@@ -3,7 +3,7 @@ import { typeError } from './files.js';
 
 const FORMATS = ['pixels', 'png', 'jpg', 'ppm', 'pfm'];
 
-// lightCutoff: --light-cutoff.
+// Converts the key of an option to the option: "lightCutoff" becomes "--light-cutoff".
 const nameOf = (key) => '--' + key.replace(/[A-Z]/g, (letter) => '-' + letter.toLowerCase());
 
 function checkWords(where, words) {
@@ -20,7 +20,7 @@ function wordsOfOption(where, key, value) {
   return [`${nameOf(key)}=${value}`];
 }
 
-// The words of a model with options by name, or with an array of words.
+// Returns the words of a model and its options. `model` may also be an array of words, which is then returned.
 export function wordsOf(where, model, options = {}) {
   if (Array.isArray(model)) return checkWords(where, model);
   if (typeof model !== 'string' || model === '' || model.startsWith('-'))
@@ -29,7 +29,7 @@ export function wordsOf(where, model, options = {}) {
   return [model, ...Object.entries(options).flatMap(([key, value]) => wordsOfOption(where, key, value))];
 }
 
-// The last argument of draw: signal, onProgress, as.
+// Checks the last argument of draw: signal, onProgress, as.
 export function checkCall(where, call = {}) {
   const { signal, onProgress, as = 'pixels' } = call ?? {};
   if (typeof call !== 'object' || call === null) throw typeError(where, 'call', call, 'an object');

@@ -1,4 +1,4 @@
-// app.js: shared by all modules of the page: the state, calls of the worker, the last picture, events and messages.
+// app.js: provides the state, calls of the worker, the last picture, events and messages to all modules of the page.
 //
 // Each module of the page imports what it needs from here and registers its listeners when it is imported. page.js imports all of them.
 //   on('words', f)    the command line has changed, or a gesture has ended
@@ -17,7 +17,7 @@ import { localize, text } from './strings.js';
 
 localize(document); // the stage has its final size only after the page has its texts
 
-// The size that fills the stage, at most 1.6 million pixels.
+// Returns the size that fills the stage, at most 1.6 million pixels.
 export function stageSize() {
   const { clientWidth, clientHeight } = $('view'), ratio = devicePixelRatio || 1;
   const width = Math.max(320, clientWidth * ratio), height = Math.max(240, clientHeight * ratio), k = Math.min(1, Math.sqrt(1.6e6 / (width * height)));
@@ -63,8 +63,8 @@ export function emit(name) {
   for (const listener of listeners.get(name) ?? []) listener();
 }
 
-// The page keeps files in the root of a tree. Messages show their names without the leading '/', as the command line does. A missing file is one that
-// the user has not chosen yet.
+// The page keeps files in the root of a tree. Messages show the files' names without the leading '/', as the command line does. A file is missing if the user
+// has not chosen it yet.
 export function plainNames(sentence) {
   const paths = [state.model, ...openedPaths(), ...view.missing].filter((path) => path.startsWith('/'));
   const told = view.missing.length && !$('served') ? sentence.replace('cannot open: No such file or directory', text('notChosen')) : sentence;
@@ -83,7 +83,7 @@ export function say(sentence) {
   $('spoken').textContent = sentence;
 }
 
-// --- a gesture: one step of undo, with quick pictures until it ends
+// --- gestures: a gesture is one step of undo; the page draws quick pictures until the gesture ends
 
 let gesture = 0, still = 0;
 

@@ -1,12 +1,12 @@
 // arrows.js: draws the vectors of an explained point as arrows over the picture: n, v, l, r, h, the tangent t of threads, and R if the environment is
-// mirrored. All arrows have the same length in space, a fifth of the picture's height. An arrow towards the eye is a ring.
+// mirrored. All arrows have the same length in space, a fifth of the picture's height. An arrow that points towards the eye or away from it is shown as a ring.
 import { view } from './app.js';
 import { project } from './camera.js';
 import { $, svg } from './dom.js';
 
 const LENGTH = 0.2, place = $('overlay-arrows');
 
-// The arrows: name, vector, and whether the reflection model uses the vector.
+// Returns for each arrow the name, the vector, and whether the reflection model uses the vector.
 function vectorsOf(triangle, point, light) {
   const list = [['n', point.n, true], ['v', point.v, true]];
   if (point.environment && point.terms.reflection.some((x) => x !== 0)) list.push(['R', point.environment.R, true]);
@@ -21,7 +21,7 @@ export function clearArrows() {
   place.replaceChildren();
 }
 
-// `chosen`: the number of the point (a corner in Gouraud shading) and of the light.
+// `chosen` contains the number of the point (a corner in Gouraud shading) and the number of the light.
 export function showArrows(pixel, chosen) {
   clearArrows();
   const triangle = pixel?.triangles[0], point = triangle?.points[chosen.point];
@@ -42,7 +42,7 @@ export function showArrows(pixel, chosen) {
     const group = svg('g', { class: `arrow arrow-${name}${used ? '' : ' unused'}`, 'data-name': name, 'data-tip': tip.map((x) => x.toFixed(2)).join(' ') });
     const [dx, dy] = [tip[0] - tail[0], tip[1] - tail[1]], size = Math.hypot(dx, dy), [ux, uy] = size > 0 ? [dx / size, dy / size] : [1, 0];
     if (size < 9) {
-      // Towards the eye: a ring with a dot. Away from it: a ring with a cross.
+      // An arrow towards the eye is a ring with a dot. An arrow away from the eye is a ring with a cross.
       const parts = vector[2] > 0 ? [svg('circle', { cx: tail[0], cy: tail[1], r: 1.5 })] : [svg('path', { d: `M${tail[0] - 5} ${tail[1] - 5}l10 10m0 -10l-10 10` })];
       for (const kind of ['casing', 'core']) group.append(svg('g', { class: kind }, svg('circle', { cx: tail[0], cy: tail[1], r: 7 }), ...parts.map((part) => part.cloneNode())));
     } else {

@@ -1,4 +1,4 @@
-// bar.js: undo and redo, the command line and its copy buttons, saving, and the address.
+// bar.js: provides undo and redo, shows the command line with its copy buttons, saves pictures, and keeps the address up to date.
 import { call, on, refuse, state, view } from './app.js';
 import { $, ours } from './dom.js';
 import { setOf } from './opened.js';
@@ -13,8 +13,8 @@ on('words', () => {
   if (!view.moving) remember(toFragment(state.words));
 });
 
-// The address contains the picture's command line. The browser's Back returns to the picture as it was opened, and Forward to the changed picture: the first
-// change, and each other model, adds an entry to the history.
+// The address contains the picture's command line. The first change of a picture adds an entry to the browser's history, and so does each other model. Back
+// returns to the picture as it was opened, and Forward returns to the changed picture.
 let isFirst = true;
 function remember(hash) {
   const before = fromFragment(location.hash), isSame = before?.join('\n') === state.words.join('\n');
@@ -34,7 +34,7 @@ addEventListener('keydown', (event) => {
 export async function copy(copied, button) {
   const label = button.textContent;
   let isCopied = false;
-  button.style.minWidth = `${button.offsetWidth}px`; // the buttons beside it stay in place
+  button.style.minWidth = `${button.offsetWidth}px`; // so that the buttons beside it stay in place
   try {
     await navigator.clipboard.writeText(copied);
     button.textContent = text('copied');
@@ -63,7 +63,7 @@ export function download(bytes, ending, type) {
   return link.download;
 }
 
-// Describes a saved PNG: its size and kind of pixels are in its first bytes.
+// Returns a description of a saved PNG. The size and the kind of pixels are read from its first bytes.
 function savedLine(words, bytes, file) {
   const head = new DataView(bytes.buffer, bytes.byteOffset), size = { width: head.getUint32(16), height: head.getUint32(20) }, hasAlpha = bytes[25] >= 4;
   const color = new State(words).values('background').at(-1);
@@ -71,7 +71,7 @@ function savedLine(words, bytes, file) {
   return color ? text('savedColor', { file, ...size, color }) : text('savedOpaque', { file, ...size });
 }
 
-// Saves the picture of the given words, which may differ from those of the page.
+// Saves the picture of `words`, which may differ from the words of the page.
 export async function saveNamed(words) {
   try {
     const bytes = await call('save', { words, ending: 'png' });

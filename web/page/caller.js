@@ -1,12 +1,12 @@
-// caller.js: calls of a worker that can be ended and restarted. A new worker receives the state of the old one again.
+// caller.js: calls the functions of a worker that can be ended and restarted. A new worker receives the state of the previous worker.
 import { text } from './strings.js';
 
 // Thrown if a call was ended because its answer is no longer needed.
 export class Ended extends Error {}
 
-// `open` starts the worker. `wasm` is its module. `ways`: for each part of the module, by name, a list of functions that fetch it: the part's bytes,
-// or the module with threads. The first that succeeds is used. It is empty if the module is undivided. `helps`: this worker does not draw the main
-// picture.
+// `open` starts the worker. `wasm` is its module. `ways` has a list of functions for each part of the module, by the part's name. Each function fetches the
+// part's bytes, or the module with threads. The first function that succeeds is used. `ways` is empty if the module is undivided. `ways.helps` means that this
+// worker does not draw the main picture.
 export function caller(open, wasm, ways = {}) {
   const waiting = new Map(), fetched = new Map(), parted = Boolean(ways.more);
   let next = 0, worker = null, setup = [], ready = Promise.resolve(), cancel = null, onprogress = () => {};
@@ -28,7 +28,7 @@ export function caller(open, wasm, ways = {}) {
       worker.postMessage(message);
     });
 
-  // Keeps the last message of each kind, for a restarted worker.
+  // Keeps the last message of each kind, so that a restarted worker can receive it again.
   function remember(message) {
     const key = message.call + (message.part ?? '');
     setup = [...setup.filter((one) => one.key !== key), { key, message }];
@@ -55,7 +55,7 @@ export function caller(open, wasm, ways = {}) {
     cancel = shared ? new Int32Array(shared, flag, 1) : cancel;
   }
 
-  // Runs once, and again after a failed attempt.
+  // Fetches a part once. After a failed attempt, the next call fetches it again.
   function fetchPart(part) {
     if (!fetched.has(part)) {
       fetched.set(part, complete(part).catch((error) => {
@@ -96,19 +96,19 @@ export function caller(open, wasm, ways = {}) {
     async call(name, message) {
       const whole = { ...message, call: name, parted };
       if (name === 'start') whole.wasm = await wasm;
-      await ready; // of a restarted worker
+      await ready; // wait for a restarted worker
       if (name === 'start' || name === 'files') remember(whole);
       return send(whole);
     },
     // Fetches the second part of the module before it is needed.
     fetchRest: () => (ways.rest?.length ? fetchPart('rest') : Promise.resolve()),
-    // Asks the running call to end, if the worker shares its memory; returns false if only restart() can end it. A call that is `endable` is then
+    // Asks the running call to end if the worker shares its memory. Returns false if only restart() can end the call. If the ended call is `endable`, it is
     // rejected (Ended). Any other call is sent again.
     cancel() {
       if (cancel) Atomics.store(cancel, 0, 1);
       return Boolean(cancel);
     },
-    // Whether cancel() can end the running call.
+    // Returns whether cancel() can end the running call.
     endsByFlag: () => Boolean(cancel),
     restart,
     end: () => worker.terminate(),

@@ -1,4 +1,4 @@
-// camera.js: orbit, pan and zoom of a camera in the form of the text of --camera. Every step reads the numbers of the text and writes a new text, so the
+// camera.js: turns, pans and zooms a camera that is given as the text of --camera. Every step reads the numbers of the text and writes a new text, so the
 // picture, the copied command and the link contain the same decimal numbers.
 
 export const sub = (a, b) => a.map((x, i) => x - b[i]);
@@ -9,10 +9,10 @@ export const scale = (a, k) => a.map((x) => x * k);
 export const length = (a) => Math.sqrt(dot(a, a));
 export const unit = (a) => scale(a, 1 / (length(a) || 1));
 
-// Whether the camera sets its near and far planes. If not, the program fits them.
+// Returns whether the camera sets its near and far planes. If not, the program fits them.
 const isCut = ({ near }) => typeof near === 'number';
 
-// Decimal text without trailing zeros.
+// Returns a decimal text without trailing zeros.
 export function decimal(x, digits) {
   const text = x.toFixed(digits);
   return text.includes('.') ? text.replace(/\.?0+$/, '').replace(/^-0$/, '0') : text;
@@ -33,7 +33,7 @@ function turned(v, axis, angle) {
   return add(add(scale(v, c), cross(axis, v), s), axis, dot(axis, v) * (1 - c));
 }
 
-// Rotates the camera around a point: radians to the right, and upwards to just below the pole of the upright axis.
+// Rotates the camera around a point by `right` and `up`, in radians. The camera stops just before it is straight above or below the point.
 export function orbit(camera, right, up, pole, centre) {
   const axis = unit(pole), out = unit(sub(camera.eye, camera.target));
   const elevation = Math.asin(Math.max(-1, Math.min(1, dot(out, axis))));
@@ -45,7 +45,7 @@ export function orbit(camera, right, up, pole, centre) {
   return { ...camera, eye: around(camera.eye), target: around(camera.target), up: axis };
 }
 
-// Moves the eye back in the same direction until a ball fits the picture from all angles.
+// Moves the eye to a distance at which a ball fits the picture. The ball then fits from all directions.
 export function around(camera, sphere, aspect) {
   const out = unit(sub(camera.eye, camera.target)), half = (camera.fovy_deg * Math.PI) / 360;
   const tight = Math.min(half, Math.atan(Math.tan(half) * aspect));
@@ -70,7 +70,8 @@ export function zoom(camera, factor) {
   return { ...camera, ...planes, eye: add(camera.target, out, 1 / factor) };
 }
 
-// Makes the near plane cut the model: 0 is in front of the model's sphere, and 1 behind it. At 0 the program fits both planes.
+// Makes the near plane cut the model. If `share` is 0, the near plane is in front of the model's sphere, and the program fits both planes. If it is 1, the near
+// plane is behind the sphere.
 export function cut(camera, sphere, share) {
   if (!(share > 0)) return { ...camera, near: null, far: null };
   const middle = dot(sub(camera.eye, sphere.centre), unit(sub(camera.eye, camera.target))), near = middle + (2 * share - 1) * sphere.radius;
@@ -83,7 +84,7 @@ export function cutShare(camera, sphere) {
   return Math.max(0, Math.min(1, ((camera.near - middle) / sphere.radius + 1) / 2));
 }
 
-// The planes that a value of --camera sets. Null: the program fits them.
+// Returns the planes that a value of --camera sets. They are null if the program fits them.
 export function planesOf(text) {
   const [near, far] = [/,near=([^,]+)/, /,far=([^,]+)/].map((pattern) => pattern.exec(text)?.[1]);
   return near && far ? { near: Number(near), far: Number(far) } : { near: null, far: null };
@@ -97,13 +98,13 @@ export function readCamera(text) {
     ortho: parts.ortho ? Number(parts.ortho) : 0, fovy_deg: parts.fovy ? Number(parts.fovy) : 30, ...planesOf(text) };
 }
 
-// The eye's axes in world space: right, up, and back towards the eye.
+// Returns the eye's axes in world space: to the right, upwards, and backwards.
 export function cameraAxes(camera) {
   const back = unit(sub(camera.eye, camera.target)), side = unit(cross(camera.up, back));
   return { side, above: cross(back, side), back };
 }
 
-// Half the picture's height at a depth in front of the eye, in model units.
+// Returns half the picture's height at a depth in front of the eye, in model units.
 const halfHeight = (camera, depth) => (camera.ortho > 0 ? camera.ortho : depth * Math.tan((camera.fovy_deg * Math.PI) / 360));
 
 // Projects a point to fractions of the picture's width and height, from the upper left corner. `behind`: the point is behind the eye.
@@ -113,8 +114,8 @@ export function project(camera, point, aspect) {
   return { x: 0.5 + dot(way, side) / (2 * half * aspect), y: 0.5 - dot(way, above) / (2 * half), depth, behind };
 }
 
-// The point of a ball's surface at a position in the picture, in fractions of its width and height: on the side towards the eye or on the far
-// side. Beside the ball, it is the nearest point of the surface.
+// Returns the point of a ball's surface that is seen at a position in the picture. The position is in fractions of the picture's width and height. The point is
+// on the side towards the eye, or on the far side if `isFar` is set. If the ball is not at that position, the nearest point of its surface is returned.
 export function onBall(camera, { centre, radius }, x, y, aspect, isFar) {
   const { side, above, back } = cameraAxes(camera), half = halfHeight(camera, 1);
   const across = add(scale(side, 2 * (x - 0.5) * half * aspect), above, 2 * (0.5 - y) * half), isParallel = camera.ortho > 0;

@@ -1,4 +1,5 @@
-// contents_tab.js: the tab of the model: measures, objects and materials to inspect, hide and colour, animations and variants.
+// contents_tab.js: the tab of the model. It shows the model's measures, objects, materials, animations and variants. The user can hide objects and colour
+// materials.
 import { call, on, state, view } from './app.js';
 import { $, element, ours } from './dom.js';
 import { Picker, hexOf } from './picker.js';
@@ -12,7 +13,7 @@ const UNITS = [[1, 'm'], [0.01, 'cm'], [0.001, 'mm'], [1e-6, 'µm'], [0.0254, 'i
 const place = $('panel-contents');
 let read = null, isReading = false;
 
-// The words that determine how the model is read.
+// Returns the words that determine how the model is read.
 const readWords = () => [state.model, ...state.words.slice(1).filter((word) => READS.includes(word.slice(2).split('=')[0]))].join('\n');
 
 const digits = (x) => Number(x.toPrecision(4)).toLocaleString('en');
@@ -29,7 +30,7 @@ function measures({ size, unit_m, triangles, vertices, object_count, material_co
 
 const hidden = (name) => state.values('hide').includes(name);
 
-// A row with a box that shows or hides all objects, parts or materials with this name.
+// Makes a row with a box that shows or hides all objects, parts or materials with this name.
 function row(name, shown, about, ...more) {
   const box = element('input', { type: 'checkbox', checked: !name || !hidden(name), disabled: !name, attributes: { 'aria-label': text('contentsShown', { name: shown }) } });
   box.onchange = () => setOption('hide', box.checked ? state.values('hide').filter((one) => one !== name) : [...state.values('hide'), name]);
@@ -51,7 +52,7 @@ function objects({ objects, object_count, materials }) {
   return element('ul', { className: 'contents' }, ...rows);
 }
 
-// The colour that the user has given a material, or else the model's colour.
+// Returns the colour that the user has given a material. If there is none, returns the model's colour.
 function colorOf(material) {
   const own = state.values('material').findLast((one) => one.startsWith('color=') && one.endsWith(`@${material.name}`));
   return own ? own.slice('color='.length, -material.name.length - 1) : hexOf(material.color);

@@ -7,7 +7,7 @@ import { text } from './strings.js';
 
 const WIDTH = 200, HEIGHT = 76, LEFT = 26, BOTTOM = 16, TOP = 6;
 
-// `at`: [x, y] of the marked point, or null.
+// `at` is [x, y] of the marked point, or null.
 export function plot(title, values, farthest, unit, at) {
   const most = Math.max(1, at ? at[1] : 0, ...values) > 1.001 ? Math.min(2, Math.max(...values)) : 1;
   const x = (share) => LEFT + share * (WIDTH - LEFT - 8), y = (value) => TOP + (1 - Math.min(value, most) / most) * (HEIGHT - TOP - BOTTOM);
@@ -28,7 +28,7 @@ export function plot(title, values, farthest, unit, at) {
   return element('figure', {}, element('figcaption', { textContent: title }), drawing);
 }
 
-// The plots of a light. `light`: its index among the lights of the picture; `explained`: the same light in an explanation, or null.
+// Returns the plots of a light. `light` is its index among the lights of the picture. `explained` is the same light in an explanation, or null.
 export async function curvesOf({ words, light, explained, triangle, type = explained?.type, onlyHighlight = false }) {
   const place = element('div', { className: 'curves' });
   const farthest = Number((2 * (explained?.distance ?? 5)).toPrecision(1)) || 1, reflection = triangle?.model ?? 'blinn-phong';

@@ -3,7 +3,7 @@ import { text } from './strings.js';
 
 export const $ = (id) => document.getElementById(id);
 
-// An element with properties. `attributes` are HTML attributes that are not properties (aria-…, translate).
+// Creates an element with properties. `attributes` are HTML attributes that are not properties (aria-…, translate).
 export function element(name, { attributes = {}, ...properties } = {}, ...children) {
   const made = Object.assign(document.createElement(name), properties);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -11,7 +11,7 @@ export function element(name, { attributes = {}, ...properties } = {}, ...childr
   return made;
 }
 
-// An element with words of the program, which the page does not translate.
+// Creates an element with words of the program, which the page does not translate.
 export const ours = (name, content, properties = {}) => element(name, { textContent: content, translate: false, ...properties });
 
 const SVG = 'http://www.w3.org/2000/svg';

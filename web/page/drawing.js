@@ -1,6 +1,6 @@
 // drawing.js: draws the command line in the worker and fits the picture to the stage. During a gesture, pictures have one sample and fewer pixels (pace.js).
-// When the pointer rests, the full picture is drawn. Only the newest of the waiting drawings is drawn. Outdated drawings are ended, and the Stop button ends
-// any drawing.
+// When the pointer rests, the full picture is drawn. If several drawings wait, only the newest one is drawn. Outdated drawings are ended, and the Stop button
+// ends any drawing.
 import { call, emit, on, plainNames, refuse, say, state, view, worker } from './app.js';
 import { Ended } from './caller.js';
 import { planesOf } from './camera.js';
@@ -11,12 +11,12 @@ import { finished, isTooLong, started, stopped } from './unfinished.js';
 
 const canvas = $('canvas'), context = canvas.getContext('2d'), pace = new Pace();
 const PATIENCE_MS = 1000, SHOWN_MS = 400, FLAG_MS = 50;
-const REST_MS = 50; // without a step of a gesture, until the full picture is drawn
-const SHORT_MS = 200; // a full picture that takes less is drawn when the pointer rests, even if no flag can end it
-let running = null, wanted = null, model = null, whole_ms = 0; // of the last full picture, without reading the model
+const REST_MS = 50; // the full picture is drawn if a gesture makes no step for this long
+const SHORT_MS = 200; // a full picture that takes less time is drawn when the pointer rests, even if no flag can end the drawing
+let running = null, wanted = null, model = null, whole_ms = 0; // the time of the last full picture, without the time for reading the model
 let resting = 0, sharp = null; // the task of the full picture that was started when the pointer rested
 
-// The words of a quick picture: one sample and fewer pixels.
+// Returns the words of a quick picture, which has one sample and fewer pixels.
 export function quickWords(words) {
   const [, width, height = width] = /^(\d+)(?:x(\d+))?$/.exec(state.values('size').at(-1) ?? (view.size ? `${view.size.width}x${view.size.height}` : '1024')) ?? [], few = words.filter((word) => !word.startsWith('--samples'));
   const scale = pace.scale(width * height);
@@ -24,7 +24,7 @@ export function quickWords(words) {
   return [...sized, '--samples=1'];
 }
 
-// A drawing in progress in the worker. `done`: the fraction that is done. The first half of it is reading the model.
+// A drawing in progress in the worker. `done` is the finished fraction. Reading the model is the first half.
 class Running {
   constructor(task) {
     Object.assign(this, { task, done: 0, isEnding: false, isStopped: false, timers: [] });
@@ -35,8 +35,9 @@ class Running {
     this.timers.push(setTimeout(act, ms));
   }
 
-  // Ends an outdated drawing: by the flag, or else by restarting the worker. The worker gets a second to finish, or twice the time for reading the model, which
-  // the next worker must repeat. `now`: the user has pressed Stop.
+  // Ends an outdated drawing by the flag. If this does not succeed, restarts the worker after a second, or after twice the time for reading the model,
+  // whichever is longer. A restarted worker must read the model again. `now` means that the user has pressed Stop. If no flag can end the drawing, the worker
+  // is then restarted at once.
   end({ now = false } = {}) {
     if (view.giveUpPicture?.() || (this.isEnding && !now)) return;
     this.isEnding = true;
@@ -96,7 +97,7 @@ function drawNow() {
   if (view.moving && (worker.endsByFlag() || whole_ms < SHORT_MS)) resting = setTimeout(sharpen, REST_MS);
 }
 
-// Called when nothing moves any more and this picture is shown. `events`: the events that listeners have not received yet.
+// Called when this picture is shown and no gesture is in progress. `events` are the events that listeners have not received yet.
 function rest({ camera, sphere }, ...events) {
   Object.assign(view, { camera: { ...camera, ...planesOf(state.values('camera').at(-1)) }, sphere });
   events.forEach(emit);
@@ -136,7 +137,7 @@ function measure(task, ms) {
   else whole_ms = ms;
 }
 
-// Before another model is read, removes what refers to the previous model.
+// Removes the warnings and measurements of the previous model before another model is read.
 function forgetModel(name) {
   $('status').textContent = text('loadingModel', { name: name.replace(/^\//, '') });
   $('warnings').textContent = '';
@@ -154,7 +155,7 @@ function refused(error) {
   emit('missing');
 }
 
-// The Stop button, and Escape during a long drawing.
+// Ends the drawing. The Stop button calls this function, and so does the Escape key during a long drawing.
 function stop() {
   if (!running) return;
   wanted = null;
@@ -189,7 +190,7 @@ function showStatus({ width, height, triangles, frame_ms, warnings }) {
   $('warnings').textContent = warnings.map(plainNames).join(' · ');
 }
 
-// Makes the picture as large as possible, centred. Pixels appear as squares at three times their size and more.
+// Makes the picture as large as possible, centred. If the picture is enlarged by three or more, its pixels appear as squares.
 export function fit() {
   const { width, height } = view.size ?? canvas, room = $('view'), k = Math.min(room.clientWidth / width, room.clientHeight / height);
   const box = { left: (room.clientWidth - k * width) / 2, top: (room.clientHeight - k * height) / 2, width: k * width, height: k * height };
@@ -207,7 +208,7 @@ on('words', () => {
   isFirst = false;
 });
 
-// For screen readers: announces the direction of the view after a gesture.
+// Announces the direction of the view to screen readers after a gesture.
 let heard = null, last = '';
 on('still', () => {
   clearTimeout(heard);

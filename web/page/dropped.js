@@ -1,5 +1,5 @@
-// dropped.js: reads dropped files, including those in dropped folders. If the page was opened from a disk, Chromium cannot read the file of an entry
-// (webkitGetAsEntry), so the item's own file and the folder's handle are tried first. Other browsers have entries only.
+// dropped.js: reads dropped files, including the files in dropped folders. If the page was opened from a disk, Chromium cannot read the file of an entry
+// (webkitGetAsEntry), so the item's own file and the folder's handle are tried first. Other browsers provide only entries.
 
 async function ofHandle(handle, prefix) {
   if (handle.kind === 'file') return [[prefix + handle.name, await handle.getFile()]];

@@ -1,7 +1,7 @@
-// equations.js: the equations of an explained point with their values. The formulas of D and of the highlight's base come from the program;
+// equations.js: makes the equations of an explained point, with their values. The formulas of D and of the highlight's base come from the program;
 // tests/web/page.mjs computes each right-hand side and compares it with the program's number.
 
-// Four digits, with an exponent only for very large or small numbers.
+// Returns a number as text with four digits. Only very large and very small numbers have an exponent.
 export function number(x) {
   if (x === null || x === undefined) return '';
   const rounded = Number(x.toPrecision(4)), size = Math.abs(rounded);
@@ -12,14 +12,14 @@ export const triple = (v) => (v[0] === v[1] && v[1] === v[2] ? number(v[0]) : `(
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-// Replaces the dot products of a formula by numbers. Null: the formula contains other names.
+// Replaces the dot products in a formula by their values. Returns null if the formula contains other names.
 function filled(formula, point, light) {
   const values = { 'n·l': light.n_dot_l, 'n·h': dot(point.n, light.h), 'r·v': dot(light.r, point.v) };
   const text = formula.replace(/[nr]·[lhv]/g, (name) => number(values[name]));
   return /^max\([-\d.e+]+, 0\)$/.test(text) ? text : null;
 }
 
-// The cone of a spot light: its formula, and the same with numbers.
+// Returns the formula of a spot light's cone, and the formula with numbers in place of its names.
 function coneEquation({ cone, cos_axis: c, spot }) {
   const cosine = (degrees) => Math.cos((degrees * Math.PI) / 180);
   if (cone.outer_deg) {
@@ -30,7 +30,7 @@ function coneEquation({ cone, cos_axis: c, spot }) {
   return ['max(c, 0)^ε', `max(${number(c)}, 0)^${number(cone.exponent)}`];
 }
 
-// A light's rows: { name, formula, values, result }. `values` is null if the program reports only the result.
+// Returns a light's rows: { name, formula, values, result }. `values` is null if the program reports only the result.
 export function lightEquations(triangle, point, light) {
   const { formulas } = triangle, rows = [];
   const add = (name, formula, values, result) => rows.push({ name, formula, values, result });
@@ -71,7 +71,7 @@ export function lightEquations(triangle, point, light) {
   return rows;
 }
 
-// Light from all directions: hemisphere lights, ambient light, the environment.
+// Returns the rows of light from all directions: hemisphere lights, ambient light, the environment.
 export function aroundEquations(triangle, point) {
   const rows = [], add = (name, formula, values, result) => rows.push({ name, formula, values, result });
   if (triangle.model === 'none') return rows;
@@ -97,7 +97,7 @@ export function aroundEquations(triangle, point) {
   return rows;
 }
 
-// The sum of a point's terms.
+// Returns the sum of a point's terms.
 export function sumEquation(point) {
   const names = ['emission', 'ambient', 'diffuse', 'specular', 'reflection'].filter((name) => point.terms[name].some((x) => x !== 0));
   return { name: 'sum', formula: names.join(' + ') || '0', values: names.map((name) => triple(point.terms[name])).join(' + ') || '0', result: point.sum };

@@ -1,5 +1,5 @@
-// explaining.js: selects the explained point: the point under the pointer while this tab is open, or a point pinned by a click. A pinned point stays on the
-// surface when the camera moves.
+// explaining.js: selects the explained point. This is the point under the pointer while the tab is open, or a point that the user has pinned by a click. A
+// pinned point stays on the surface when the camera moves.
 import { call, emit, on, refuse, say, state, view } from './app.js';
 import { clearArrows, showArrows } from './arrows.js';
 import { cameraAxes, length, project, sub } from './camera.js';
@@ -24,7 +24,7 @@ let shown = null, busy = false, wanted = null;
 
 const explanation = new Explanation($('explain'), (chosen) => showArrows(shown, chosen));
 
-// Only the newest of the waiting requests is sent.
+// If several requests wait, only the newest one is sent.
 async function ask(at) {
   wanted = at;
   if (busy) return;
@@ -58,7 +58,7 @@ function show(pixel, aloud) {
   if (aloud) say(sentenceOf(pixel));
 }
 
-// The explained point in world space; null: the background.
+// Returns the explained point in world space, or null for the background.
 function worldIn(pixel) {
   const place = pixel.triangles[0]?.places?.[3];
   if (!place || !view.picture) return null;
@@ -114,7 +114,7 @@ canvas.addEventListener('pointerleave', () => {
 addEventListener('keydown', (event) => {
   if (event.key === 'Escape' && pin) unpin();
 });
-// Alt and arrow keys move the pinned point; with Shift, by one pixel.
+// Alt and an arrow key move the pinned point by 12 pixels. Alt, Shift and an arrow key move it by one pixel.
 canvas.addEventListener('keydown', (event) => {
   const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
   if (!arrow || !event.altKey) return;

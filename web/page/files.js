@@ -1,5 +1,5 @@
-// files.js: opens models from the menu, from files, from a folder, or by drag and drop. Files never leave the machine. If files that a model names are
-// missing, the page asks for them.
+// files.js: opens models from the menu, from files, from a folder, or by drag and drop. Files never leave the machine. If a model names files that are missing,
+// the page asks the user for them.
 import { emit, on, refuse, state, view } from './app.js';
 import { $, button, element } from './dom.js';
 import { droppedFiles } from './dropped.js';
@@ -12,7 +12,7 @@ import { text } from './strings.js';
 const isModel = (path) => view.endings.includes(path.replace(/^.*\./, '').toLowerCase());
 const baseOf = (path) => path.replace(/^.*\//, '').toLowerCase();
 let isAnswer = false; // the user has pressed a button that asks for missing files
-let rest = new Map(); // files of the last answer, which the model may still ask for
+let rest = new Map(); // the remaining files of the last answer; the model may need them later
 const plain = (path) => path.replace(/^\//, '');
 
 function showModels() {
@@ -29,11 +29,11 @@ function showModels() {
 on('words', showModels);
 on('ready', showModels);
 
-// Options that refer to contents of a model.
+// Matches the options that refer to contents of a model.
 const OF_MODEL = /^--(camera|hide|animation|time|variant|scene)=|^--(back-)?material=.*@/;
 const OF_IMAGE = /^--(size|background|view|azimuth|elevation|zoom|fov|projection)=/;
 
-// Another model starts with its own view and materials, not with those of the first picture. A scene file keeps its own size and background.
+// Another model starts with its own view and materials, not with the view and materials of the first picture. A scene file keeps its own size and background.
 function takeModel(name) {
   const set = setOf(name), own = set ? START : [], isSized = set && setsSize(name, set.files);
   state.set(withModel(state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word) && !(isSized && OF_IMAGE.test(word)))), name));
@@ -64,7 +64,7 @@ async function takeFiles(list) {
   const names = [...taken.keys()], awaited = state.model.startsWith('/') && !setOf(state.model) && !view.camera ? state.model : null;
   const models = ranked(names.filter(isModel), taken), found = setOf(state.model) ? companions(view.missing, taken) : new Map();
   if (!models.length && !found.size) return refuse(text('noModel', { files: names.map(plain).join(', '), endings: view.endings.map((ending) => '.' + ending).join(', ') }));
-  // A folder that contains the model itself is opened as a whole.
+  // If a folder contains the model itself, all its files are opened.
   const again = models.find((path) => baseOf(path) === baseOf(state.model));
   const completes = found.size && !again && (!models.length || isAsked || [...found.keys()].some(isModel));
   if (completes) return complete(found, taken);
@@ -76,7 +76,7 @@ async function takeFiles(list) {
   else takeModel(wanted);
 }
 
-// Adds missing files to the model. The others that were chosen with them are kept, since the model may ask for them next.
+// Adds missing files to the model. The other chosen files are kept, because the model may need them later.
 function complete(found, taken) {
   const { files } = setOf(state.model), placed = withNeighbours(found, taken);
   addCompanions(state.model, [...placed].filter(([path]) => found.has(path) || !files.has(path)));
@@ -87,10 +87,10 @@ function complete(found, taken) {
 const openFiles = () => ((isAnswer = false), $('files').click()), openFolder = () => ((isAnswer = false), $('folder').click());
 const asking = (open) => () => (open(), (isAnswer = true));
 
-// Explains how to add missing files. After opening a link to a local model, explains how to open the model itself.
+// Explains how to add missing files. If the page was opened by a link to a local model, explains how to open the model itself.
 on('missing', () => {
   const known = setOf(state.model) ? companions(view.missing, rest) : new Map();
-  if (known.size) return setTimeout(() => complete(known, rest)); // after the present drawing
+  if (known.size) return setTimeout(() => complete(known, rest)); // after the current drawing
   const choose = button('chooseFiles', asking(openFiles)), folder = button('openFolder', asking(openFolder)), [model] = state.words;
   const isGone = view.missing.includes(model), sentence = isGone ? text('linkWithout', { file: plain(model) })
     : text(view.missing.some((path) => /\.mtl$/i.test(path)) ? 'missingMaterials' : 'missingFiles', { files: view.missing.map(plain).join(', ') });

@@ -1,4 +1,4 @@
-// gestures.js: orbit, pan and zoom by mouse, touch and keyboard. Each writes the option --camera.
+// gestures.js: turns, pans and zooms the view by mouse, touch and keyboard. Each gesture writes the option --camera.
 import { endGesture, state, view } from './app.js';
 import { around, orbit, pan, zoom } from './camera.js';
 import { $ } from './dom.js';
@@ -8,7 +8,7 @@ import { move } from './move.js';
 const canvas = $('canvas');
 const pointers = new Map();
 
-// The first turn of a fitted view first moves the camera back until the model fits at all angles.
+// If the program has fitted the view, the camera is first moved back until the model fits from all directions.
 function turn(right, up) {
   if (!state.values('camera').length) view.camera = around(view.camera, view.sphere, canvas.width / canvas.height);
   move(orbit(view.camera, right, up, view.camera.pole, view.sphere.centre));

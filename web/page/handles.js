@@ -1,5 +1,5 @@
-// handles.js: handles for the lights in the picture: one for the position of each light of --light, one for the aim of a spot, one for its cone. A handle
-// is a button that can be dragged or moved by keys.
+// handles.js: shows handles for the lights in the picture. Each light of --light has a handle for its position. A spot light also has handles for its aim and
+// its cone. A handle is a button that can be dragged or moved by keys.
 import { beginGesture, endGesture, gestureKey, on, say, state, view } from './app.js';
 import { add, dot, onBall, project, scale, shifted, sub, unit } from './camera.js';
 import { $, element, svg } from './dom.js';
@@ -18,7 +18,7 @@ function rewrite(i, light) {
   say(texts[i]);
 }
 
-// In fractions of the picture's height. A directional light's handle stays on its sphere, on the side towards the eye or away from it.
+// Moves a handle by fractions of the picture's height. A directional light's handle stays on the near or the far side of its sphere.
 function moveHandle(i, part, right, up, away = 0) {
   const light = parseLight(texts[i]), place = placeOf(light, view.camera, view.sphere);
   if (!place) return;
@@ -28,7 +28,7 @@ function moveHandle(i, part, right, up, away = 0) {
   rewrite(i, movedTo(light, part, to, view.camera, view.sphere));
 }
 
-// Moves a position or an aim to a point of the canvas, in CSS pixels. A point behind the eye comes to the front.
+// Moves a position or an aim to a point of the canvas, in CSS pixels. If the position or the aim is behind the eye, it is first moved in front of the eye.
 function moveHandleTo(i, part, left, top) {
   const light = parseLight(texts[i]), place = placeOf(light, view.camera, view.sphere), x = left / canvas.clientWidth, y = top / canvas.clientHeight;
   if (!place) return;
@@ -45,7 +45,7 @@ function moveHandleTo(i, part, left, top) {
 
 function makeHandle(i, part) {
   const handle = element('button', { type: 'button', className: `handle ${part}` });
-  let last = null, grip = null; // grip: from the handle's middle to the pointer, in CSS pixels
+  let last = null, grip = null; // grip: the vector from the handle's middle to the pointer, in CSS pixels
   const gripOf = ({ clientX, clientY }) => ({ x: clientX - parseFloat(handle.style.left), y: clientY - parseFloat(handle.style.top) });
   handle.onpointerdown = (event) => {
     handle.setPointerCapture(event.pointerId);
@@ -91,7 +91,8 @@ function remove(i) {
 
 // --- in the picture
 
-// Limits a handle to the stage: a light outside the picture is shown at the border, in the direction from the middle. `turn` is the angle of that direction.
+// Limits a handle to the stage. A light outside the picture is shown at the border of the stage, in the light's direction from the middle. `turn` is the angle
+// of that direction.
 function inside(point, width, height) {
   const at = project(view.camera, point, canvas.width / canvas.height), edge = 24;
   const x = (at.x - 0.5) * width, y = (at.y - 0.5) * height, right = width / 2 - edge, below = height / 2 - edge;

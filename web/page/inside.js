@@ -1,7 +1,8 @@
-// inside.js: data inside the page itself: scripts and modules of the one-file page, compressed by gzip; files and the command line that
-// `lambent MODEL -o page.html` writes (tools/page/page_write.c). They are base64 texts in script elements that browsers do not run.
+// inside.js: reads the data that the page itself contains. The one-file page contains scripts and modules, compressed by gzip. A page that `lambent MODEL -o
+// page.html` writes (tools/page/page_write.c) also contains files and a command line. All of these are texts in script elements that browsers do not run.
+// Binary data is encoded in base64.
 
-// The text of the one-file page before any script has run.
+// A copy of the one-file page as it was before any script ran.
 export const pristine = ONE_FILE ? document.documentElement.cloneNode(true) : null;
 
 export const insideText = (id) => document.getElementById(id).textContent;
@@ -17,13 +18,13 @@ async function bytesOf(place) {
   return place.dataset.packed === 'gzip' ? new Uint8Array(await unpacked(bytes).arrayBuffer()) : bytes;
 }
 
-// The words of the command line; null: the page contains none.
+// Returns the words of the command line, or null if the page contains none.
 export function insideWords() {
   const place = document.getElementById('inside-words');
   return place && JSON.parse(place.textContent);
 }
 
-// The files by path. Their texts are removed from the page to save memory.
+// Returns the files by path. The texts of the files are removed from the page to save memory.
 export async function takeInsideFiles() {
   const files = new Map();
   for (const place of document.querySelectorAll('script.inside-file')) {

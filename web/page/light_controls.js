@@ -9,14 +9,14 @@ import { State, isMetal } from './state.js';
 import { text } from './strings.js';
 import { writtenLights } from './written_lights.js';
 
-// Degrees around the model, from the viewer to the right, and degrees above the horizon.
+// The angles of each button in degrees: around the model, from the viewer to the right, and above the horizon.
 const PLACES = [['lightFront', 0, 25], ['lightLeft', -75, 25], ['lightRight', 75, 25], ['lightAbove', 0, 85], ['lightBehind', 180, 35]];
 const DEGREES = 180 / Math.PI, MOVABLE = ['point', 'spot', 'directional'];
-let chosen = 0; // its index among the lights of --light
+let chosen = 0; // the moved light's index among the lights of --light
 
 const isMovable = (one) => MOVABLE.includes(parseLight(one).type) && Boolean(placeOf(parseLight(one), view.camera, view.sphere));
 
-// The horizontal axes of the view, towards the eye and to the right, and the model's up axis.
+// Returns the horizontal axes of the view, towards the eye and to the right, and the model's up axis.
 function axes() {
   const { side, above, back } = cameraAxes(view.camera), pole = unit(view.picture.camera.pole);
   let front = sub(back, scale(pole, dot(back, pole)));
@@ -30,7 +30,7 @@ function anglesOf(light) {
   return { around: Math.atan2(dot(way, right), dot(way, front)) * DEGREES, height: Math.asin(Math.max(-1, Math.min(1, dot(way, pole)))) * DEGREES };
 }
 
-// Whether a light is in the direction of a button, to 2 degrees.
+// Returns whether a light is in the direction of a button, within 2 degrees.
 function isNear({ around, height }, [, at, above]) {
   const [h, g] = [height / DEGREES, above / DEGREES];
   return Math.sin(h) * Math.sin(g) + Math.cos(h) * Math.cos(g) * Math.cos((around - at) / DEGREES) > Math.cos(2 / DEGREES);
@@ -48,8 +48,8 @@ function chosenIn(texts) {
   return texts.findIndex(isMovable);
 }
 
-// Returns words with a movable light: the program's own lights, written out, or else a new light. If only an environment lit the model, metals keep
-// reflecting it. Other materials get some ambient light, because their unlit side would be black.
+// Returns words with a movable light. The lights that the program has chosen are written as options. If none of them can be moved, a new light is added. If the
+// model's material is a metal, it then reflects the studio environment. Other materials get some ambient light, because their unlit side would be black.
 async function words() {
   const written = await writtenLights(), made = new State(written?.words ?? state.words), texts = made.values('light');
   if (texts.some(isMovable)) return made.words;
@@ -63,7 +63,7 @@ function changed(from, change, key) {
   state.set(made.withValues('light', texts), key);
 }
 
-// While the lights are being written out, only the newest of several changes is kept.
+// While the lights are being written as options, only the newest change is kept.
 let waiting = null, isBusy = false;
 async function change(how, key = null) {
   if (!view.camera) return;
@@ -96,7 +96,7 @@ export function lightControls() {
   };
   function show() {
     const texts = view.camera && view.sphere ? state.values('light') : [], i = texts.length ? chosenIn(texts) : -1, movable = texts.flatMap((one, at) => (isMovable(one) ? [at] : []));
-    choice.disabled = movable.length < 2; // but always there, so that the buttons below it stay in place
+    choice.disabled = movable.length < 2; // not hidden, so that the buttons below it stay in place
     const key = movable.map((at) => nameOf(parseLight(texts[at]), at)).join('\n');
     if (choice.dataset.names !== key) choice.replaceChildren(...(movable.length ? movable.map((at) => new Option(nameOf(parseLight(texts[at]), at), at)) : [new Option(text('lightMain'))]));
     choice.dataset.names = key;

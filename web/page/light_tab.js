@@ -1,5 +1,5 @@
-// light_tab.js: the tab of the lights of --light: their words, sliders and curves. It adds and removes lights, and writes out the lights that the program
-// has chosen.
+// light_tab.js: the tab of the lights of --light. It shows the words, sliders and curves of each light. It adds and removes lights, and writes the lights that
+// the program has chosen as options.
 import { gestureKey, on, refuse, say, state, view } from './app.js';
 import { curvesOf } from './curves.js';
 import './explaining.js';
@@ -45,14 +45,14 @@ function slidersOf(i, light) {
   });
 }
 
-// The explanation of a light of the command line. These lights are the last ones of the scene.
+// Returns the explanation of a light of the command line. These lights are the last ones of the scene.
 function explainedLight(pixel, i, texts) {
   const reaching = texts.map(parseLight).map(({ type }, at) => ({ type, at })).filter(({ type }) => ['point', 'spot', 'directional'].includes(type));
   const own = pixel?.triangles[0]?.points[0].lights.filter((light) => light.light !== null).slice(-reaching.length);
   return own?.[reaching.findIndex(({ at }) => at === i)] ?? null;
 }
 
-// The words with one light only, which is then the first of its picture.
+// Returns the words with one light only. The light is then the first light of the picture.
 const wordsOf = (one) => state.withValues('light', [one.replace(/^\+/, '')]);
 
 function showLight(one, i) {
@@ -68,7 +68,7 @@ function showLight(one, i) {
   return element('li', {}, element('div', { className: 'light-head' }, ours('code', one), remover), ...slidersOf(i, light), curves);
 }
 
-// The shininess of the material, with the highlight of the explained point.
+// The slider for the shininess of the material, with the highlight's curve at the explained point.
 const exponent = slider(ours('span', 'shininess'), text('sliderShininess'), [0, 3, 0.01], 1.5, (log) => {
   state.set(state.withValues('shininess', [String(Number((10 ** log).toPrecision(3)))]), gestureKey());
 });
@@ -91,7 +91,7 @@ function show() {
   showHighlight();
   if (view.moving || listed === texts.join('\n')) return;
   listed = texts.join('\n');
-  // A slider keeps the focus.
+  // If a slider has the focus, the slider that replaces it gets the focus.
   const inputs = [...list.querySelectorAll('input')], at = inputs.indexOf(document.activeElement);
   list.replaceChildren(...texts.map(showLight));
   if (at >= 0) [...list.querySelectorAll('input')][at]?.focus();

@@ -1,8 +1,9 @@
-// lights.js: the lights of --light as text, and the changes that a handle makes there. Positions are converted to the light's frame and unit (model units,
-// or radii from the middle) and written as decimal text, which determines the picture.
+// lights.js: reads the lights of --light as text, and changes the text when a handle moves. Positions are converted to the light's frame and unit (model units,
+// or radii from the middle) and written as decimal text. The picture depends only on this text.
 import { add, cameraAxes, cross, decimal, dot, length, scale, sub, unit } from './camera.js';
 
-// Parses "+spot:position=1/2/3,cutoff=20": the type, whether it adds to the other lights, and its keys in order.
+// Parses a text such as "+spot:position=1/2/3,cutoff=20". Returns the light's type, whether the light is added to the other lights, and the light's keys in
+// order.
 export function parseLight(text) {
   const [, plus, type, rest] = /^(\+?)([^:]*):?([^]*)$/.exec(text);
   const keys = new Map(rest.split(',').filter(Boolean).map((pair) => [pair.split('=')[0], pair.slice(pair.indexOf('=') + 1)]));
@@ -14,7 +15,7 @@ export function lightText({ plus, type, keys }) {
   return plus + type + (pairs && `:${pairs}`);
 }
 
-// The axes and origin of a light's frame in world space. Null: the frame of an object, which the page does not know.
+// Returns the axes and the origin of a light's frame in world space. Returns null for the frame of an object, because the page does not know it.
 function frameOf(light, camera, sphere) {
   const frame = light.keys.get('frame') ?? 'world';
   const { side, above, back } = cameraAxes(camera);
@@ -27,7 +28,7 @@ function frameOf(light, camera, sphere) {
 const turnedBy = (axes, v) => add(add(scale(axes[0], v[0]), axes[1], v[1]), axes[2], v[2]);
 const intoAxes = (axes, v) => axes.map((axis) => dot(axis, v));
 
-// The three numbers of a key, and whether their unit is radii.
+// Returns the three numbers of a key, and whether their unit is the radius.
 function triple(value) {
   const parts = value.split('/'), w = parts.length === 4 ? Number(parts[3]) : 1;
   return { v: parts.slice(0, 3).map((part) => Number(part.replace(/r$/, '')) / (w || 1)), radii: /\dr/.test(value), w };
@@ -46,8 +47,9 @@ function pointText(point, frame, sphere, radii) {
 
 const directionText = (v, frame) => intoAxes(frame.axes, unit(v)).map((x) => decimal(x, 4)).join('/');
 
-// The light in world space: `position` (for a directional light, a point on a sphere around the model), `direction` of its light, and for a spot `aim` and
-// `cone`, half an angle in degrees (null: it has no edge). Null: the light has no position, or the page does not know it.
+// Returns the light in world space: its `position` (a directional light has a point on a sphere around the model), the `direction` of its light, and for a spot
+// light `aim` and `cone`. `cone` is the half angle in degrees, or null if the cone has no edge. Returns null if the light has no position, or if the page does
+// not know the position.
 export function placeOf(light, camera, sphere) {
   const frame = frameOf(light, camera, sphere), { type, keys } = light;
   if (!frame || !['point', 'spot', 'directional'].includes(type)) return null;
@@ -80,7 +82,7 @@ function withKeys(light, changes) {
   return { ...light, keys };
 }
 
-// Moves a handle of the light to another point in world space. `part`: position, aim or cone.
+// Moves a handle of the light to another point in world space. `part` is position, aim or cone.
 export function movedTo(light, part, point, camera, sphere) {
   const frame = frameOf(light, camera, sphere), place = placeOf(light, camera, sphere), { keys } = light;
   if (part === 'position' && place.directional)
@@ -101,7 +103,7 @@ export function withCone(light, degrees) {
   return withKeys(light, { inner: decimal(inner, 2), outer: decimal(angle, 2) });
 }
 
-// A point on the cone's edge, beside the aim.
+// Returns a point on the cone's edge, beside the aim.
 export function coneEdge(place, camera) {
   const far = length(sub(place.aim, place.position)), { above, side } = cameraAxes(camera);
   let across = cross(place.direction, cross(side, place.direction));
@@ -110,7 +112,7 @@ export function coneEdge(place, camera) {
   return add(place.position, add(scale(place.direction, Math.cos(angle)), unit(across), Math.sin(angle)), far);
 }
 
-// A new light in addition to the existing ones.
+// Returns a new light in addition to the existing lights.
 export function newLight(type, texts, number) {
   const others = texts.every((text) => text.startsWith('+')) ? '+' : '';
   const sign = number % 2 ? 1 : -1;

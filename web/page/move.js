@@ -3,7 +3,7 @@ import { beginGesture, gestureKey, state, view } from './app.js';
 import { cameraText, readCamera } from './camera.js';
 import { State, VIEW } from './state.js';
 
-// Every step starts from the numbers in the text.
+// Moves the camera. Every step starts from the numbers in the text of --camera.
 export function move(next) {
   beginGesture();
   const text = cameraText(next);

@@ -1,4 +1,5 @@
-// offline_worker.js: the service worker of the served page, started after the first picture (offline.js). It stores the page's files in a cache named
+// offline_worker.js: the service worker of the served page. The page starts it after the first picture (offline.js). It stores the page's files in a cache
+// named
 // by the hash of their contents. When a file changes, this script changes too, and the new files replace the old ones together, after all pages with
 // the old files are closed. web/build.py lists the files with their hashes. Files in the browser's own cache are not downloaded again.
 const CACHE = 'lambent-HASH';
@@ -8,7 +9,7 @@ const LATER = [];
 const PLAIN = [];
 const THREADS = [];
 
-// Takes a file from the browser's cache if possible, or else from the server. `known`: its name in FILES.
+// Takes a file from the browser's cache if possible. Otherwise takes it from the server. `known` is its name in FILES.
 const answer = (request, known) => fetch(request, { cache: 'force-cache', integrity: FILES[known] }).catch(() => fetch(request, { cache: 'reload', integrity: FILES[known] }));
 
 const nameOf = (address) => {

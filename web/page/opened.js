@@ -1,13 +1,14 @@
-// opened.js: the opened files. Each opening is a set of its own, so that a model keeps its companions if other files with the same names are opened.
+// opened.js: keeps the opened files. Files that are opened together are a set, so that a model keeps its companions if other files with the same names are
+// opened later.
 // The worker has the files of one set at a time.
 import { FILES_BYTES } from './memory.js';
 
 const sets = []; // { files: Map of bytes by path }, the newest last
-let given = null; // the set that the worker has
+let given = null; // the set whose files the worker has
 
 const sizeOf = (set) => [...set.files.values()].reduce((sum, bytes) => sum + bytes.length, 0);
 
-// The set of a model; null: its file was not opened by the user.
+// Returns the set of a model, or null if the user has not opened the model's file.
 export const setOf = (model) => sets.findLast((set) => set.files.has(model)) ?? null;
 
 export const openedPaths = () => [...new Set(sets.toReversed().flatMap((set) => [...set.files.keys()]))];
@@ -28,7 +29,7 @@ export function addCompanions(model, files) {
   given = null;
 }
 
-// Gives the worker the files of a model by `send`, unless it already has them.
+// Sends the files of a model to the worker by `send`, unless the worker already has them.
 export function giveFilesOf(model, send) {
   const set = setOf(model);
   if (!set || set === given) return;

@@ -1,7 +1,7 @@
-// pace.js: chooses the size of quick pictures: as many pixels as can be drawn 30 times a second, measured on the last pictures, and at least half of the
-// picture's width and height.
+// pace.js: chooses the size of quick pictures. They have as many pixels as can be drawn 30 times a second, measured on the last pictures. Their width and
+// height are at least half of the full picture's.
 const FRAME_MS = 28; // a thirtieth of a second, less the time that the browser needs to show the picture
-const SCALES = [1, 0.84, 0.71, 0.6, 0.5]; // of width and height; few, so that the size changes rarely
+const SCALES = [1, 0.84, 0.71, 0.6, 0.5]; // of width and height; there are few, so that the size changes rarely
 const SMALL = 5e5; // pixels; smaller pictures start at full size
 const FRAMES_MIN = 3; // number of measured pictures before the size changes
 const KEPT = 0.5; // fraction of the mean that remains after each picture
@@ -11,7 +11,7 @@ export class Pace {
   #mean = 0;
   #count = 0;
 
-  // For another picture, the measurements start again.
+  // Removes the measurements. Call it before the pictures of another model.
   reset() {
     this.#step = null;
   }

@@ -1,9 +1,10 @@
-// packed_page.js: writes the page in one file with a model in it, as `lambent MODEL -o page.html` does. It opens from a disk, without a network.
+// packed_page.js: writes the page as one file that contains a model, as `lambent MODEL -o page.html` does. The file can be opened from a disk, without a
+// network.
 import { fetchModule } from './start.js';
 import { pristine } from './inside.js';
 import { text } from './strings.js';
 
-const MOST = 1e8; // bytes of files, as in the program
+const MOST = 1e8; // largest total size of the files in bytes, as in the program
 
 async function packed(bytes) {
   const gzip = await new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream('gzip'))).blob();
@@ -16,7 +17,7 @@ async function packed(bytes) {
   return url.slice(url.indexOf(',') + 1);
 }
 
-// The text of the one-file page: this page, or the file beside the served page.
+// Returns the text of the one-file page. It is this page itself, or a file beside the served page.
 async function emptyPage() {
   if (!pristine) return new TextDecoder().decode(await fetchModule('alone.html'));
   const page = pristine.cloneNode(true);
@@ -26,7 +27,7 @@ async function emptyPage() {
 
 const quoted = (path) => path.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
 
-// `files`: [path, bytes]. Returns a Blob.
+// `files` contains [path, bytes] for each file. Returns a Blob.
 export async function pageWithModel(words, files) {
   const size = files.reduce((sum, [, bytes]) => sum + bytes.length, 0);
   if (size > MOST) throw new Error(text('pageTooLarge', { size: Math.round(size / 1e6), most: MOST / 1e6 }));

@@ -1,10 +1,10 @@
-// panel.js: the tab of all options: a control for each option of the program, in the groups of its help. The search finds options by name, by synonyms and
-// by description.
+// panel.js: the tab of all options. It has a control for each option of the program, in the groups of the program's help. The search finds options by name, by
+// synonyms and by description.
 import { on, state, view } from './app.js';
 import { $, element, ours } from './dom.js';
 import { Row } from './row.js';
 
-// These options name output files, which the page saves by buttons, or concern a terminal.
+// The tab does not show these options. They concern output files, which the page saves by buttons, or a terminal.
 const LEFT_OUT = ['output', 'save-scene', 'durable', 'compress', 'quality', 'term'];
 
 class Panel {

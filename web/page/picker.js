@@ -1,4 +1,4 @@
-// picker.js: a colour field with the browser's colour picker. All changes during one use of it are one step of undo.
+// picker.js: a colour field with the browser's colour picker. All changes during one use of the picker are one step of undo.
 import { beginGesture, endGesture, gestureKey, view } from './app.js';
 import { element } from './dom.js';
 
@@ -6,10 +6,11 @@ const probe = document.createElement('canvas').getContext('2d');
 const byte = (x) => Math.round(255 * Math.max(0, Math.min(1, x))).toString(16).padStart(2, '0');
 const encoded = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
 
-// "#rrggbb" from linear red, green and blue.
+// Returns "#rrggbb" for linear red, green and blue.
 export const hexOf = (rgb) => `#${rgb.map((x) => byte(encoded(x))).join('')}`;
 
-// Parses a colour of an option: #rgb, #rrggbb, #rrggbbaa, a name, or linear r/g/b or one number. Null: another form.
+// Converts a colour of an option to "#rrggbb". The colour is #rgb, #rrggbb, #rrggbbaa, a name, linear r/g/b, or one linear number. Returns null for any other
+// form.
 export function hexOfText(value) {
   const numbers = value.split('/').map(Number);
   if (numbers.every((x) => x >= 0) && value !== '' && numbers.length !== 2 && numbers.length < 5) return hexOf(numbers.length === 1 ? [numbers[0], numbers[0], numbers[0]] : numbers.slice(0, 3));

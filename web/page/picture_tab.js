@@ -1,5 +1,5 @@
-// picture_tab.js: the tab of the picture: views, materials, lights, surroundings and style, with plain names. Each row of the table below is an option of the
-// program and its plain name. The option's own name is shown beside it if the user wants it.
+// picture_tab.js: the tab of the picture. It shows views, materials, lights, surroundings and style with plain names. Each row of the table below is an option
+// of the program and its plain name. The option's own name is shown beside it if the user wants it.
 import { on, state, view } from './app.js';
 import { $, element } from './dom.js';
 import { lightControls } from './light_controls.js';
@@ -24,7 +24,8 @@ const SECTIONS = [
 const without = (words, ...names) => names.reduce((rest, name) => new State(rest).withValues(name, []), words);
 const SPHERE = ['sphere', '--size=88x88', '--samples=8'];
 
-// The material of the whole model. Materials of single objects (@NAME) are kept. A metal replaces the model's textures and reflects the studio.
+// Makes the choice of a material for the whole model. The materials of single objects (@NAME) are kept. If a metal is chosen, it replaces the model's textures
+// and reflects the studio.
 function materials() {
   const whole = () => state.values('material').filter((value) => !value.includes('@'));
   const own = START.find((word) => word.startsWith('--material=')).slice('--material='.length);
@@ -63,14 +64,14 @@ function optionNames() {
   try {
     box.checked = localStorage.getItem(KEY) === '1';
   } catch {
-    // the page may be denied storage
+    // the page may have no access to storage
   }
   box.onchange = () => {
     show();
     try {
       localStorage.setItem(KEY, box.checked ? '1' : '0');
     } catch {
-      // the choice lasts until the page is closed
+      // without storage, the choice lasts until the page is closed
     }
   };
   show();

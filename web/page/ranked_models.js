@@ -1,20 +1,20 @@
-// ranked_models.js: which of several opened models is shown first, and which opened files are the missing files of a model.
+// ranked_models.js: chooses the opened model that is shown first, and finds the missing files of a model among the opened files.
 
 const folderOf = (path) => path.replace(/[^/]*$/, '');
 const baseOf = (path) => path.replace(/^.*\//, '').toLowerCase();
 const endingOf = (path) => path.replace(/^.*\./, '').toLowerCase();
 
-// The path that a file means by a relative name.
+// Returns the path for a relative name in a file of this folder.
 function pathFrom(folder, name) {
   const parts = [];
   for (const part of (folder + name.trim().replaceAll('\\', '/')).split('/')) part === '..' ? parts.pop() : part !== '.' && part && parts.push(part);
   return '/' + parts.join('/');
 }
 
-const HEAD = 1 << 16, START_OF = 1 << 14; // in bytes: of the text that is searched for names
+const HEAD = 1 << 16, START_OF = 1 << 14; // in bytes; this much of a file is searched for names
 const textOf = (bytes, most) => new TextDecoder().decode(bytes.subarray(0, most));
 
-// 3: the model's materials and textures are there, 2: its materials, 1: it names none, 0: it names files that are missing.
+// Returns 3 if the model's materials and textures are there, 2 if its materials are there, 1 if it names no materials, or 0 if it names files that are missing.
 function completeness(path, files) {
   const folder = folderOf(path), has = (name) => files.has(pathFrom(folder, name));
   if (endingOf(path) === 'obj') {
@@ -28,22 +28,22 @@ function completeness(path, files) {
   return [...textOf(files.get(path), HEAD).matchAll(/"uri"\s*:\s*"([^":]+)"/g)].every(([, name]) => has(decodeURI(name))) ? 3 : 0;
 }
 
-// Sorts the paths of models: scene files last, since other .json files are often none. Complete models come first, then those in outer folders, then
-// large ones.
+// Sorts the paths of models. Complete models come first, then models in outer folders, then large models. Scene files come last, because many .json files are
+// not scene files.
 export function ranked(models, files) {
   const rows = models.map((path) => ({ path, level: endingOf(path) === 'json' ? -1 : completeness(path, files), depth: path.split('/').length, size: files.get(path).length }));
   return rows.sort((a, b) => b.level - a.level || a.depth - b.depth || b.size - a.size || (a.path < b.path ? -1 : 1)).map(({ path }) => path);
 }
 
-// The number of last parts that two paths share.
+// Returns the number of equal parts at the ends of two paths.
 function sharedParts(a, b) {
   const [x, y] = [a, b].map((path) => path.toLowerCase().split('/').reverse());
   const at = x.findIndex((part, i) => part !== y[i]);
   return at < 0 ? x.length : at;
 }
 
-// The missing files among the given files: maps the path at which the model expects each one to its path there. Of several files with the same
-// name, the one whose folders agree is used.
+// Finds the missing files among `files`. Returns a map from the path at which the model expects a file to the path of the file in `files`. If several files
+// have the same name, the file whose folders agree best is used.
 export function companions(missing, files) {
   const found = new Map();
   for (const path of missing) {
@@ -53,7 +53,7 @@ export function companions(missing, files) {
   return found;
 }
 
-// The found files by the paths at which the model expects them, with the files beside them, which they may name in turn.
+// Returns the found files by the paths at which the model expects them. Also returns the files in the same folders, because the found files may name them.
 export function withNeighbours(found, files) {
   const placed = new Map();
   for (const [path, same] of found)
@@ -62,7 +62,7 @@ export function withNeighbours(found, files) {
   return placed;
 }
 
-// Whether a model is a scene file with a size of its own.
+// Returns whether a model is a scene file that sets a size.
 export function setsSize(path, files) {
   if (endingOf(path) !== 'json') return false;
   try {

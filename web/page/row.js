@@ -6,7 +6,7 @@ import { showNumber, slider } from './slider.js';
 import { FORMULAS, State, VIEW, withModel } from './state.js';
 import { text } from './strings.js';
 
-// Angles and --camera replace each other. A formula is a model.
+// Sets the values of an option. --camera and the options of the view replace each other. The option of a formula also changes the model.
 export function setOption(name, values, key = null) {
   if (name in FORMULAS && state.model !== name) return values.length ? state.set(withModel(state.words, name, values[0])) : undefined;
   if (name in FORMULAS && !values.length) values = [FORMULAS[name]];
@@ -17,8 +17,8 @@ export function setOption(name, values, key = null) {
 }
 
 export class Row {
-  // `prefix`: of the ids of its elements, since an option can have two controls in the page. `plain`: its name in the page's language, followed by the option's
-  // own name; `range`: minimum, maximum, step and start of a slider.
+  // The ids of the row's elements begin with `prefix`, because an option can have two controls in the page. `plain` is a name in the page's language, which is
+  // shown before the option's own name. `range` contains the minimum, maximum, step and start of a slider.
   constructor(option, prefix, { plain = null, range = null } = {}) {
     this.option = option;
     this.prefix = prefix;
@@ -39,7 +39,7 @@ export class Row {
     this.show([]);
   }
 
-  // A slider starts at the option's default, if that is a number.
+  // Adds a slider. It starts at the option's default if the default is a number.
   #addSlider(label) {
     const [least, , , start] = this.range;
     this.standard = start ?? (parseFloat(this.option.default ?? '') || Math.max(0, least));
@@ -66,7 +66,8 @@ export class Row {
     if (focused) this.inputs.firstChild.focus();
   }
 
-  // The words for a select element; null: other values are possible. In the first tab, the words are sufficient.
+  // Returns the words for a select element, or null if the option has other values. In the first tab, the words are returned even if the option has other
+  // values.
   #words() {
     const { words, repeats, kind } = this.option, plain = (words ?? []).filter((word) => !/[A-Z]/.test(word.name));
     if (!plain.length || repeats) return null;

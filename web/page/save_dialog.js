@@ -1,4 +1,5 @@
-// save_dialog.js: saves the picture with another size and background, and sends the model to others: a page with the model, a link, a scene file.
+// save_dialog.js: the dialog that saves the picture with another size and background. It also makes a page with the model, a link, or a scene file, which the
+// user can send to other people.
 import { call, refuse, state, view } from './app.js';
 import { copyLink, download, saveNamed } from './bar.js';
 import { $, button, element, ours } from './dom.js';
@@ -11,7 +12,7 @@ import { text } from './strings.js';
 const WIDTHS = [1000, 2000, 4000], BACKGROUNDS = { white: 'backgroundWhite', transparent: 'backgroundNone' };
 let dialog = null, chosen = { width: null, background: null };
 
-// The words of the saved picture: the current ones, with the chosen size and background. The longer side has the chosen number of pixels.
+// Returns the words of the saved picture: the current words with the chosen size and background. The picture's longer side has the chosen number of pixels.
 function savedWords() {
   let words = state.words;
   if (chosen.width) {
@@ -21,7 +22,7 @@ function savedWords() {
   return chosen.background ? new State(words).withValues('background', [chosen.background]) : words;
 }
 
-// A group of radio buttons.
+// Makes a group of radio buttons.
 function choice(title, name, rows, show) {
   const inputs = rows.map(([value, label], i) => {
     const input = element('input', { type: 'radio', name: `save-${name}`, checked: chosen[name] === value });

@@ -1,4 +1,4 @@
-// scene.js: saves the scene file of the picture, as --save-scene does. It refers to the model's files and does not contain them.
+// scene.js: saves the scene file of the picture, as --save-scene does. The scene file refers to the model's files and does not contain them.
 import { call, refuse, state } from './app.js';
 import { download } from './bar.js';
 import { $ } from './dom.js';

@@ -1,16 +1,17 @@
-// served.js: the page of `lambent view` (tools/view). Models come from its folder. The program itself draws models that are too large for the page.
+// served.js: used in the page of `lambent view` (tools/view). Models come from the folder that the program shows. The program itself draws models that are too
+// large for the page.
 // Addresses are relative to the page's own address, which contains the token.
 import { Ended } from './caller.js';
 import { text } from './strings.js';
 
-// { gallery }: whether the viewer shows a folder.
+// `gallery` is true if the viewer shows a folder.
 export const served = JSON.parse(document.getElementById('served').textContent);
 
 const client = crypto.randomUUID(); // a newer picture of this page cancels the older one
-// The module with threads (start.js), which the viewer serves beside the page.
+// Fetches the module with threads (start.js), which the viewer serves beside the page.
 export const fetchThreads = async () => bytesOf(await ask('threads.wasm', []));
 
-let known = null; // the last requested model: its files in the module, or the reason why the program draws it
+let known = null; // the last requested model, with the reason why the program draws it, or null if the module has its files
 let drawing = null; // aborts the request of a picture
 
 async function ask(address, words, { signal, ...more } = {}) {
@@ -49,7 +50,7 @@ async function take(call, words) {
 let last = Promise.resolve();
 
 const natively = {
-  // One after the other, since the picture and the picture that it is compared with are requested at the same time.
+  // Draws pictures one after the other, because a picture and the picture that it is compared with are requested at the same time.
   draw({ words }) {
     const next = last.then(() => drawNow(words));
     last = next.catch(() => {});
@@ -68,16 +69,16 @@ async function drawNow(words) {
   return { ...JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))), pixels: new Uint8ClampedArray(bytes.buffer, end + 1) };
 }
 
-// Cancels the picture that the program draws because a newer one is wanted; false: it draws none.
+// Cancels the picture that the program is drawing, because a newer picture is wanted. Returns false if the program is not drawing.
 export function giveUpPicture() {
   drawing?.abort();
   return Boolean(drawing);
 }
 
-// The reason why the program draws the model; null: the page draws it.
+// Returns the reason why the program draws the model, or null if the page draws it.
 export const nativeReason = (model) => (known?.key.split('\n')[0] === model ? known.native : null);
 
-// Calls of the worker, which first receives the files of served models. Models opened in the page are not affected.
+// Returns a function that calls the worker and first sends it the files of a served model. The files of models that were opened in the page are not fetched.
 export function servedCall(call) {
   let own = [], holdsOwn = false;
   return async (name, message) => {
@@ -102,7 +103,7 @@ export function servedCall(call) {
   };
 }
 
-// Calls `changed` if a file of the model has changed, and `lost` with whether the viewer has ended or is back.
+// Calls `changed` if a file of the model has changed. Calls `lost` with true if the viewer has ended, and with false if it is back.
 export function watchServed(changed, lost) {
   const events = new EventSource('events');
   let timer = 0, isLost = false;
@@ -114,7 +115,7 @@ export function watchServed(changed, lost) {
     }, 100); // several files are often written together
   };
   events.onmessage = ({ data }) => {
-    const path = JSON.parse(data); // of a file, or with a trailing "/" of a folder in which any file may have changed
+    const path = JSON.parse(data); // the path of a file, or with a trailing "/" the path of a folder in which any file may have changed
     if (known?.paths.has(path) || (path.endsWith('/') && [...(known?.paths ?? [])].some((one) => one.startsWith(path)))) later();
   };
   events.onerror = () => lost((isLost = true));

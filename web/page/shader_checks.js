@@ -1,5 +1,5 @@
-// shader_checks.js: checks the newest shader texts in a worker, one request at a time. Newer texts end a search for mistakes. A check without a search is
-// short, so newer texts wait for it.
+// shader_checks.js: checks the newest shader texts in a worker, one request at a time. If the texts change during a search for mistakes, the search is ended. A
+// check without a search is short, so newer texts wait until it has ended.
 import { openCheck } from './check_start.js';
 
 export const ENDLESS_MS = 30000, PATIENCE_MS = 1500;
@@ -8,7 +8,7 @@ const LATE = 'late';
 
 export class Checks {
   #worker = null;
-  #lists = null; // a promise: contracts, scenes, mistakes, exercises; afterwards the worker accepts requests
+  #lists = null; // a promise of the contracts, scenes, mistakes and exercises; once it is resolved, the worker accepts requests
   #round = 0; // number of the newest texts
   #busy = null; // the worker's current request: {searching, done: a promise, end(answer)}
 
@@ -38,7 +38,7 @@ export class Checks {
     return this.#started();
   }
 
-  // The texts of an exercise. Reports about older texts are no longer shown. Null: other texts were chosen in the meantime.
+  // Returns the texts of an exercise, or null if other texts were chosen in the meantime. Reports about older texts are no longer shown.
   async exercise(mistake) {
     const mine = ++this.#round;
     await this.#free();
@@ -46,7 +46,8 @@ export class Checks {
     return mine === this.#round ? this.#worker.call('exercise', { mistake }) : null;
   }
 
-  // The worker's answer; LATE if it did not come in time, and a new worker is ready; null if newer texts have ended it.
+  // Returns the worker's answer. If the answer does not arrive in time, starts a new worker and returns LATE. Returns null if newer texts have ended the
+  // request.
   async #request(asked, searching) {
     const worker = this.#worker, request = { searching };
     const answer = new Promise((resolve, reject) => {
@@ -66,7 +67,7 @@ export class Checks {
     }
   }
 
-  // Ends a request about older texts, or waits for it if it is almost finished.
+  // Ends a request about older texts. If the request is without a search, first waits a short time for it to finish.
   async #free() {
     const request = this.#busy;
     if (!request) return;
@@ -77,8 +78,9 @@ export class Checks {
     if (this.#busy === request) this.#restart();
   }
 
-  // Calls `show` with the report: first pictures and verdict, and if they differ, a second time with the mistakes. `searched`: the report is final; `cut`: the
-  // search did not end in time, so the report is without mistakes. Reports and errors about older texts are not shown.
+  // Calls `show` with a report that contains the pictures and the verdict. If the pictures differ, calls it a second time with the mistakes. `searched` means
+  // that the report is final. `cut` means that the search did not end in time, so the report contains no mistakes. Reports and errors about older texts are not
+  // shown.
   async run(asked, show) {
     const mine = ++this.#round, newest = () => mine === this.#round;
     try {

@@ -23,7 +23,7 @@ function plainEditor(place, { label, onchange }) {
   };
 }
 
-// `text`, showErrors([{line, text}]), goTo(line). onchange: the user has changed the text.
+// Makes an editor with `text`, showErrors([{line, text}]) and goTo(line). It calls `onchange` when the user changes the text.
 export async function makeEditor(place, options) {
   const codeMirror = await openCodeMirror().catch(() => null);
   return codeMirror ? codeMirror.makeEditor(place, options) : plainEditor(place, options);

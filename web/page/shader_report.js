@@ -44,7 +44,8 @@ function mistakesList(report, withCode) {
   return [element('p', { textContent: title }), element('ul', { className: 'shader-mistakes' }, ...items)];
 }
 
-// The number of hints of an exercise: the pictures to look at, the mistake, and the correct lines. Other mistakes are shown with the second hint.
+// The number of hints of an exercise. The first hint names the scenes to look at, the second the mistake, and the third the correct lines. Other mistakes are
+// shown with the second hint.
 export const HINTS = 3;
 
 function hintsOf(report, { hints, exercise }, goTo) {
@@ -60,7 +61,7 @@ function hintsOf(report, { hints, exercise }, goTo) {
   return out;
 }
 
-// The verdict as a sentence, and the details below it. `asked`: the exercise, and the number of hints asked for.
+// Shows the verdict as a sentence, and the details below it. `asked` contains the exercise and the number of requested hints.
 export function report(report, asked, size, goTo) {
   const solved = asked.exercise && report.verdict === 'passes';
   const verdict = text(solved ? 'shaderSolved' : (VERDICTS[report.verdict] ?? 'shaderFails'));

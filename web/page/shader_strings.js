@@ -1,4 +1,4 @@
-// shader_strings.js: the texts of the tab of shaders. They are fetched with it and added to the table of strings.js.
+// shader_strings.js: contains the texts of the tab of shaders. The page fetches this file together with the tab, and adds the texts to the table of strings.js.
 import { addStrings } from './strings.js';
 
 addStrings({

@@ -1,5 +1,5 @@
-// shaders.js: the tab of shaders: the texts, their pictures beside the reference, and the verdict of `lambent check` with the mistakes it found. Exercises are
-// programs with a known mistake, made by the module.
+// shaders.js: the tab of shaders. It shows the texts of shaders, their pictures beside the reference, and the verdict of `lambent check` with the mistakes that
+// it has found. Exercises are programs with a known mistake. The module makes these programs.
 import './shader_strings.js';
 import { $, button, element, ours } from './dom.js';
 import { PROGRAMS } from './programs.js';
@@ -50,7 +50,7 @@ async function run() {
   }).catch(refused);
 }
 
-// Shows an error that prevents an answer of the worker.
+// Shows an error that occurred in place of an answer of the worker.
 function refused({ message }) {
   shown = { verdict: 'fails', mistakes: [], notes: [{ kind: 'hint', file: null, line: 0, text: message }], scenes: [], searched: true };
   show();
@@ -80,9 +80,9 @@ function show() {
 const editors = {};
 const editorOf = (file) => (file.endsWith('.vert') ? editors.vertex : editors.fragment);
 const FILES = { fragment: 'shader.frag', vertex: 'shader.vert' };
-const EXERCISE = 'exercise:'; // before the mistake's id
+const EXERCISE = 'exercise:'; // precedes the mistake's id
 
-// The lines of the correct program that the exercise lacks.
+// Returns the lines of the correct program that the exercise does not contain.
 function missingLines({ texts, correct }) {
   return Object.entries(FILES).flatMap(([part, file]) => {
     const there = new Set(texts[part].split('\n'));
@@ -100,7 +100,7 @@ function begin(texts, exercise = null) {
   return run();
 }
 
-// Exercises use the names of `lambent shader`.
+// Starts the chosen program or exercise. Exercises use the names of `lambent shader`.
 async function beginTask() {
   const task = tasks.value;
   clearTimeout(timer);
@@ -115,7 +115,7 @@ const start = () => beginTask().catch(refused);
 
 let lists = null;
 
-// Lists the contract's names, its correct programs and the exercises, and selects `task`; null: the first program.
+// Lists the contract's names, its correct programs and the exercises, and selects `task`, or the first program if `task` is null.
 function showContract(name, task = null) {
   const group = (key, options) => element('optgroup', { label: text(key) }, ...options);
   const mine = PROGRAMS.filter(({ contract }) => contract === name);
@@ -127,7 +127,7 @@ function showContract(name, task = null) {
   names.lastChild.replaceChildren(...contract.names.map((row) => element('tr', {}, ours('td', row.name), ours('td', row.type), ours('td', row.meaning))));
 }
 
-// The lists come with the module of checks. If it cannot be loaded, a button tries again.
+// Loads the module of checks and shows its lists. If the module cannot be loaded, a button is shown that tries again.
 async function connect() {
   again.hidden = true;
   verdict.textContent = text('shaderWaits');

@@ -1,4 +1,5 @@
-// slider.js: a slider with its number. `title`: the element before it. `take` receives the number as text during the gesture, which is one step of undo.
+// slider.js: makes a slider that shows its number. `title` is the element before the slider. While the user moves the slider, `take` is called with the number
+// as text. The whole movement is one step of undo.
 import { beginGesture, endGesture } from './app.js';
 import { element } from './dom.js';
 

@@ -1,4 +1,4 @@
-// split.js: compares before and now: the left side of the picture shows a kept command line with the current camera and size. The dividing line can be
+// split.js: compares the picture with an earlier picture. The left side shows a kept command line with the current camera and size. The dividing line can be
 // dragged or moved by keys.
 import { call, on, refuse, state, view } from './app.js';
 import { $, button, element, ours } from './dom.js';
@@ -13,7 +13,7 @@ const bar = element('div', { id: 'split-bar' }, title, ' ', words, ' ',
   button('keepNow', () => keep('beforeKept')), button('swap', () => swap()), button('endSplit', () => toggle()));
 let before = null, share = 50, busy = false, again = false;
 
-// The kept words with the current view and size.
+// Returns the kept words with the current view and size.
 function beforeWords() {
   let made = before;
   for (const name of [...VIEW, 'camera', 'size']) made = new State(made).withValues(name, state.values(name));
@@ -50,7 +50,7 @@ function place(next) {
   line.setAttribute('aria-valuenow', Math.round(share));
 }
 
-// Compares with the present picture from now on.
+// Keeps the current picture, and compares later pictures with it.
 function keep(sentence) {
   before = state.words;
   title.textContent = text(sentence);

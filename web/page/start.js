@@ -1,9 +1,9 @@
-// start.js: starts the worker and calls it. ONE_FILE (web/bundle.py): this is the page in one file, which contains what the served page fetches.
+// start.js: starts the worker and calls it. ONE_FILE (web/bundle.py) is true in the one-file page. That page contains the modules that the served page fetches.
 import { caller } from './caller.js';
 import { insideScript, insideStream, insideText } from './inside.js';
 import { text } from './strings.js';
 
-// Fetches a module beside the page. `progress`: called with the number of bytes received and the total (0: unknown).
+// Fetches a module beside the page. `progress` is called with the number of received bytes and the total number. The total is 0 if it is unknown.
 export async function fetchModule(name, progress = () => {}) {
   const answer = await fetch(new URL(name, import.meta.url)).catch(() => {
     throw new Error(text('notReached', { name }));
@@ -21,17 +21,17 @@ export async function fetchModule(name, progress = () => {}) {
   return new Blob(parts).arrayBuffer();
 }
 
-// The same, but each module is fetched once.
+// Fetches a module as fetchModule() does, but each module only once.
 const modules = new Map();
 function moduleOnce(name, progress) {
   if (!modules.has(name)) modules.set(name, fetchModule(name, progress).catch((error) => (modules.delete(name), Promise.reject(error))));
   return modules.get(name);
 }
 
-// `helps`: a second worker with one thread, for small pictures.
+// `helps` means that the worker is a second worker with one thread, for small pictures.
 export function openWorker({ helps = false } = {}) {
   if (ONE_FILE) {
-    const served = document.getElementById('served'), threads = served && JSON.parse(served.textContent).threads; // by lambent view
+    const served = document.getElementById('served'), threads = served && JSON.parse(served.textContent).threads; // in the page of `lambent view`
     const script = insideScript(insideText('worker')), load = async () => (await import('./served.js')).fetchThreads();
     const decoders = [async () => ({ wasm: await insideStream('decoders').arrayBuffer() })];
     return caller(() => new Worker(script), insideStream('wasm').arrayBuffer(), { decoders, ...(threads && !helps ? { rest: withThreads(load, insideScript(insideText('thread'))) } : {}), helps });
@@ -53,8 +53,8 @@ export function openWorker({ helps = false } = {}) {
 
 const THREADS_MAX = 16;
 
-// If the page may share memory with its workers, a way to fetch the module with threads (web/threads.js). It replaces the module that has drawn the first
-// picture.
+// Returns a list with a function that fetches the module with threads (web/threads.js). The list is empty if the page cannot share memory with its workers. The
+// module with threads replaces the module that has drawn the first picture.
 function withThreads(load, script) {
   const count = Math.min(navigator.hardwareConcurrency, THREADS_MAX);
   return crossOriginIsolated && count > 1 ? [async () => ({ wasm: await load(), threads: { count, script: String(script) } })] : [];

@@ -1,14 +1,15 @@
-// state.js: the state of the page: the words of a command line, with options in the order in which they were given. Undo and redo are lists of such states.
+// state.js: the state of the page: the words of a command line, with options in the order in which they were given. Undo and redo use lists of earlier and
+// later states.
 // The picture, the link, and the shown and copied command are made from the same words.
 
-// The first picture: one light, and a material with a highlight, so that each term of the sum is visible.
+// The first picture. It has one light, and a material with a highlight, so that each term of the sum is visible.
 export const START = ['teapot', '--material=ambient=#12657a,diffuse=#1688a5,specular=0.7,shininess=80', '--light=point:position=0.3r/0.5r/1r', '--ambient=0.3'];
 
-// Models that are formulas: the name of the model and of its option, and the initial formula.
+// The models that are formulas. The name of the model is also the name of its option. The value is the initial formula.
 export const FORMULAS = { parametric: 'a=2; x=(a+cos(v))*cos(u); y=(a+cos(v))*sin(u); z=sin(v)', implicit: 'x^2+y^2+z^2-1' };
 const OF_FORMULAS = [...Object.keys(FORMULAS), 'u', 'v', 'x', 'y', 'z', 'flip'];
 
-// Returns the words with another model, optionally with its formula. Options of the old formula are removed.
+// Returns the words with another model, and with a formula if the model is a formula. Options of the old formula are removed.
 export function withModel(words, name, formula = FORMULAS[name]) {
   const rest = words.slice(1).filter((word) => !OF_FORMULAS.includes(word.slice(2).split('=')[0]));
   return formula ? [name, `--${name}=${formula}`, ...rest] : [name, ...rest];
@@ -17,7 +18,7 @@ export function withModel(words, name, formula = FORMULAS[name]) {
 // Options that determine the view. --camera replaces all of them.
 export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'fov', 'projection'];
 
-// Whether a value of --material is a metal, which reflects its surroundings.
+// Returns whether a value of --material is a metal, which reflects its surroundings.
 export const isMetal = (material) => /\bmetallic=1\b/.test(material ?? '');
 
 export class State {
@@ -40,7 +41,7 @@ export class State {
     this.onchange();
   }
 
-  // Replaces a word everywhere, also in the steps of undo and redo. This is not a step of its own.
+  // Replaces a word in the current words and in all steps of undo and redo. Does not add a step.
   replace(old, word) {
     const change = (words) => words.map((one) => (one === old ? word : one));
     this.#past = this.#past.map(change);
@@ -69,7 +70,7 @@ export class State {
     this.#go(this.#future, this.#past);
   }
 
-  // The states before the present one, the newest last.
+  // Returns the previous states. The newest state is the last.
   get past() {
     return this.#past;
   }
@@ -86,7 +87,7 @@ export class State {
     return this.words[0];
   }
 
-  // The values of an option, in order. A switch has the value ''. Words are "--name=value" or "--name".
+  // Returns the values of an option, in order. The word "--name=value" has the value "value", and the word "--name" has the value ''.
   values(name) {
     return this.words
       .slice(1)
@@ -110,7 +111,7 @@ export function quoted(word) {
   return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
 
-// The words of the command that draws the same picture, quoted for a shell. File names are relative to the opened folder.
+// Returns the words of the command that draws the same picture, quoted for a shell. File names are relative to the opened folder.
 export function commandWords(words) {
   const model = words[0].replace(/^\//, '');
   // If a file name equals a shape or command, or begins like an option, it gets the prefix './'.
@@ -120,7 +121,7 @@ export function commandWords(words) {
 
 export const command = (words) => commandWords(words).join(' ');
 
-// Converts the state to the fragment of an address, and back. Null: there is no state.
+// Converts the words to the fragment of an address, and back. fromFragment() returns null if the fragment contains no words.
 export function toFragment(words) {
   return '#' + words.map(encodeURIComponent).join('&');
 }

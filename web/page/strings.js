@@ -1,6 +1,6 @@
-// strings.js: every text of the page, in one table. Modules that are fetched later add their own texts (shader_strings.js). Texts of the program (names and
-// summaries of options, error messages, command lines) come from the module and are shown in elements with translate="no". With ?locale=pseudo, all texts of
-// the table have accents between ⟦ and ⟧. This shows texts that are missing from the table, and texts that would be cut off in a longer language.
+// strings.js: contains every text of the page in one table. Modules that are fetched later add their own texts (shader_strings.js). Texts of the program (names
+// and summaries of options, error messages, command lines) come from the module and are shown in elements with translate="no". With ?locale=pseudo, all texts
+// of the table have accents between ⟦ and ⟧. This shows texts that are missing from the table, and texts that would be cut off in a longer language.
 const STRINGS = {
   picture: 'Picture',
   model: 'Model',
@@ -240,7 +240,7 @@ const STRINGS = {
 
 const ACCENTS = { a: 'á', c: 'ç', e: 'é', i: 'î', n: 'ñ', o: 'ö', s: 'š', u: 'ü', A: 'Å', C: 'Ç', D: 'Ð', E: 'É', I: 'Î', N: 'Ñ', O: 'Ö', S: 'Š', U: 'Û' };
 
-// Accented, and a third longer, as German is.
+// Returns the text with accents, and a third longer, because German texts are about a third longer.
 export function pseudo(template) {
   const parts = template.split(/(\{\w+\})/);
   const accented = parts.map((part, i) => (i % 2 ? part : part.replace(/[A-Za-z]/g, (letter) => ACCENTS[letter] ?? letter))).join('');
@@ -249,7 +249,7 @@ export function pseudo(template) {
 
 const isPseudo = typeof location === 'object' && new URLSearchParams(location.search).get('locale') === 'pseudo';
 
-// The text of a key, with its {names} replaced by values.
+// Returns the text of a key, with its {names} replaced by values.
 export function text(key, values = {}) {
   const template = STRINGS[key];
   if (template === undefined) throw new Error(`strings.js has no '${key}'`);

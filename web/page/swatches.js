@@ -1,10 +1,10 @@
-// swatches.js: choices with small pictures, at most one of which is selected.
+// swatches.js: makes choices with small pictures. At most one choice is selected.
 import { on, state } from './app.js';
 import { element, ours } from './dom.js';
 import { thumbnail } from './thumbnails.js';
 
-// `choices`: { value, name, words (of the picture), label (a text of the page; default: the program's name), color (instead of a picture) }.
-// `chosen` returns the value of the state; `take` sets it. `named`: show the names below the pictures.
+// A choice is { value, name, words (of the picture), label (a text of the page; default: the program's name), color (instead of a picture) }. `chosen` returns
+// the current value, and `take` sets it. `named` means that the names are shown below the pictures.
 export function swatches({ title, choices, chosen, take, named = false }) {
   const current = ours('span', '', { className: 'chosen' });
   const buttons = choices.map((choice) => {
@@ -17,7 +17,7 @@ export function swatches({ title, choices, chosen, take, named = false }) {
     if (!named) Object.assign(made, { onpointerenter: () => showName(choice), onfocus: () => showName(choice), onpointerleave: show, onblur: show });
     return made;
   });
-  // The name above the pictures: of the chosen one, or of the one under the pointer.
+  // Shows a name above the pictures: the name of the chosen picture, or of the picture under the pointer.
   function showName(choice) {
     current.textContent = choice.label ?? choice.name;
     current.translate = Boolean(choice.label);

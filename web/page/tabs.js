@@ -1,4 +1,5 @@
-// tabs.js: the panels beside the picture. addTab(id, label) returns the element that a module fills: #panel-ID, with the tab #tab-ID. `opened` is
+// tabs.js: adds and selects the panels beside the picture. addTab(id, label) returns the element that a module fills: #panel-ID, with the tab #tab-ID. `opened`
+// is
 // called with this element when the tab is shown for the first time.
 import { $, element } from './dom.js';
 
@@ -19,13 +20,14 @@ export function addTab(id, label, opened = null) {
   return panel;
 }
 
-// In a narrow window the tabs are below the picture, which stays visible. Scrolls so that the tabs are next to the picture.
+// In a narrow window, the tabs are below the picture, and the picture stays visible during scrolling. This function scrolls until the tabs are next to the
+// picture.
 function bringUp() {
   const below = $('stage').getBoundingClientRect().bottom, { top } = $('tabs').getBoundingClientRect();
   if (getComputedStyle($('stage')).position === 'sticky' && top > below) scrollBy(0, top - below);
 }
 
-// `focus`: moves the focus, for keys. A tab that the page opens leaves the focus unchanged.
+// `focus` means that the tab gets the focus, because the user has pressed a key. If the page itself selects a tab, the focus stays unchanged.
 export function selectTab(id, focus = false) {
   for (const one of tabs) {
     const chosen = one.id === id;

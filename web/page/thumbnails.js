@@ -1,10 +1,10 @@
-// thumbnails.js: small pictures of choices. A second worker draws them, so that the first keeps the page's model loaded. It starts after the first picture,
-// and ends when all small pictures are drawn.
+// thumbnails.js: draws small pictures of choices. They are drawn by a second worker, so that the first worker keeps the page's model loaded. The second worker
+// is started after the first picture, and ended when all small pictures are drawn.
 import { on, view } from './app.js';
 import { MODULE_BYTES } from './memory.js';
 import { openWorker } from './start.js';
 
-const made = new Map(); // by words: ImageData
+const made = new Map(); // the ImageData of each picture, by its words
 let waiting = [], isRunning = false;
 
 // Draws the picture of the words on a canvas, immediately or later.
@@ -34,7 +34,7 @@ async function work() {
       show(canvas, made.get(key));
     }
   } catch {
-    waiting = []; // a choice without a picture still has its name
+    waiting = []; // the choices without pictures still show their names
   }
   worker?.end();
   isRunning = false;

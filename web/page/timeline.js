@@ -1,4 +1,4 @@
-// timeline.js: animations of the model with a time line: play, pause, and a slider for the time.
+// timeline.js: plays the animations of the model. It has a button for play and pause, and a slider for the time.
 import { beginGesture, endGesture, gestureKey, on, state, view } from './app.js';
 import { button, element } from './dom.js';
 import { setOption } from './row.js';
@@ -14,7 +14,7 @@ export function timeline(animations) {
     began = null;
     setOption('time', [value], gestureKey());
   });
-  let began = null; // the clock time at which the animation was at 0; null: paused
+  let began = null; // the clock time at which the animation was at 0; null if it is paused
 
   function step() {
     if (began === null || !time.isConnected) return stop();

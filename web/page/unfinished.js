@@ -1,5 +1,5 @@
-// unfinished.js: remembers for this browser tab whether a long drawing was unfinished or stopped when the page was closed. In this case, the page does not
-// start the same drawing by itself.
+// unfinished.js: stores for this browser tab whether a long drawing was unfinished or stopped when the page was closed. If so, the page does not start the same
+// drawing by itself.
 const KEY = 'lambent-unfinished', LONG_MS = 3000;
 let timer = 0;
 
@@ -12,7 +12,7 @@ function remember(words) {
   }
 }
 
-// Called when a drawing starts. A long drawing is remembered until it is finished.
+// Called when a drawing starts. A long drawing is stored until it is finished.
 export function started(words) {
   finished();
   timer = setTimeout(() => remember(words), LONG_MS);

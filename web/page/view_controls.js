@@ -1,4 +1,4 @@
-// view_controls.js: buttons for views from all sides, the whole model and full screen, and a slider that cuts the model open.
+// view_controls.js: makes buttons for views from all sides, for the whole model and for full screen, and a slider that cuts the model open.
 import { gestureKey, on, refuse, state, view } from './app.js';
 import { cut, cutShare } from './camera.js';
 import { $, button, element } from './dom.js';
@@ -19,7 +19,7 @@ function toggleFullScreen() {
   done.catch((error) => refuse(error.message));
 }
 
-// Cuts the front of the model away. Both sides of faces are drawn, because the inside becomes visible.
+// Cuts the front of the model away. Both sides of the faces are then drawn, because the inside of the model is visible.
 function cutTo(share) {
   if (!view.camera) return;
   const key = gestureKey(), culled = state.values('cull');

@@ -1,5 +1,5 @@
-// viewer.js: additions for the page of `lambent view` (served.js): it redraws when a file changes, shows the model's name in the title, and links to the
-// gallery. Only that page fetches this module.
+// viewer.js: additional functions of the page of `lambent view` (served.js). It draws the picture again when a file changes, shows the model's name in the
+// title, and links to the gallery. Only that page fetches this module.
 import { emit, on, refuse, say, state, view } from './app.js';
 import { $, element } from './dom.js';
 import { giveUpPicture, nativeReason, served, watchServed } from './served.js';

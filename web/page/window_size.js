@@ -1,11 +1,11 @@
-// window_size.js: adapts the picture to the window while its size is the one that filled the window before.
+// window_size.js: adapts the picture to the window when the window's size changes. It does so only if the picture filled the window before.
 import { on, stageSize, state } from './app.js';
 
 let filled = stageSize(), timer = 0;
 
 export const isFollowing = () => state.values('size').at(-1) === filled;
 
-// From now on, the picture fills the window.
+// Makes the picture fill the window, also after the window's size changes.
 export function followWindow() {
   filled = stageSize();
   state.set(state.withValues('size', [filled]));
@@ -19,7 +19,7 @@ addEventListener('resize', () => {
     if (filled !== before && state.values('size').at(-1) === before) state.replace(`--size=${before}`, `--size=${filled}`);
   }, 150);
 });
-// Texts that arrive late can change the size of the stage.
+// Texts that are shown late can change the size of the stage.
 on('ready', () => {
   if (!isFollowing()) filled = stageSize();
 });

@@ -1,12 +1,12 @@
-// worker.js: draws in a separate thread. Messages: {id, call, ...}. Answers: {id, result}, {id, error, cancelled}, {progress}: the fraction of the
-// running call that is done, or {id, missing}: the call needs that part of the module, which the page fetches before it asks again. The page sends
-// only the newest of the waiting drawings.
+// worker.js: draws in a separate thread. Messages: {id, call, ...}. Answers: {id, result}, {id, error, cancelled}, {progress} or {id, missing}. `progress` is
+// the finished fraction of the running call. `missing` is a part of the module that the call needs. The page then fetches the part and sends the call again. If
+// several drawings wait, the page sends only the newest one.
 import { Decoders } from './decoders.js';
 import { Lambent, LambentError, PartMissing } from './lambent.js';
 
 const parts = new Map(); // by name, if the module is divided
 let lambent = null, decoders = null, first = null, broken = null, memory = 0;
-let threaded = null; // the module with threads, and their number
+let threaded = null; // the module with threads, and the number of threads
 
 let model = null; // the last drawn model
 
@@ -27,7 +27,7 @@ async function useThreads() {
 // Informs the page about the threads; `flag` is the address of the cancel flag in their memory.
 const aboutThreads = () => ({ threads: lambent.threads, shared: lambent.instance.exports.memory.buffer, flag: lambent.instance.exports.web_cancel_flag() });
 
-// The part of a divided module that each of these calls needs. It is downloaded first, because a call that stops for it loses the
+// The part of a divided module that each of these calls needs. The part is downloaded before the call, because a call that stops at a missing part loses the
 // model.
 const NEEDS = { explain: 'more', lights: 'more', scene: 'more', contents: 'more' };
 const neededPart = ({ call, parted }) => parted && NEEDS[call] && (threaded ? 'threads-' : '') + NEEDS[call];
@@ -39,7 +39,8 @@ const calls = {
     use(new Lambent(first, undefined, { progress }));
     return lambent.options();
   },
-  // A Lambent that has asked for a part is replaced, as is one that gets threads. Otherwise it only receives the part.
+  // Adds a part of the module, or replaces the module by the module with threads. A Lambent that has stopped at a missing part is replaced by a new one. Any
+  // other Lambent receives the part.
   async complete({ part, wasm, threads }) {
     if (threads) {
       threaded = { module: await WebAssembly.compile(wasm), ...threads };
@@ -69,7 +70,7 @@ const calls = {
     model = null;
     return null;
   },
-  // `missing`: paths that the reader asked for and did not find.
+  // `missing` contains the paths that the reader has not found.
   draw({ words }) {
     if (model !== words[0]) for (const paths of [lambent.files.absent, lambent.files.used]) paths.clear();
     model = words[0];
@@ -81,7 +82,7 @@ const calls = {
   lights: ({ words }) => lambent.lights(words),
   scene: ({ words }) => lambent.scene(words),
   contents: ({ words }) => lambent.contents(words),
-  // The files that the last picture's model was read from, as [path, bytes].
+  // Returns the files from which the last picture's model was read, as [path, bytes].
   used: () => [...lambent.files.used].filter((path) => lambent.files.get(path)).map((path) => [path, lambent.files.get(path).slice()]),
 };
 

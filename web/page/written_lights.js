@@ -1,9 +1,10 @@
-// written_lights.js: writes the lights of the picture as options, so that lights chosen by the program can be changed.
+// written_lights.js: writes the lights of the picture as options, so that the user can change lights that the program has chosen.
 import { call, state } from './app.js';
 import { lightWords } from './lights.js';
 import { State } from './state.js';
 
-// Returns the words with the picture's lights, and their number. Null: the picture would change, which is checked.
+// Returns the words with the picture's lights, and the number of lights. Draws the picture with these words, and returns null if it differs from the picture
+// before.
 export async function writtenLights() {
   const before = state.words, { lights, ambient } = await call('lights', { words: before });
   let words = state.withValues('rig', []);

@@ -31,7 +31,7 @@ struct model_diff {
     struct batch_plan olds, news; // the models of both sides, which own the paths
     struct batch_plan plan;       // one model for each pair
     struct model_pair *pairs;     // for each model of the plan
-    bool folders;                 // false compares two models
+    bool folders;                 // compares two folders, not two models
     atomic_int *rows;             // counts the models whose pictures are kept for the page
     size_t counts[CHANGE_COUNT];  // valid after all models are drawn
 };
@@ -39,7 +39,7 @@ struct model_diff {
 // diff_draw.c: draws a pair with one camera and determines how the model has changed (batch_use.draw).
 bool diff_draw(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error);
 
-// Returns from its record how a model has changed.
+// Returns how a model has changed, according to its record.
 enum change diff_change_of(const json_t *record);
 
 // diff_page.c: builds the page as one file, allocated with malloc. Returns NULL if memory runs out.

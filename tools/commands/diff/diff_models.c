@@ -203,7 +203,7 @@ static bool check(const struct model_diff *diff, lam_error *error)
 int diff_models(char **operands, bool folders, const struct options *options)
 {
     lam_error error = {0};
-    // The loop prints no reports and writes no pictures.
+    // This command prints its own report, so the batch run prints no reports and writes no pictures.
     struct options drawn = *options;
     drawn.report.json = false;
     drawn.picture.output = NULL;

@@ -1,5 +1,5 @@
-// explain.c: the command `explain`: prints every number of one pixel, from its triangles to its bytes. With -o, draws a
-// figure.
+// explain.c: the command `explain`: prints every value in the computation of one pixel, from its triangles to its
+// bytes. With -o, it also draws a figure.
 #include "explain.h"
 
 #include <stdio.h>
@@ -81,7 +81,7 @@ static bool check_figure(const char *path, const struct options *o, const char *
     return to_stdout || output_check(path, model, output_given(o->picture.output), error);
 }
 
-// Draws the picture of the explained job.
+// Draws the picture that contains the explained pixel.
 static bool draw_picture(struct job *job, struct progress *progress, lam_error *error)
 {
     lam_frame_report report;
@@ -121,7 +121,8 @@ static void print(const lam_explanation *explanation, const struct job *job)
         explain_text(explanation, job->model);
 }
 
-// Explains the pixel, prints the explanation unless standard output is in use, and draws the figure if requested.
+// Explains the pixel, prints the explanation unless the figure is written to standard output, and draws the figure if
+// requested.
 static int explain(struct job *job, int x, int y, const char *figure)
 {
     lam_error error = {0};

@@ -10,7 +10,7 @@ void explain_layers_over(char text[60], const lam_explained_layers *layers, floa
     snprintf(text, 60, "%s%s", layers->coat > 0 ? "(1 − share) · " : "", sheen_left < 1 ? "left · " : "");
 }
 
-// Prints the part of light 1 that each layer reflects (docs/lighting/layers.md).
+// Prints the fraction of a light that each layer reflects (docs/lighting/layers.md).
 void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all)
 {
     row_color(4, "base", layers->base, "F S");
@@ -22,7 +22,7 @@ void explain_light_layers(const lam_explained_light_layers *layers, const lam_ex
         row_number(4, "coat", (double)layers->coat, "share · S of the coat");
 }
 
-// Prints the layers for light from all directions.
+// Prints the properties of the layers that are the same for all lights.
 void explain_layers(const lam_explained_layers *layers)
 {
     printf("\n  layers\n");
@@ -47,8 +47,8 @@ void explain_layers(const lam_explained_layers *layers)
         row_number(4, "share", (double)layers->coat, "of the coat: clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)");
 }
 
-// Prints the environment light that each part of the surface reflects. The diffuse part belongs to the diffuse term,
-// the others to the specular term.
+// Prints the environment light that each layer reflects. The diffuse part belongs to the diffuse term, the other parts
+// belong to the specular term.
 void explain_environment_parts(const lam_explained_point *p)
 {
     const lam_explained_layers *layers = p->layers;

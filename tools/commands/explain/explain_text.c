@@ -49,7 +49,8 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
         row_number(4, "t·v", dot(p->t, p->v), "cos(t,v)");
     }
     const lam_explained_light_layers *layers = p->layers ? l->layers : NULL;
-    bool gates_diffuse = strncmp(model->diffuse, "max(", 4) != 0; // a max() is already 0 there
+    bool gates_diffuse =
+        strncmp(model->diffuse, "max(", 4) != 0; // a formula that begins with max() is already 0 if n·l ≤ 0
     char over[60] = "";
     if (layers)
         explain_layers_over(over, p->layers, layers->sheen_left);
@@ -79,7 +80,7 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
     row_number(4, "S", (double)l->S, remark);
 }
 
-// Prints the surfaces that block the light.
+// Prints the fraction of the light that passes, and the surface that blocks the rest.
 static void print_shadow(const lam_explained_light *l)
 {
     char remark[200] = "nothing is in the way";

@@ -91,7 +91,7 @@ static bool add_models(struct hash_run *run, int count, char **operands, lam_err
     return ok;
 }
 
-// Collects the names of the models. A model that is given twice counts once.
+// Collects the names of the models. Fails if a model is given twice.
 static bool name_models(struct hash_run *run, lam_error *error)
 {
     struct batch_plan *plan = &run->plan;
@@ -112,7 +112,7 @@ static bool name_models(struct hash_run *run, lam_error *error)
     return ok;
 }
 
-// Finds existing models in the file that the command line does not name. --update keeps their hashes.
+// Finds the models in the hash file that exist but are not on the command line. --update keeps their hashes.
 static bool find_kept(struct hash_run *run, lam_error *error)
 {
     run->kept = calloc(run->then.count + 1, sizeof *run->kept);
@@ -169,7 +169,7 @@ struct result {
     size_t counts[STATE_COUNT];
 };
 
-// Prints the names in one state, as a JSON list or one per line.
+// Prints the names of the models in one state, as a JSON list or one per line.
 static void tell_state(const struct hash_run *run, json_t *const *records, enum state state, struct json *json,
                        struct result *result)
 {
@@ -303,13 +303,13 @@ static int finish(void *user, json_t *const *records, size_t failed)
         if (written)
             printf("written to %s%s%s\n", run->path, rows ? "; old and new pictures: " : "", rows ? run->sheet : "");
     }
-    if (ok && writes && blocked && json.file != stderr) // a hint is useful only without other output
+    if (ok && writes && blocked && json.file != stderr) // not if the hashes go to standard output
         say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok omits them\n", run->path,
                   failed);
     if (!ok)
         return report_failure(&error, o);
     bool differs = result.counts[STATE_CHANGED] + result.counts[STATE_MISSING] + result.counts[STATE_NEW];
-    bool lost = false; // a model in the file failed, which --failures-ok does not excuse
+    bool lost = false; // a model in the hash file failed, which --failures-ok does not allow
     for (size_t i = 0; run->checks && i < run->plan.count; i++)
         lost |= hash_file_find(&run->then, run->names[i]) && !json_object_get(records[i], "pixels");
     return blocked ? EXIT_SOME_FAILED : run->checks && !o->hash.update && (differs || lost) ? EXIT_DIFFERS : 0;
@@ -384,13 +384,14 @@ static bool prepare(struct hash_run *run, int count, char **operands, lam_error 
 static int run_with(struct hash_run *run, int operand_count, char **operands)
 {
     lam_error error = {0};
-    // The loop prints no reports and writes no pictures.
+    // This command prints its own report, so the batch run prints no reports and writes no pictures.
     struct options drawn = *run->options;
     drawn.report.json = false;
     drawn.report.verbose = false;
     drawn.picture.output = NULL;
     run->by_file = !operand_count && !run->options->batch.lists.count;
-    drawn.limits.files_inside |= run->by_file; // scenes in a hash file may read only the folders that the file may read
+    drawn.limits.files_inside |=
+        run->by_file; // scenes named by a hash file may read only the folders that the file may read
     struct batch_use use = {draw, reach, right_of, finish, run};
     bool ok = check(operand_count, run->options, &error) && batch_plan_start(&run->plan, &drawn, &error) &&
               prepare(run, operand_count, operands, &error);
@@ -413,7 +414,7 @@ int run_hash(int operand_count, char **operands, const struct options *options)
     for (size_t i = 0; run.names && i < run.plan.count; i++)
         free(run.names[i]);
     free(run.names);
-    free(run.sorted.entries); // the names belonged to these entries
+    free(run.sorted.entries); // the names, shared with run.names, are already freed
     free(run.kept);
     free(run.sheet);
     shared_count_free(run.rows);

@@ -25,8 +25,8 @@ struct hash_run {
 };
 
 // Copies the options of the command line to `own`. If no option of the command line changes the picture, adds the
-// options in the file. `own` refers to the text *kept. The caller frees both, even after a failure. Fails with
-// LAM_CANNOT_READ or LAM_LIMIT.
+// options that the hash file stores. `own` contains pointers into the text *kept. The caller frees both, even after a
+// failure. Fails with LAM_CANNOT_READ or LAM_LIMIT.
 bool hash_options_take(const struct hash_file *file, const char *path, const struct options *given, struct options *own,
                        char **kept, lam_error *error);
 
@@ -48,7 +48,8 @@ char *hash_picture_path(const char *folder, const char *name);
 void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t recorded, const lam_image *picture,
                      json_t *found);
 
-// Writes the sheet of the pictures in the records. Sets *rows to their number; if it is 0, no sheet was written.
+// Writes the sheet of the pictures in the records. Sets *rows to the number of pictures; if *rows is 0, no sheet was
+// written.
 bool hash_sheet_write(const struct hash_run *run, json_t *const *records, int *rows, lam_error *error);
 
 // Returns the XXH64 of a picture's pixels: rows from the top, each red, green, blue and alpha. The picture must be

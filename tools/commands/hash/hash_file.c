@@ -268,7 +268,7 @@ bool hash_file_may_name(const char *path, const char *file, const struct options
     if (lam_shape_find(file) >= 0)
         return true;
     char *folder = output_folder_of(path), *real = realpath(file, NULL);
-    bool may = folder && (real ? is_below(real, folder) : errno == ENOENT); // a missing file cannot be read
+    bool may = folder && (real ? is_below(real, folder) : errno == ENOENT); // a missing file does no harm
     for (int i = 0; real && !may && i < options->limits.allow_paths.count; i++)
         may = is_below(real, options->limits.allow_paths.items[i]);
     free(folder);

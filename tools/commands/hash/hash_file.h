@@ -47,8 +47,8 @@ char *hash_file_name(const char *path, const char *model);
 // Returns the path of the model for a name in the file `path`, allocated with malloc. Returns NULL if memory runs out.
 char *hash_file_model(const char *path, const char *name);
 
-// Returns whether the file of hashes `path` may name this file (a path from hash_file_model): it must be below the
-// folder of `path` or in --allow-path after all links are resolved. Fails with LAM_CANNOT_READ.
+// Returns whether the hash file `path` may name the model `file` (a path from hash_file_model). After all links are
+// resolved, `file` must be below the folder of `path` or below a folder of --allow-path. Fails with LAM_CANNOT_READ.
 bool hash_file_may_name(const char *path, const char *file, const struct options *options, lam_error *error);
 
 #endif

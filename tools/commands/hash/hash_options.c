@@ -36,10 +36,11 @@ static int split(char *text, char **words)
     return count;
 }
 
-// The picture options that name files: an environment names one or six files, a look one. Both may also be built in.
+// The picture options that name files: `environment` names one or six files, `look` names one file. Both also accept
+// built-in names.
 static const char *const of_files[] = {"environment", "look"};
 
-// Writes the value of such an option, with each path replaced by the result of `map`, which is from malloc.
+// Writes the value of an option in of_files, with each path replaced by the result of `map`. Frees the results.
 static bool put_paths(FILE *out, const char *name, const char *value, const char *file,
                       char *(*map)(const char *file, const char *path))
 {
@@ -91,7 +92,8 @@ char *hash_options_text(const struct options *options, const char *path)
     return text;
 }
 
-// Returns whether the file may name the files of such an option, whose paths are relative to the present folder.
+// Returns whether the hash file `path` may name the files in the value of an option. Their paths are relative to the
+// current folder.
 static bool may_name(const char *path, const char *name, const char *value, const struct options *o, lam_error *error)
 {
     bool environment = strcmp(name, "environment") == 0, ok = true;
@@ -107,8 +109,8 @@ static bool may_name(const char *path, const char *name, const char *value, cons
     return ok;
 }
 
-// Makes the paths among the words relative to the present folder, before a look is read. Stores the new paths from `to`
-// on, behind the text of the words.
+// Makes the paths in the options relative to the current folder, which must happen before a look is read. Stores the
+// new paths in the buffer from `to` to `end`.
 static bool resolve(char **words, int count, const char *path, char *to, const char *end, const struct options *o,
                     lam_error *error)
 {
@@ -118,7 +120,7 @@ static bool resolve(char **words, int count, const char *path, char *to, const c
             if (strncmp(words[i], "--", 2) != 0 || strncmp(words[i] + 2, of_files[k], length) != 0)
                 continue;
             const char *rest = words[i] + 2 + length;
-            if (*rest == '=') // `lambent hash` does not write them like this
+            if (*rest == '=') // `lambent hash` never writes --name=value
                 return false;
             if (*rest || i + 1 == count)
                 continue;
@@ -140,7 +142,7 @@ bool hash_options_take(const struct hash_file *file, const char *path, const str
     char *words[WORDS_MAX], *now = hash_options_text(given, path);
     bool wanted = now && !*now && *file->options, ok = now && options_copy(own, given);
     free(now);
-    // Each path may get longer by the length of the file's folder.
+    // Each path may become longer by the length of the hash file's folder.
     size_t length = strlen(file->options), room = length + 1 + (length + 1) * (strlen(path) + 2);
     *kept = ok && wanted ? malloc(room) : NULL;
     if (*kept)
@@ -156,7 +158,7 @@ bool hash_options_take(const struct hash_file *file, const char *path, const str
     // A look may name an environment.
     ok = ok && (!own->shading.environment || may_name(path, "environment", own->shading.environment, given, &reason));
     now = ok ? hash_options_text(own, path) : NULL;
-    ok = now && strcmp(now, file->options) == 0; // changes the hash file only: no output, no other files
+    ok = now && strcmp(now, file->options) == 0; // the line may contain only options that change the picture
     free(now);
     return ok || complain(error, LAM_CANNOT_READ,
                           "%.300s:3: found '%.100s', expected options that change the picture%s%.200s", path,

@@ -8,7 +8,7 @@
 
 // A texture that a material uses, or an unused picture in the file.
 struct info_texture {
-    const lam_texture *texture;  // NULL if no material uses the picture or it cannot be read
+    const lam_texture *texture;  // NULL if no material uses the picture or the picture cannot be read
     const lam_file_image *image; // NULL if the file does not list its pictures
     unsigned slots;              // bit m: a material uses it as map m (lam_map)
 };
@@ -24,11 +24,11 @@ const char *info_texture_file(const struct info_texture *texture, const char *mo
 const char *info_texture_format(const struct info_texture *texture); // "png"; NULL if unknown
 const char *info_color_space(const struct info_texture *texture);    // "srgb" or "linear"; NULL if unused
 
-// A name of objects or parts, and how many have it.
+// A name of objects or parts, and the numbers of objects and parts with this name.
 struct info_name {
     const char *name;
     int objects, parts;
-    int order; // of its first use
+    int order; // the position of the name's first use
 };
 struct info_names {
     struct info_name *items; // from malloc
@@ -40,7 +40,7 @@ bool info_names_list(const lam_scene *scene, struct info_names *names, lam_error
 struct info {
     const struct job *job;
     const lam_error *error; // LAM_OK if the model is loaded
-    bool needs_lenient;     // it can only be drawn with --lenient
+    bool needs_lenient;     // the model can be drawn only with --lenient
     const struct info_textures *textures;
     const struct info_names *names;
     uint64_t
@@ -71,13 +71,13 @@ struct info_measure {
     // True if every edge belongs to the same number of triangles in each direction, so that the surface encloses a
     // volume.
     bool closed;
-    double volume; // of closed surfaces; overlapping objects count twice
+    double volume; // only valid if `closed`; overlapping objects count twice
 };
 struct info_measure info_measure(const lam_scene *scene);
 
 const char *info_material_kind(const lam_material *material); // returns "metallic-roughness", "classic" or "unlit"
-// Returns the values of a field in the format of scene files, if the field is not printed for every material and
-// differs from its default. The result is the number of values, or 0 for a default.
+// Stores the values of a field, in the format of scene files, in `numbers` and returns the number of values. Returns 0
+// if the field is printed for every material or equals its default.
 int info_changed_field(const lam_field *field, const lam_material *material, double numbers[4]);
 const char *info_alpha_mode(const lam_material *material); // returns "opaque", "mask" or "blend"
 const char *info_support(lam_extension_support support);   // returns a description

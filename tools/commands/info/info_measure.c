@@ -27,7 +27,7 @@ static uint64_t mix(uint64_t x)
     return x ^ x >> 32;
 }
 
-// Returns a hash of a position, which is equal for coincident vertices.
+// Returns a hash of a vertex's position. Coincident vertices have equal hashes.
 static uint64_t position_hash(const lam_mesh *mesh, uint32_t vertex)
 {
     uint64_t hash = 1;
@@ -40,8 +40,8 @@ static uint64_t position_hash(const lam_mesh *mesh, uint32_t vertex)
     return hash;
 }
 
-// Returns a hash of a directed edge. The opposite direction has the negated hash. The hashes of a closed surface have
-// the sum 0; the sum for other surfaces is 0 with a probability of 2⁻⁶⁴.
+// Returns a hash of a directed edge. The hash of the opposite direction is negated. The hashes of a closed surface add
+// up to 0. The hashes of any other surface add up to 0 with a probability of 2⁻⁶⁴.
 static uint64_t edge_hash(uint64_t from, uint64_t to)
 {
     return from < to ? mix(from + mix(to)) : from > to ? 0 - mix(to + mix(from)) : 0;

@@ -29,7 +29,7 @@ static void add(struct info_names *names, const char *name, bool object)
     names->count++;
 }
 
-// Adds the names of all objects and parts, or only counts them.
+// Adds the names of all objects and parts. If `items` is NULL, only counts them.
 static void add_all(struct info_names *names, const lam_scene *scene)
 {
     names->count = 0;

@@ -1,4 +1,4 @@
-// info_text.c: prints a model as text on one screen. Lists end after ROWS rows and state the number of omitted rows.
+// info_text.c: prints a model as text on one screen. A longer list shows ROWS rows and the number of omitted rows.
 #include "info.h"
 
 #include <inttypes.h>
@@ -27,7 +27,7 @@ static char *plain(const char *name, size_t bytes, char *out)
     return out;
 }
 
-// Returns a name from a file in quotes, or a note for an empty name.
+// Returns a name in quotes, or "" for NULL.
 static const char *shown(const char *name, char out[NAME_BYTES + 12])
 {
     if (!name)
@@ -39,7 +39,7 @@ static const char *shown(const char *name, char out[NAME_BYTES + 12])
 
 static const char *label(const char *text, int index) { return index == 0 ? text : ""; }
 
-// Returns true if a row of a long list is omitted. Prints the number of omitted rows instead.
+// Returns true if a row of a long list is omitted. For the first omitted row, prints the number of omitted rows.
 static bool omitted(int index, int count)
 {
     if (index == ROWS && count > ROWS + 1) {
@@ -153,7 +153,7 @@ static void print_factors(const lam_material *m)
         printf(", alpha blended");
 }
 
-// Prints the names that --hide accepts, beside the names of materials.
+// Prints the names of objects and parts that --hide accepts.
 static void print_names_to_hide(const struct info_names *names)
 {
     char name[NAME_BYTES + 12];

@@ -12,7 +12,7 @@ static void add(struct info_textures *textures, const lam_texture *texture, cons
     textures->items[textures->count++] = (struct info_texture){.texture = texture, .image = image};
 }
 
-// Adds one texture for each way in which materials use the picture.
+// Adds an entry for each texture that was made from the picture: one for colours and one for other values.
 static void add_image(struct info_textures *textures, const lam_file_image *image)
 {
     for (int values = 0; values < 2; values++)

@@ -74,7 +74,7 @@ static bool check_keys(json_t *root, lam_error *error)
     return true;
 }
 
-// Gets the text of a key; NULL with true if it is missing or null.
+// Gets the text of a key. If the key is missing or null, sets *text to NULL and returns true.
 static bool text_of(const json_t *root, const char *key, const char **text, lam_error *error)
 {
     const json_t *value = json_object_get(root, key);
@@ -141,7 +141,7 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
     return batch_plan_add(&job->plan, model ? model : name ? name : "model", NULL, error);
 }
 
-// Reads the output option: the name for the pictures. Pictures in an answer have names too, which select their format.
+// Reads the name for the pictures. Pictures in an answer also need a name, because its extension selects their format.
 static bool read_output(struct batch_job *job, const json_t *root, lam_error *error)
 {
     const char *output, *format;
@@ -181,7 +181,7 @@ static bool check_environment(const struct batch_job *job, const struct batch_jo
     return ok;
 }
 
-// A look is read while the words are parsed, so its file is checked before that.
+// Checks the files of looks before the options are parsed, because parsing reads these files.
 static bool check_looks(const struct batch_job *job, const struct batch_job_rules *rules, lam_error *error)
 {
     static const char option[] = "--look";
@@ -221,7 +221,7 @@ static bool read_options(struct batch_job *job, const json_t *root, const struct
     o->work.threads = rules->threads;
     o->limits.in_flight = rules->in_flight;
     o->limits.files_inside = true;
-    o->limits.allow_paths.count = 0; // a job's model may only read its own folder
+    o->limits.allow_paths.count = 0; // a job's model may read only files in its own folder
     return job_words_make(json_object_get(root, "options"), &job->words, &job->word_count, error) &&
            check_looks(job, rules, error) && job_words_apply(job->words, job->word_count, o, error) &&
            check_environment(job, rules, error) && job_check_options(o, error);

@@ -10,21 +10,21 @@
 struct batch_job {
     struct batch_job *next; // the next job in a list
     json_t *id;             // a string or an integer
-    struct options options; // the worker's options, followed by the job's
-    char **words;           // the options point into them
+    struct options options; // the options of the worker and of the job
+    char **words;           // `options` points into these words
     int word_count;
     struct batch_plan plan; // the plan of one model
     lam_bytes bytes;        // the model's bytes; data is NULL for a file
     bool in_answer;         // the answer contains the pictures' files
-    char *output;           // the options point to it
+    char *output;           // `options` points to it
     char *options_text;     // the options as text for keys, or NULL
     lam_cancel cancel;      // set to cancel the job
-    bool cancelled;         // whether it was cancelled
+    bool cancelled;         // whether the job was cancelled
 };
 
 // Settings common to all jobs.
 struct batch_job_rules {
-    const struct options *options; // the worker's
+    const struct options *options; // the options of the worker
     int threads, in_flight;        // threads of a job, and jobs drawn at once
     const struct job_roots *roots; // allowed folders for files
     bool has_keys;                 // whether there is a journal
@@ -33,8 +33,8 @@ struct batch_job_rules {
 // The kind of a line. LINE_REFUSED means that the line is invalid; `error` contains the reason.
 enum batch_line { LINE_JOB, LINE_CANCEL, LINE_REFUSED };
 
-// Parses a line of JSON. Sets *id to the id of the job, or of the job to cancel, also for refused jobs; NULL if
-// there is none. The caller calls json_decref, and frees the job.
+// Parses a line of JSON. Sets *id to the id of the job, or of the job to cancel, even if the line is refused; NULL if
+// the line contains no valid id. The caller calls json_decref, and frees the job.
 enum batch_line batch_job_read(const char *line, size_t size, const struct batch_job_rules *rules,
                                struct batch_job **job, json_t **id, lam_error *error);
 

@@ -1,7 +1,8 @@
-// job_roots.c: the folders to which files of jobs are restricted.
+// job_roots.c: restricts the files of jobs to the folders of --allow-path.
 //
-// With Landlock, the kernel also restricts a worker to them (sandbox_start.c). This check produces the error message,
-// and protects without Landlock as long as nobody moves links in these folders meanwhile.
+// With Landlock, the kernel also restricts a worker to these folders (sandbox_start.c). The check in this file produces
+// the error message. It also protects without Landlock, as long as nobody changes links in these folders during the
+// check.
 #include "job_roots.h"
 
 #include <errno.h>
@@ -49,7 +50,7 @@ static bool is_below(const struct job_roots *roots, const char *real)
 }
 
 // Returns the real path of a path, or of its nearest existing parent folder. Returns NULL if there is no such folder,
-// or if the missing part is more than folders to be created: "..", or a broken link.
+// or if the missing part of the path contains ".." or a broken link and therefore cannot be created.
 static char *resolve(const char *path, bool *exists)
 {
     char *real = realpath(path, NULL), *copy = real ? NULL : strdup(path);

@@ -1,4 +1,4 @@
-// job_roots.h: the folders of --allow-path, to which the files of jobs are restricted.
+// job_roots.h: restricts the files of jobs to the folders of --allow-path.
 #ifndef JOB_ROOTS_H
 #define JOB_ROOTS_H
 
@@ -9,13 +9,13 @@ struct job_roots {
     int count;
 };
 
-// Resolves the folders. Fails with LAM_BAD_ARGUMENT (not a folder), LAM_LIMIT.
+// Resolves the folders. Fails with LAM_BAD_ARGUMENT (not a folder) or LAM_LIMIT.
 bool job_roots_start(struct job_roots *roots, const struct options *options, lam_error *error);
 void job_roots_free(struct job_roots *roots);
 
-// Returns whether a file is below one of the folders after resolving links and ".."; it need not exist. With `writes`,
-// the file will be written, so it must not be a pipe, a device or a broken link. Fails with LAM_CANNOT_READ, or with
-// `writes` LAM_CANNOT_WRITE.
+// Returns whether a file is below one of the folders after resolving links and "..". The file need not exist. With
+// `writes`, the file will be written, so it must not be a pipe, a device or a broken link. Fails with LAM_CANNOT_WRITE
+// if `writes` is set, otherwise with LAM_CANNOT_READ.
 bool job_roots_have(const struct job_roots *roots, const char *path, bool writes, lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// job_words.c: the options of a job.
+// job_words.c: converts the options of a job to words and parses them.
 #include "job_words.h"
 
 #include <inttypes.h>
@@ -28,7 +28,7 @@ static bool append(char ***words, int *count, char *argument, lam_error *error)
     return true;
 }
 
-// Formats a string or a number as it is typed. Returns false for other values.
+// Formats a string or a number as typed on a command line. Returns false for other values.
 static bool typed(const json_t *value, char number[32], const char **text)
 {
     *text = json_is_string(value) ? json_string_value(value) : number;
@@ -123,8 +123,8 @@ void job_words_free(char **words, int count)
 
 // --- from words to options
 
-// Returns whether an option concerns only the picture: the worker's own options set limits, processors and output
-// files.
+// Returns whether a job may set the option. Jobs may set only options of the picture, because the worker's command line
+// sets limits, processors and output files.
 static bool fits(const struct option *option)
 {
     static const char *const others[] = {"output", "save-scene", "durable"};
@@ -149,7 +149,7 @@ static bool check(const struct options *given, lam_error *error)
     return true;
 }
 
-// Parses into `options`. The list of words is copied, because parsing changes its order.
+// Parses the words into `options`. Copies the list of words first, because parsing changes its order.
 static bool parse(char *const *words, int count, struct options *options, lam_error *error)
 {
     char **list = calloc((size_t)count + 1, sizeof *list);

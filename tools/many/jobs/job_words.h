@@ -7,8 +7,8 @@
 #include "options.h"
 
 // Makes the words for `value`: a list of words, an object such as {"size": 256, "light": ["a", "b"], "wireframe":
-// true}, or nothing (NULL, null). The words are from malloc and freed by job_words_free, also after an error. Fails
-// with LAM_BAD_ARGUMENT or LAM_LIMIT.
+// true}, or nothing (NULL, null). The caller frees the words with job_words_free, even after an error. Fails with
+// LAM_BAD_ARGUMENT or LAM_LIMIT.
 bool job_words_make(const json_t *value, char ***words, int *count, lam_error *error);
 void job_words_free(char **words, int count);
 

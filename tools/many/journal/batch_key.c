@@ -12,11 +12,11 @@
 #include "json.h"
 #include "xxh64.h"
 
-// Options in other groups that affect the picture.
+// Options that affect the picture, but are in other groups.
 static const char *const also[] = {"files-inside", "device", "gl-device", "texture-filter", NULL};
 
-// Options of the picture's groups that are not part of the text: sides and sizes are stored for each picture, and a
-// look is replaced by its options.
+// Options of the picture's groups that the text omits. Sides and sizes are stored for each picture, and a look is
+// stored as the options that it sets.
 static const char *const without[] = {"output", "save-scene", "size", "view", "durable", "look", NULL};
 
 static bool is_in(const char *const *names, const char *name)
@@ -88,8 +88,8 @@ static void print_value(FILE *out, const struct option *option, const struct opt
         fputs(o->values[option - option_table], out);
 }
 
-// Prints the names and the hashes of the environment's files, which are read once for all models. The spelling of their
-// folder does not matter.
+// Prints the names and the hashes of the environment's files, which are read once for all models. Omits their folder,
+// because its spelling does not matter.
 static bool print_environment(FILE *out, const struct options *o, lam_error *error)
 {
     const char *paths[LAM_FACE_COUNT] = {o->shading.environment};
@@ -219,8 +219,8 @@ uint64_t batch_key(const struct batch_key_parts *p)
     xxh64_add_text(&hash, lam_version());
     xxh64_add_text(&hash, lam_build_info());
     xxh64_add_text(&hash, p->options);
-    // A scene file's own settings apply only if the command line sets none, so the key includes which options were
-    // typed.
+    // A setting of a scene file applies only if the command line lacks this option, so the key includes the names of
+    // the typed options.
     for (int i = 0; strcmp(p->format, "scene") == 0 && option_table[i].name; i++)
         if ((p->parsed->given[i] || p->parsed->by_key[i]) && changes_picture(&option_table[i]))
             xxh64_add_text(&hash, option_table[i].name);

@@ -1,17 +1,17 @@
-// batch_key.h: everything that determines a picture: the options with their defaults, the program's version, the
-// contents of files.
+// batch_key.h: computes the hash of everything that determines a picture: the options with their defaults, the
+// program's version and the contents of files.
 #ifndef BATCH_KEY_H
 #define BATCH_KEY_H
 
 #include "options.h"
 
-// Returns the options that determine a picture, one `name=value` per line, including defaults, without side and size;
-// files that they name are listed with their hash. From malloc; returns NULL and fills `error` on failure
-// (LAM_CANNOT_READ: such a file).
+// Returns the options that determine a picture, from malloc: one `name=value` per line, including defaults, but without
+// side and size. If an option names files, the text contains their hashes. Returns NULL on failure; LAM_CANNOT_READ
+// means that such a file cannot be read.
 char *batch_options_text(const struct options *options, lam_error *error);
 
 // Returns the options of the command line that affect the picture, as typed: "--size 256 --light 'eye=1/2/3'". Relative
-// paths are unchanged. From malloc; NULL if memory runs out.
+// paths are unchanged. The text is from malloc. Returns NULL if memory runs out.
 char *batch_options_given(const struct options *options);
 
 // Formats the first different options of two different texts, as "--size 512 … --size 256", for a sentence.
@@ -20,8 +20,8 @@ void batch_options_difference(const char *then, const char *now, char text[300])
 // The inputs of one picture's key.
 struct batch_key_parts {
     const char *options;          // batch_options_text
-    const struct options *parsed; // same as above, to know the given options for scene files
-    const char *model;            // used if no file was read: a built-in shape
+    const struct options *parsed; // the same options, parsed; the key of a scene file includes which were given
+    const char *model;            // the name of a built-in shape; used if no file was read
     const char *format;           // the model's format: lam_scene_format
     const char *picture;          // the extension of the picture's name
     int side, width, height;

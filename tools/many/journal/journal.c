@@ -1,4 +1,4 @@
-// journal.c: a file with one JSON line for each finished or failed picture.
+// journal.c: reads and writes journals: files with one JSON line for each finished or failed picture.
 #include "journal.h"
 
 #include <errno.h>
@@ -26,7 +26,7 @@ enum { SLOT = 8192 };
 
 // The latest line of a picture.
 struct entry {
-    uint64_t output;  // hash of its path
+    uint64_t output;  // the hash of the picture's path
     const char *line; // NULL if free
 };
 
@@ -79,8 +79,8 @@ char *journal_path(const char *text)
     return out;
 }
 
-// Returns the key of a picture: its path, or its path below the folder of the pictures, which may be absolute in one
-// run and relative in the next. `folder` is the common prefix to remove, or NULL for the whole path.
+// Returns a hash that identifies a picture by its path. If `folder` is not NULL, it is a prefix that the hash ignores:
+// the folder of the pictures, which may be absolute in one run and relative in the next.
 static uint64_t hash_of(const char *folder, const char *output)
 {
     struct xxh64 hash;
@@ -147,10 +147,10 @@ char *journal_read(const char *path, size_t *size)
 // Returns the options of a line that begins a run, or NULL for other lines.
 static const char *options_of(const json_t *line) { return json_string_value(json_object_get(line, "options")); }
 
-// Parses the lines. A line that is not JSON was truncated, or written after a truncated line, and is ignored.
+// Parses the lines. Ignores a line that is not JSON, because it was truncated, or written after a truncated line.
 static bool read_lines(struct journal *j, size_t size, const char **options, json_t **last_run, lam_error *error)
 {
-    json_t *folder = NULL; // the folder in the latest line that contains one
+    json_t *folder = NULL; // the folder in the latest line that names a folder
     bool ok = true;
     *options = NULL; // the options of the latest run
     j->torn = size && j->text[size - 1] != '\n';
@@ -227,7 +227,7 @@ static bool read_journal(struct journal *j, enum journal_way way, const char *op
     return ok;
 }
 
-// Renames an existing journal, but no other file.
+// Renames an existing journal. Fails if the file is not a journal.
 static bool set_aside(const struct journal *j, lam_error *error)
 {
     char *before = NULL, head[64] = "";
@@ -261,8 +261,8 @@ static bool wait_for_lock(int file, double until_ms)
 }
 
 // Locks FILE.running, so that only one run at a time writes the journal. The processes of a killed run keep the lock
-// until they end, so this waits up to two seconds. If the other run removes the file at its end, a new file is created
-// and locked.
+// until they end, so this function waits up to two seconds. If the other run removes the file at its end, a new file is
+// created and locked.
 static bool lock_running(struct journal *j, lam_error *error)
 {
     const double until_ms = clock_ms() + 2000;
@@ -293,7 +293,8 @@ static bool open_running(struct journal *j, lam_error *error)
     return true;
 }
 
-// Replaces the previous run's slots by the slots of this run; if this run cannot begin, the previous slots remain.
+// Replaces the slots of the previous run with empty slots for this run. Called last, so that the previous slots remain
+// if this run cannot begin.
 static bool take_over_running(struct journal *j, int slots, lam_error *error)
 {
     j->begun = ftruncate(j->running, 0) == 0 && ftruncate(j->running, (off_t)slots * SLOT) == 0;
@@ -316,7 +317,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
         j->file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
         ok = j->file >= 0 || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
     }
-    // Ends a truncated line, so that the next line is complete.
+    // Adds a line end to a truncated line, so that the next line does not continue it.
     ok = ok && (!j->torn || write_all(j->file, "\n", 1) ||
                 complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno)));
     ok = ok && begin_run(j, run, error) && take_over_running(j, slots, error);
@@ -332,7 +333,8 @@ json_t *journal_find(const struct journal *j, const char *output)
 {
     char *clean = j->count ? journal_text(output) : NULL;
     const struct entry *entry = clean ? find_entry(j, hash_of(NULL, clean)) : NULL;
-    // --skip-same checks the contents of all files. --resume only uses the line, which must be for the same path.
+    // With --skip-same, the line may be for the same picture in another folder, because the contents of all files are
+    // checked. --resume trusts the line, so the line must be for the same path.
     if (entry && !entry->line && j->way == JOURNAL_SAME && is_below(j->folder, clean))
         entry = find_entry(j, hash_of(j->folder, clean));
     json_t *record = entry && entry->line ? json_loads(entry->line, 0, NULL) : NULL;
@@ -393,7 +395,7 @@ void journal_begin(struct journal *j, int slot, int process, const char *model)
     else
         length = 0;
     host_name(text.host);
-    // If writing fails and the run is killed, --resume does not draw its models first.
+    // A failed write is harmless: if the run is killed, --resume merely does not draw this model first.
     if (pwrite(j->running, &text, offsetof(struct slot, model) + length + 1, (off_t)slot * SLOT) < 0)
         return;
 }
@@ -409,7 +411,7 @@ void journal_each_running(const struct journal *j,
     }
 }
 
-// Writes the line that ends a run. If that fails, the run looks as if it had been killed at its very end.
+// Writes the line that ends a run. If writing fails, the run looks as if it had been killed just before its end.
 static void end_run(struct journal *j)
 {
     lam_error error;
@@ -427,7 +429,8 @@ void journal_close(struct journal *j, bool done, bool interrupted)
         end_run(j);
     if (j->file >= 0)
         close(j->file);
-    if (j->was_running && (j->begun ? !interrupted : !j->was_slots)) // locked by this run, and useless to a later run
+    if (j->was_running &&
+        (j->begun ? !interrupted : !j->was_slots)) // this run holds the lock, and no later run needs the file
         writer_remove(j->running_path);
     if (j->running >= 0)
         close(j->running);

@@ -1,8 +1,8 @@
-// journal.h: a file with one JSON line for each finished or failed picture.
+// journal.h: reads and writes journals: files with one JSON line for each finished or failed picture.
 //
 // A line is appended by a single write() after its picture is written, so a run may be killed at any time: at worst the
-// last line is truncated, which its missing end reveals. During a run, FILE.running beside the journal lists the models
-// in progress and their processes. A killed run leaves that file behind.
+// last line is truncated, which its missing line end reveals. During a run, FILE.running beside the journal lists the
+// models in progress and their processes. A killed run leaves that file behind.
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
@@ -12,25 +12,25 @@
 
 struct journal;
 
-// The mode of opening a journal. START: an existing journal is renamed to FILE.before. RESUME and SAME read the
-// existing journal and append lines to it; RESUME requires the same options.
+// How to open a journal. START renames an existing journal to FILE.before. RESUME and SAME read the existing journal
+// and append lines to it; RESUME requires the same options.
 enum journal_way { JOURNAL_START, JOURNAL_RESUME, JOURNAL_SAME };
 
 // The contents of the line that begins a run.
 struct journal_run {
     const char *options; // batch_options_text, and the names of the pictures
-    const char *folder;  // common folder of the pictures, with its '/', as in `output` of the lines
+    const char *folder;  // the common folder of the pictures, with its '/', as in the key `output` of the lines
     const char *shard;   // "2/3"; NULL if there are no shards
     size_t pictures;     // the pictures of the whole run, including those already written
 };
 
-// Opens a journal. `slots` is the maximum number of models drawn at once. Fails with LAM_BAD_ARGUMENT (other options;
-// in use by another run), LAM_CANNOT_READ, LAM_CANNOT_WRITE, LAM_LIMIT.
+// Opens a journal. `slots` is the maximum number of models drawn at once. Fails with LAM_BAD_ARGUMENT (different
+// options, or in use by another run), LAM_CANNOT_READ, LAM_CANNOT_WRITE or LAM_LIMIT.
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 
-// Returns the latest line of a picture by its path; with SAME also by its path below the folder of the pictures,
-// however that was spelled. Returns NULL if there is none. The caller calls json_decref.
+// Returns the latest line for a picture's path. With SAME, also finds a line by the path below the folder of the
+// pictures, regardless of the spelling of this folder. Returns NULL if there is no line. The caller calls json_decref.
 json_t *journal_find(const struct journal *journal, const char *output);
 
 // Appends a record. One thread at a time may call it. Fails with LAM_CANNOT_WRITE.
@@ -48,15 +48,15 @@ char *journal_line(const json_t *record);
 // Returns the path of FILE.running, which journal_close removes.
 const char *journal_running_path(const struct journal *journal);
 
-// Records that a process draws a slot's model. A NULL model frees the slot.
+// Records in a slot that a process draws a model. A NULL model frees the slot.
 void journal_begin(struct journal *journal, int slot, int process, const char *model);
 
 // Calls `visit` for each model that a killed run was drawing, with its process and machine.
 void journal_each_running(const struct journal *journal,
                           void (*visit)(void *user, const char *model, int process, const char *host), void *user);
 
-// Reads a whole file and appends a zero; from malloc. Returns NULL on failure with `errno`, or 0 if the file does not
-// exist.
+// Reads a whole file into memory from malloc, and appends a zero. Returns NULL and sets errno on failure; errno is 0 if
+// the file does not exist.
 char *journal_read(const char *path, size_t *size);
 
 // Closes the journal. `done` means that the run was completed. FILE.running is removed, also after a failed run, unless
@@ -67,7 +67,7 @@ void journal_close(struct journal *journal, bool done, bool interrupted);
 // if memory runs out.
 char *journal_text(const char *text);
 
-// Returns the path from which journal_text made such a text, from malloc. Returns NULL if memory runs out.
+// Returns the path from which journal_text made `text`, from malloc. Returns NULL if memory runs out.
 char *journal_path(const char *text);
 
 #endif

@@ -1,6 +1,7 @@
 // journal_sum.c: combines several journals of one batch.
 //
-// The lines stay text: a journal of a million pictures is parsed line by line, keeping 40 bytes per picture.
+// Keeps the text of the journals and 40 bytes per picture, but no parsed JSON, because a journal may list a million
+// pictures.
 #include "journal_sum.h"
 
 #include <dirent.h>
@@ -112,8 +113,8 @@ static void begin_run(struct journal_part *part, const json_t *record)
     part->ended = false;
 }
 
-// A line that is not JSON was truncated when the run was killed. The next run draws its picture again and writes
-// another line.
+// Ignores a line that is not JSON, because it was truncated when a run was killed. The next run draws the picture again
+// and writes another line.
 static bool read_lines(struct journal_sum *s, int number, lam_error *error)
 {
     const char *line = s->parts[number].text, *last = line + s->parts[number].size, *end, *folder = NULL;

@@ -9,8 +9,8 @@
 #include "console.h"
 #include "output.h"
 
-// Makes the pattern of the names: the user's pattern, or one that distinguishes several pictures of a model. NULL means
-// the model's name.
+// Makes the pattern of the pictures' names: the user's pattern, or a pattern that distinguishes several pictures of a
+// model. If the pattern remains NULL, a picture is named after its model.
 static bool make_pattern(struct batch_plan *plan, lam_error *error)
 {
     const struct options *o = plan->options;
@@ -134,7 +134,7 @@ char *batch_plan_folder(const struct batch_plan *plan)
     return strndup(name, length);
 }
 
-// A picture's name, for sorting, which finds duplicates.
+// The name of a picture. Sorting these structs finds duplicate names.
 struct named_output {
     size_t model;
     char *output;
@@ -167,7 +167,7 @@ static bool find_doubles(const struct batch_plan *plan, const struct named_outpu
     return true;
 }
 
-// Keeps the models of this shard, in order.
+// Keeps only the models of this shard, in order.
 static bool keep_shard(struct batch_plan *plan, lam_error *error)
 {
     size_t kept = 0;

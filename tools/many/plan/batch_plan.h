@@ -8,8 +8,8 @@
 struct batch_model {
     char *path; // from malloc
     char *root; // {dir} is relative to this folder, from malloc; NULL means the path's own folder
-    // Whether it is a link found in a folder, to a file that is neither below that folder nor below one of
-    // --allow-path. This is an error, since the user did not name the file.
+    // The model is a link that was found in a folder and leads to a file that is neither below this folder nor below a
+    // folder of --allow-path. Drawing it is an error, because the user did not name the file.
     bool leads_out;
 };
 
@@ -23,7 +23,7 @@ struct batch_plan {
     struct batch_shard shard; // --shard
     bool by_list;             // --shard-by list: only the models of this shard are added
     size_t listed;            // number of models from lists
-    uint64_t list_bytes;      // the size of the list, with by_list
+    uint64_t list_bytes;      // the size of the list if by_list is set
 };
 
 // Starts a plan without models, and checks combinations of options. Fails with LAM_BAD_ARGUMENT.
@@ -35,8 +35,8 @@ bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root,
 // Removes the last model.
 void batch_plan_drop_last(struct batch_plan *plan);
 
-// Completes the plan. Finds pictures with the same name, of all shards, and names that cannot be written, and then
-// keeps the models of this shard. Fails with LAM_BAD_ARGUMENT or LAM_UNSUPPORTED.
+// Completes the plan. Rejects equal names of pictures in all shards, and names that cannot be written. Then keeps only
+// the models of this shard. Fails with LAM_BAD_ARGUMENT or LAM_UNSUPPORTED.
 bool batch_plan_check(struct batch_plan *plan, lam_error *error);
 
 // Returns the path of a picture, from malloc. Returns NULL if memory runs out.

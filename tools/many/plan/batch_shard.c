@@ -1,8 +1,8 @@
 // batch_shard.c: selects this process's models if several processes share the work.
 //
-// A model's shard depends only on its name, so shards need no communication, and adding a model does not move others.
-// Environment variables are only read with --shard auto, and only if they are unambiguous: a wrong guess would silently
-// skip models.
+// A model's shard depends only on its name, so shards need no communication, and adding a model does not move other
+// models to another shard. Environment variables are only read with --shard auto, and only if they are unambiguous: a
+// wrong guess would silently skip models.
 #include "batch_shard.h"
 
 #include <dirent.h>
@@ -46,7 +46,7 @@ static bool read_variable(const char *name, long *number, lam_error *error)
 static const char task_id[] = "SLURM_ARRAY_TASK_ID", completion[] = "JOB_COMPLETION_INDEX",
                   rank[] = "OMPI_COMM_WORLD_RANK";
 
-// Sets shard `index`, from 0, of `count` shards.
+// Selects shard `index`, counted from 0, of `count` shards.
 static bool set_index(struct batch_shard *shard, const char *variable, long index, long count, lam_error *error)
 {
     if (index >= count)
@@ -57,8 +57,8 @@ static bool set_index(struct batch_shard *shard, const char *variable, long inde
     return true;
 }
 
-// Accepts a complete job array: from 0 or 1 on, without gaps. An array that is resubmitted for some of its tasks
-// (--array=17,23) reports fewer tasks, which would redistribute all models.
+// Accepts only a complete job array, whose indices begin at 0 or 1 and have no gaps. If only some tasks are submitted
+// again (--array=17,23), the array reports fewer tasks, which would redistribute all models.
 static bool slurm_array(struct batch_shard *shard, lam_error *error)
 {
     long id, first, last, count, step;
@@ -80,7 +80,7 @@ static bool slurm_array(struct batch_shard *shard, lam_error *error)
     return set_index(shard, task_id, (id - first) / step, count, error);
 }
 
-// A `count` of 0 is replaced by the number in the environment.
+// If `count` is 0, the environment must state the number of shards.
 static bool from_environment(struct batch_shard *shard, long count, lam_error *error)
 {
     const char *const names[] = {task_id, completion, rank}, *found = NULL;
@@ -98,7 +98,7 @@ static bool from_environment(struct batch_shard *shard, long count, lam_error *e
                         "option '--shard auto': none of %s, %s and %s is set; name the shard, --shard K/N", task_id,
                         completion, rank);
     long index, ranks;
-    if (found == rank) { // mpirun reports the number; another number would skip models
+    if (found == rank) { // mpirun reports the number of ranks; any other number would skip models
         if (!read_variable(rank, &index, error) || !read_variable("OMPI_COMM_WORLD_SIZE", &ranks, error))
             return false;
         if (ranks < 1 || ranks > SHARDS_MAX || (count && ranks != count))
@@ -139,7 +139,7 @@ bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *erro
 
 // --- names
 
-// Returns the part of a path below a folder, or the whole path if it is elsewhere.
+// Returns the path relative to a folder, or the whole path if it is not below the folder.
 static const char *below(const char *path, const char *root)
 {
     size_t length = root ? strlen(root) : 0;
@@ -181,7 +181,7 @@ int batch_shard_of_name(const char *name, int count)
     return (int)(xxh64_end(&hash) % (uint64_t)count) + 1;
 }
 
-// Returns the position of a path's extension, ".jsonl", or its end if there is none.
+// Returns the position of a path's extension, such as ".jsonl", or the end of the path if there is no extension.
 static const char *ending_of(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');

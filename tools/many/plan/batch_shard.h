@@ -1,20 +1,20 @@
-// batch_shard.h: --shard: selects this process's models if several processes share the work.
+// batch_shard.h: implements --shard: selects this process's models if several processes share the work.
 #ifndef BATCH_SHARD_H
 #define BATCH_SHARD_H
 
 #include "options.h"
 
-// Shard `number` of `count`, counted from 1. All zero means no shards.
+// Shard `number` of `count`, counted from 1. If both are 0, there are no shards.
 struct batch_shard {
     int number, count;
 };
 
-// Parses the value of --shard: "K/N", or "auto" and "auto/N", which take K from the environment of Slurm, Kubernetes or
-// Open MPI. Fails with LAM_BAD_ARGUMENT if there is no such shard, or the environment does not determine it.
+// Parses the value of --shard: "K/N", or "auto" and "auto/N", which read K from the environment of Slurm, Kubernetes or
+// Open MPI. Fails with LAM_BAD_ARGUMENT if there is no such shard, or if the environment does not determine the shard.
 bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *error);
 
-// Returns the name that determines a model's shard, from malloc: its path below `root`, or as given (`root` NULL),
-// without ".", "..", doubled slashes and a leading slash. Returns NULL if memory runs out.
+// Returns the name that determines a model's shard, from malloc: its path below `root` or, if `root` is NULL, the whole
+// path, without ".", "..", doubled slashes and a leading slash. Returns NULL if memory runs out.
 char *batch_shard_name(const char *path, const char *root);
 
 // Returns the shard of a name, counted from 1: XXH64 of its bytes, modulo `count`, plus 1.
@@ -27,8 +27,8 @@ char *batch_shard_path(const char *path, const struct batch_shard *shard);
 // Returns the number of shards in a file name ("lambent-017-of-300.jsonl"), or 0 if there is none.
 int batch_shard_count_of(const char *path);
 
-// Fails if there are files for another number of shards beside `path` (the path without a shard), because two shards
-// would then draw the same models. Fails with LAM_BAD_ARGUMENT.
+// Fails with LAM_BAD_ARGUMENT if the folder of `path` (a path without a shard) contains files for another number of
+// shards, because two shards would then draw the same models.
 bool batch_shard_check_folder(const char *path, const struct batch_shard *shard, lam_error *error);
 
 #endif

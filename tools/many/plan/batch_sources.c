@@ -25,8 +25,8 @@ static bool is_below(const char *real, const char *folder)
     return below;
 }
 
-// Returns whether a link leads to a file that is neither below the given folder nor below one of --allow-path. A broken
-// link does not.
+// Returns whether a link leads to a file that is neither below the given folder nor below one of --allow-path. Returns
+// false for a broken link.
 static bool leads_out(const struct batch_plan *plan, const char *path, const char *root)
 {
     const struct texts *allowed = &plan->options->limits.allow_paths;
@@ -38,7 +38,7 @@ static bool leads_out(const struct batch_plan *plan, const char *path, const cha
     return out;
 }
 
-// Adds a name without checking it; pipes and broken links are reported when they are read.
+// Adds a file without opening it. Pipes and broken links are reported when they are read.
 static bool add_file(struct batch_plan *plan, const char *path, const char *root, bool is_link, lam_error *error)
 {
     struct stat target;
@@ -82,8 +82,8 @@ static bool add_folder(struct batch_plan *plan, const char *folder, const char *
 
 // --- lists
 
-// With --shard-by list: moves to the first line that begins in this shard's part of the file. `at` is the byte at which
-// it begins, `end` the byte at which the next shard's part begins.
+// For --shard-by list: seeks to the first line that begins in this shard's section of the file. Sets `at` to the
+// position of this line, and `end` to the position of the next shard's section.
 static bool find_part(struct batch_plan *plan, FILE *file, const char *path, uint64_t *at, uint64_t *end,
                       lam_error *error)
 {
@@ -99,7 +99,7 @@ static bool find_part(struct batch_plan *plan, FILE *file, const char *path, uin
     *end = size * (uint64_t)shard->number / count;
     if (!*at)
         return true;
-    // A line that begins earlier belongs to another shard.
+    // Skips the rest of a line that begins earlier, because this line belongs to another shard.
     bool ok = fseeko(file, (off_t)(*at - 1), SEEK_SET) == 0;
     for (int c = 0; ok && c != '\n' && c != EOF;)
         c = getc(file);
@@ -107,8 +107,8 @@ static bool find_part(struct batch_plan *plan, FILE *file, const char *path, uin
     return ok || complain(error, LAM_CANNOT_READ, "%s: cannot read the list: %s", path, strerror(errno));
 }
 
-// With --shard-by list: checks that the last two models are in the order of their pictures' names. If that holds in
-// every shard, no two pictures of the whole list have the same name, although no shard sees them all.
+// For --shard-by list: checks that the names of the last two pictures are in ascending order. If the names ascend in
+// every shard, no two pictures of the whole list have the same name, even though no shard reads the whole list.
 static bool check_order(const struct batch_plan *plan, const char *path, lam_error *error)
 {
     char *before = batch_plan_output(plan, plan->count - 2, 0), *now = batch_plan_output(plan, plan->count - 1, 0);

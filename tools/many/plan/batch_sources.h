@@ -1,4 +1,4 @@
-// batch_sources.h: the sources of the models of `batch`: operands, folders with their subfolders, lists of names.
+// batch_sources.h: collects the models of `batch` from operands, folders with their subfolders, and lists of names.
 #ifndef BATCH_SOURCES_H
 #define BATCH_SOURCES_H
 
@@ -8,10 +8,11 @@
 // with LAM_CANNOT_READ or LAM_LIMIT.
 bool batch_add_operand(struct batch_plan *plan, const char *operand, lam_error *error);
 
-// Adds the models of a folder and its subfolders. Fails with LAM_CANNOT_READ (also if there are none) or LAM_LIMIT.
+// Adds the models of a folder and its subfolders. Fails with LAM_CANNOT_READ (also if there are no models) or
+// LAM_LIMIT.
 bool batch_add_folder(struct batch_plan *plan, const char *folder, lam_error *error);
 
-// Does the same, but a folder without models is not an error.
+// Like batch_add_folder, but a folder without models is not an error.
 bool batch_add_folder_if_any(struct batch_plan *plan, const char *folder, lam_error *error);
 
 // Adds the models of a list with one name per line; "-" means standard input.

@@ -48,7 +48,8 @@ static bool sees_nothing(const struct job *job)
     return job->written && !frame->pixels_covered && !frame->edges_drawn;
 }
 
-// Returns whether a sentence begins with the name, in which control characters are replaced by '?'.
+// Returns whether a message begins with the name and a colon. In the message, '?' replaces each control character of
+// the name.
 static bool names(const char *sentence, const char *name)
 {
     for (; *name; name++, sentence++) {
@@ -59,8 +60,8 @@ static bool names(const char *sentence, const char *name)
     return *sentence == ':';
 }
 
-// Adds the model's name to a sentence of the library that lacks it, and replaces the remaining limit with the limit
-// that the user set.
+// Adds the model's name to an error message that lacks the name. If the time limit was reached, states the limit that
+// the user set, instead of the time that remained for one step.
 static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -84,7 +85,7 @@ struct files {
     int count;
     char (*hashes)[XXH64_TEXT];
     const char **texts; // the texts of the hashes
-    bool changed;       // changed since it was read, so the hashes are of other files
+    bool changed;       // a file has changed since it was read, so the hashes are not valid
 };
 
 // Returns whether a file may have changed after `start`, a time of the file systems' clock.
@@ -241,7 +242,7 @@ static json_t *record_of(const struct batch_item *item, int view, const struct j
 
 // --- drawing
 
-// The state of reading one model.
+// The state of drawing one model.
 struct model_run {
     const struct batch_item *item;
     const struct batch_artist *artist;
@@ -249,7 +250,7 @@ struct model_run {
     struct timespec start; // the start on the file systems' clock
     struct files files;
     bool hashed;
-    json_t *found; // the result of the picture's use; NULL if the picture is written
+    json_t *found; // the data that batch_use.draw adds to the record; NULL if the picture is written
 };
 
 // Prints and records the result of a picture.
@@ -329,7 +330,7 @@ static void run_views(struct model_run *r, struct job *job, struct progress *pro
 static void draw(struct model_run *r)
 {
     const struct batch_item *item = r->item;
-    struct options own = *item->options; // sizes of the command line are given like --size
+    struct options own = *item->options; // several sizes on the command line count as --size
     own.picture.has_size |= own.batch.size_count > 0;
     struct job job = {.options = item->several ? &own : item->options,
                       .model = item->model,
@@ -379,8 +380,8 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         result->record_count = 0;
         return;
     }
-    // Markers of lights are objects of the scene and depend on the camera, so with markers each picture reads the model
-    // itself.
+    // Markers of lights are objects of the scene and depend on the camera, so with markers the model is read again for
+    // each picture.
     int together = item->options->shading.show_lights ? 1 : item->view_count;
     for (int i = 0; i < item->view_count; i += together) {
         struct batch_item part = *item;

@@ -14,7 +14,7 @@ struct batch_item {
     bool has_records;         // whether records are needed
     const char *model;
     bool leads_out;               // the model is a link out of its folder (batch_plan.h)
-    const lam_bytes *model_bytes; // the model itself, named by `model`; NULL if it is a file
+    const lam_bytes *model_bytes; // the bytes of the model that `model` names; NULL if the model is a file
     const struct job_view *views; // the views of the pictures
     char *const *outputs;         // the paths of the pictures
     lam_bytes *contents;          // receive the pictures; NULL if they are written to the paths
@@ -23,15 +23,15 @@ struct batch_item {
     bool one_of_many;            // several models are drawn with the same options
     bool several;                // the command line has several views or sizes
     bool makes_folders;          // also create the folders of explicitly named pictures
-    const lam_cancel *cancel;    // stops it; if NULL, only Ctrl-C does
+    const lam_cancel *cancel;    // stops the drawing; if NULL, only Ctrl-C does
     const struct batch_use *use; // receives the picture; NULL if the picture is written
     size_t index;                // the index of the model in the plan, for `use`
 };
 
-// The resources for drawing it.
+// The resources for drawing a model.
 struct batch_artist {
     lam_device *device;
-    struct environment_cache *environments; // NULL if each model reads its own
+    struct environment_cache *environments; // NULL if each model reads its own environment
     FILE *out;                              // receives reports
     bool has_bar;                           // a progress bar on the terminal
     bool is_talkative;                      // prints lines for each picture and warnings; errors are always printed
@@ -51,11 +51,11 @@ struct batch_result {
     bool interrupted;
 };
 
-// Draws the model. Errors become messages and records. The caller frees the result.
+// Draws the model. Reports errors as messages and in the records. The caller frees the result.
 void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result);
 void batch_result_free(struct batch_result *result);
 
-// Returns the record of a picture that failed without a report of its own.
+// Returns the record of a picture for which drawing could not report the failure itself.
 json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, const char *text);
 
 #endif

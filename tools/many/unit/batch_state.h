@@ -11,9 +11,9 @@
 
 // The state of a picture.
 enum picture_outcome {
-    PICTURE_OPEN, // nothing yet
+    PICTURE_OPEN, // not drawn yet
     PICTURE_WRITTEN,
-    PICTURE_SAME,          // --skip-same
+    PICTURE_SAME,          // --skip-same: unchanged, so it is not drawn again
     PICTURE_BEFORE,        // --resume: an earlier run has written it
     PICTURE_FAILED,        // failed, but may be retried
     PICTURE_FAILED_BEFORE, // failed in an earlier run and is not retried
@@ -21,7 +21,7 @@ enum picture_outcome {
 
 struct batch_picture {
     uint8_t outcome;   // enum picture_outcome
-    uint8_t class;     // if it failed: its index in tally.classes
+    uint8_t class;     // for a failed picture, the index of its class in tally.classes
     uint16_t attempts; // attempts so far, including earlier runs
 };
 
@@ -41,18 +41,18 @@ struct batch {
     const struct options *options;
     bool is_batch;
     char *options_text;          // NULL if there are no keys
-    struct batch_jobs *jobs;     // --jobs (batch_jobs.h); NULL if the plan has all models
+    struct batch_jobs *jobs;     // --jobs (batch_jobs.h); NULL if the plan contains all models
     const struct batch_use *use; // receives the pictures; NULL if they are written
     enum journal_way way;
     struct journal *journal;
     int workers, threads;                   // threads of each worker
-    struct environment_cache *environments; // shared by all models; NULL if each process has its own
+    struct environment_cache *environments; // shared by all models; NULL if each process loads its own
 
     pthread_mutex_t lock;           // protects the following members
     pthread_cond_t changed;         // a worker is done
     pthread_cond_t moved;           // `next` is at `read_from`, or a worker is done
     struct batch_picture *pictures; // the pictures of all models in order
-    json_t **records;               // the same for the page; NULL if there is no page
+    json_t **records;               // the records of all pictures, in the same order; NULL if not needed
     bool *taken;                    // for each model, whether this pass has given it to a worker
     size_t next;                    // the next model that this pass considers
     size_t read_from;               // the position of the thread that reads ahead
@@ -61,10 +61,10 @@ struct batch {
     struct batch_texts texts;
     int code; // the highest exit code
     bool interrupted;
-    bool failed; // the journal cannot be written: nothing more starts
+    bool failed; // an error has ended the run, so no further model is started
 };
 
-// Returns the pictures' states of a model of the batch's plan.
+// Returns the states of the pictures of a model in the batch's plan.
 static inline struct batch_picture *batch_pictures_of(const struct batch *b, size_t model)
 {
     return b->pictures + model * (size_t)b->plan->view_count;

@@ -1,4 +1,4 @@
-// batch_tell.c: the messages of a batch.
+// batch_tell.c: prints the messages of a batch.
 #include "batch_tell.h"
 
 #include <stdio.h>

@@ -26,10 +26,10 @@ struct batch_tally {
     bool shown;
 };
 
-// Returns the index of the class in `classes`.
+// Counts a failure of the class `name`. Returns the index of the class in `classes`.
 int batch_count_class(struct batch_tally *tally, const char *name);
 
-// Redraws the progress line, at most ten times per second; and removes it.
+// batch_show_progress redraws the progress line, at most ten times per second. batch_hide_progress removes the line.
 void batch_show_progress(struct batch_tally *tally);
 void batch_hide_progress(struct batch_tally *tally);
 
@@ -42,14 +42,15 @@ struct batch_text {
     bool ready;
 };
 
-// Prints the models' messages in the order of the models, regardless of the order in which they finish.
+// The messages of all models. They are printed in the order of the models, regardless of the order in which models
+// finish.
 struct batch_texts {
     struct batch_text *list;
     size_t count, next;
 };
 
-// Takes ownership of a model's messages and prints all messages whose turn has come. `ok` means that all of the model's
-// pictures are written.
+// Takes ownership of a model's messages, and prints the messages of all models before the first unfinished model. `ok`
+// means that all of the model's pictures are written.
 void batch_print(struct batch_texts *texts, size_t model, char *out, char *err, bool ok, struct batch_tally *tally);
 // Prints the remaining messages and frees the list.
 void batch_print_rest(struct batch_texts *texts, struct batch_tally *tally);

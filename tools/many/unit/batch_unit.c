@@ -60,14 +60,14 @@ void batch_unit_free(struct batch_unit *u)
 
 // --- decisions by the journal
 
-// Returns whether the picture exists and has the journal's hash.
+// Returns whether the picture exists and its hash equals the hash in the journal.
 static bool is_untouched(const json_t *record, const char *output)
 {
     uint64_t hash, recorded;
     return xxh64_parse(journal_value(record, "hash"), &recorded) && xxh64_file(output, &hash) && hash == recorded;
 }
 
-// Returns the current path of one of the record's files, allocated with malloc. If the file was in the folder of the
+// Returns the current path of a file that the record names, allocated with malloc. If the file was in the folder of the
 // record's model, the result is in the folder of the current model, since the record may come from a run in another
 // folder. Returns NULL if memory runs out.
 static char *path_now(const char *recorded, const char *recorded_model, const char *model)
@@ -87,7 +87,7 @@ static char *path_now(const char *recorded, const char *recorded_model, const ch
     return now;
 }
 
-// Returns whether the model's files and the options still give the record's key.
+// Returns whether the model's files and the options still result in the key of the record.
 static bool has_same_key(const json_t *record, const struct batch_unit *u, int view)
 {
     const json_t *files = json_object_get(record, "files"), *file;
@@ -170,7 +170,7 @@ bool batch_unit_look(struct batch_unit *u, const struct batch *b)
 
 // --- drawing
 
-// Returns the open pictures of a unit as an item. Stores their numbers in `which`.
+// Returns the open pictures of a unit as an item. Stores their indices in `which`.
 static struct batch_item item_of(const struct batch_unit *u, const struct batch *b, const struct options *o,
                                  struct job_view *views, char **outputs, int *attempts, int *which)
 {
@@ -192,7 +192,7 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
                                .views = views,
                                .outputs = outputs,
-                               .contents = u->contents, // in this case all pictures are open
+                               .contents = u->contents, // if not NULL, all pictures are open
                                .makes_folders = task->job != NULL,
                                .attempts = attempts,
                                .view_count = count,

@@ -12,7 +12,7 @@ struct batch_unit {
     char **outputs;                 // paths
     lam_bytes *contents;            // the encoded pictures for a job's answer; NULL if files are written
     const char **classes;           // for failed pictures, the static name of the exit code
-    json_t **records;               // new lines of the journal, or old ones for the page (is_new)
+    json_t **records;               // new records for the journal, or old records for the page (see is_new)
     bool *is_new;
     char *out, *err; // the messages; NULL if they were printed directly
     int code, warnings;
@@ -24,8 +24,8 @@ bool batch_unit_start(struct batch_unit *unit, const struct batch *batch, const 
                       lam_error *error);
 void batch_unit_free(struct batch_unit *unit);
 
-// Marks the open pictures that --resume and --skip-same skip. Returns true if pictures remain to be drawn. Any thread
-// may call it.
+// Finds the open pictures that --resume or --skip-same skips, and changes their state. Returns true if pictures remain
+// to be drawn. Any thread may call it.
 bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
 
 // Draws the open pictures. `cancel` stops the drawing; if it is NULL, Ctrl-C does. With `capture`, messages are stored.
@@ -33,8 +33,8 @@ bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
 void batch_unit_draw(struct batch_unit *unit, const struct batch *batch, const struct options *options,
                      lam_device *device, const lam_cancel *cancel, bool capture);
 
-// Marks all open pictures as failed with an error class, because they have no report of their own. `text` names the
-// model.
+// Marks all open pictures as failed with an error class, if drawing could not report the failure itself. The message
+// `text` must name the model.
 void batch_unit_fail(struct batch_unit *unit, const struct batch *batch, const char *class, int exit, const char *text);
 
 #endif

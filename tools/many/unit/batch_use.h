@@ -1,8 +1,8 @@
 // batch_use.h: the interface for commands that draw many models for a purpose other than writing pictures, such as
 // hashes and comparisons.
 //
-// They share the loop over the models with its workers, processes, sandbox, messages and counts. The findings about
-// each model are stored in its record.
+// These commands share the loop over the models with its workers, processes, sandbox, messages and counts. The results
+// for each model are stored in its record.
 #ifndef BATCH_USE_H
 #define BATCH_USE_H
 
@@ -13,15 +13,15 @@
 
 struct batch_use {
     // Draws a model of the plan. `job` contains its options, model, device and start time. The loop reports the job's
-    // warnings and frees it. Results are stored in the object `found`, which becomes part of the model's record. Any
-    // thread calls it; with --isolate, another process does.
+    // warnings and frees the job. Results are stored in the object `found`, which becomes part of the model's record.
+    // Any thread may call it; with --isolate, another process calls it.
     bool (*draw)(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error);
     // Adds the paths that a model needs in addition to its own folder. May be NULL.
     void (*reach)(void *user, size_t model, struct sandbox_paths *paths);
-    // Decides which files may be written. NULL allows none.
+    // Decides which files may be written. NULL allows no files.
     writer_rule *right;
-    // Receives the records of all models after the last one, unless the run was interrupted. `failed` is the number of
-    // failed models. Returns the exit code. The loop owns the records.
+    // Receives the records of all models after the last model, unless the run was interrupted. `failed` is the number
+    // of failed models. Returns the exit code. The loop owns the records.
     int (*finish)(void *user, json_t *const *records, size_t failed);
     void *user;
 };

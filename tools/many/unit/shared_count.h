@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <sys/mman.h>
 
-// Allocates a counter of zero in memory shared with child processes. Returns NULL if memory runs out.
+// Allocates a counter with the value 0 in memory that is shared with child processes. Returns NULL if memory runs out.
 static inline atomic_int *shared_count_make(void)
 {
     void *memory = mmap(NULL, sizeof(atomic_int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -19,7 +19,7 @@ static inline void shared_count_free(atomic_int *count)
         munmap(count, sizeof *count);
 }
 
-// Takes one of at most `most` places. Returns false if all of them are taken.
+// Increments the counter. Returns false if the counter had already reached `most`.
 static inline bool shared_count_take(atomic_int *count, int most) { return atomic_fetch_add(count, 1) < most; }
 
 #endif

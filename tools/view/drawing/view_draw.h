@@ -1,5 +1,5 @@
-// view_draw.h: the drawing process, which reads requests, draws with their options, and answers. It keeps the model
-// loaded. It runs in the sandbox for untrusted files, without sockets and other processes.
+// view_draw.h: runs the drawing process, which reads requests, draws with their options, and answers. The process keeps
+// the model loaded. It runs in the sandbox for untrusted files, without access to sockets and other processes.
 #ifndef VIEW_DRAW_H
 #define VIEW_DRAW_H
 
@@ -25,20 +25,20 @@ struct view_request {
     int size;
 };
 
-// Precedes the parts of an answer.
+// The header of an answer. The notes and the data follow it.
 struct view_reply {
     bool keeps;     // the model stays loaded for more pictures
     int status;     // HTTP status: 200, 422 (with a sentence) or 409 (cancelled)
     uint32_t notes; // the number of bytes of JSON or of the sentence
-    uint64_t data;  // the number of bytes after it: pixels or a file
+    uint64_t data;  // the number of bytes of pixels or of a file
 };
 
 // The largest model that the page draws itself: the number of triangles, lines and points. PAGE_FILES_MAX limits its
 // files.
 enum { VIEW_TRIANGLES_MAX = 2000000 };
 
-// Reads requests from `from` until it ends and answers to `to`. SIGUSR1 cancels the current request. Does not return.
-// `options` contains the limits from the command line.
+// Reads requests from `from` until its end, and writes the answers to `to`. SIGUSR1 cancels the current request. Does
+// not return. `options` contains the limits from the command line.
 _Noreturn void view_draw_serve(const struct view_files *files, const struct options *options, int from, int to);
 
 #endif

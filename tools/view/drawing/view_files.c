@@ -34,7 +34,7 @@ bool view_files_start(struct view_files *files, const char *operand, bool is_fol
         files->prefix[--length] = 0;
     bool root = !*files->prefix || strcmp(files->prefix, "/") == 0;
     if (root)
-        *files->prefix = 0; // otherwise a page's path would have two slashes
+        *files->prefix = 0; // otherwise a path would begin with two slashes
     files->folder = open(root ? "/" : files->prefix, O_PATH | O_DIRECTORY | O_CLOEXEC);
     return files->folder >= 0 ||
            complain(error, LAM_CANNOT_READ, "%s: cannot open its folder: %s", operand, strerror(errno));
@@ -53,7 +53,7 @@ void view_files_free(struct view_files *files)
     *files = (struct view_files){.folder = -1};
 }
 
-// Returns whether a space-separated list of extensions contains the given one.
+// Returns whether a list of extensions, separated by spaces, contains `ending`.
 static bool has_ending(const char *endings, const char *ending)
 {
     for (size_t length; *endings; endings += length, endings += strspn(endings, " ")) {

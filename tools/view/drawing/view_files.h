@@ -1,4 +1,4 @@
-// view_files.h: the files that the viewer serves: models and files that models read, in one folder and below it.
+// view_files.h: opens the files that the viewer serves: models and files that models read, in one folder and below it.
 //
 // A path of the page begins with "/", which is that folder: "/bunny.obj", "/textures/fur.png".
 #ifndef VIEW_FILES_H
@@ -23,7 +23,7 @@ void view_files_free(struct view_files *files);
 // of files, hidden files and files in hidden folders, and files outside the folder after links and ".." are resolved.
 int view_files_open(const struct view_files *files, const char *path);
 
-// Opens a folder in the same way; "/" is the top folder. The handle only gives access to the attributes (O_PATH).
+// Opens a folder in the same way; "/" is the top folder. The handle allows access only to the attributes (O_PATH).
 int view_files_open_folder(const struct view_files *files, const char *path);
 
 // Returns the path on this machine, allocated with malloc. Returns NULL if memory runs out.

@@ -18,7 +18,7 @@
 
 enum {
     CANCEL_MS = 2000,
-    FILES_MAX = 4096, // more than the server's handles, whose connections are limited
+    FILES_MAX = 4096, // above all handles of the server, whose connections are limited
 };
 static const uint64_t data_max = (uint64_t)1 << 33; // the maximum size of an answer
 

@@ -1,4 +1,5 @@
-// view_process.h: controls a drawing process (view_draw.h) from the server. It handles one request at a time.
+// view_process.h: controls a drawing process (view_draw.h) from the server. A drawing process handles one request at a
+// time.
 #ifndef VIEW_PROCESS_H
 #define VIEW_PROCESS_H
 
@@ -10,9 +11,9 @@ struct view_process {
     pid_t pid; // 0 if there is none
     int to, from;
     char *model;    // the model of the last request, or NULL
-    void *task;     // the task of the current request; NULL if it is idle
+    void *task;     // the task of the current request; NULL if the process is idle
     bool cancelled; // the current request is being cancelled
-    double stop_ms; // the clock_ms() at which it is killed; 0 if never
+    double stop_ms; // the clock_ms() at which the process is killed; 0 if never
     char *received; // the received part of the answer
     size_t size, capacity;
 };
@@ -23,11 +24,11 @@ bool view_process_start(struct view_process *process, const struct view_files *f
 // Sends a request and its words. Returns false and sets errno on failure.
 bool view_process_ask(struct view_process *process, const struct view_request *request, const char *words, void *task);
 
-// Requests the cancellation of the current request. A process that does not react is killed after a while.
+// Requests the cancellation of the current request. A process that does not react is killed after two seconds.
 void view_process_cancel(struct view_process *process);
 
 // Reads the available bytes. Returns 1 if the answer is complete: *reply is set and `received` contains the rest.
-// Returns 0 if it is incomplete, and −1 if the process has ended or sent an invalid answer.
+// Returns 0 if the answer is incomplete, and −1 if the process has ended or sent an invalid answer.
 int view_process_receive(struct view_process *process, struct view_reply *reply);
 
 // Returns the notes and the data of a complete answer. The caller owns the memory, which is from malloc. The process

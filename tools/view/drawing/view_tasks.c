@@ -100,8 +100,8 @@ void view_tasks_drop(struct view_tasks *tasks, struct view_task *task)
         cancel(tasks, task);
 }
 
-// Returns the process for a task. Prefers an idle process that has loaded the model, then a new one, then any idle one.
-// Returns NULL if all are busy.
+// Returns the process for a task. Prefers an idle process that has loaded the model, then a new process. Replaces an
+// idle process if there are too many. Returns NULL if the task must wait.
 static struct view_process *find_process(struct view_tasks *tasks, const struct view_task *task)
 {
     struct view_process *free_one = NULL, *waiting = NULL;
@@ -110,7 +110,7 @@ static struct view_process *find_process(struct view_tasks *tasks, const struct 
         struct view_process *p = &tasks->processes[i];
         pictures += p->pid > 0 && p->task && !((const struct view_task *)p->task)->client;
         if (p->pid > 0 && p->model && task->client && strcmp(p->model, task->words) == 0 && (!p->task || p->cancelled))
-            return p->task ? NULL : p; // a process about to finish already has the model loaded
+            return p->task ? NULL : p; // waits for a cancelled process that has loaded the model
         free_one = !p->pid && !free_one ? p : free_one;
         waiting = p->pid > 0 && !p->task && !waiting ? p : waiting;
     }
@@ -164,7 +164,7 @@ static void begin_waiting(struct view_tasks *tasks)
     }
 }
 
-// Handles a process that has ended, or was killed because it took too long.
+// Ends a process that has failed or takes too long, and reports the failure of its task.
 static void lose(struct view_tasks *tasks, struct view_process *process, const char *sentence)
 {
     struct view_task *task = process->task;

@@ -1,5 +1,5 @@
-// view_tasks.h: distributes requested pictures to drawing processes. There is at most one for each processor, and one
-// more for the visible page, so that a gallery does not delay it.
+// view_tasks.h: distributes requested pictures to drawing processes. There is at most one process for each processor,
+// and one more for the visible page, so that a gallery does not delay this page.
 #ifndef VIEW_TASKS_H
 #define VIEW_TASKS_H
 
@@ -17,8 +17,8 @@ struct view_result {
 struct view_task {
     struct view_request request;
     char *words;  // from malloc
-    char *client; // the requesting page, whose newer picture cancels an older one, from malloc; NULL for a thumbnail
-    void *user;   // NULL if nobody waits for it any more
+    char *client; // the requesting page, whose newer request cancels an older one, from malloc; NULL for a thumbnail
+    void *user;   // NULL if nobody waits for the result any more
     bool running;
     bool superseded; // replaced by a newer task
     struct view_task *next;
@@ -37,8 +37,8 @@ struct view_tasks {
 void view_tasks_start(struct view_tasks *tasks, const struct view_files *files, const struct options *options,
                       void (*done)(void *user, struct view_result *result));
 
-// Adds a task and copies `words` and `client`. When it ends, `done` is called with `user`, but never during this call.
-// Returns NULL if memory runs out.
+// Adds a task and copies `words` and `client`. When the task ends, `done` is called with `user`, but never during this
+// call. Returns NULL if memory runs out.
 struct view_task *view_tasks_add(struct view_tasks *tasks, const struct view_request *request, const char *words,
                                  const char *client, void *user);
 
@@ -49,7 +49,7 @@ void view_tasks_drop(struct view_tasks *tasks, struct view_task *task);
 // and regularly.
 void view_tasks_step(struct view_tasks *tasks);
 
-// Ends all processes, and all tasks with status 503.
+// Ends all processes, and finishes all tasks with status 503.
 void view_tasks_end(struct view_tasks *tasks);
 
 #endif

@@ -1,4 +1,4 @@
-// view_words.c: parses the page's command line on this machine.
+// view_words.c: parses the page's command line, and converts its paths to paths on this machine.
 #include "view_words.h"
 
 #include <stdio.h>
@@ -56,7 +56,7 @@ static bool take_environment(struct view_words *w, const struct view_files *file
     return ok;
 }
 
-// Accepts options of the picture, including built-in looks but not a look's file.
+// Accepts options of the picture, including built-in looks, but not look files.
 static bool fits(const struct option *option, const struct options *given)
 {
     if (strcmp(option->name, "look") == 0)

@@ -42,8 +42,9 @@ const struct topic topics[] = {
      "Without `-o`, Lambent writes the picture of `models/koala.obj` to `koala.png` in the current folder. It "
      "overwrites an older picture that it wrote itself (recognised by the `Software` text in the PNG). If any other "
      "file of that name exists, Lambent keeps that file and exits with code 5. With `-o`, Lambent overwrites the given "
-     "file. Lambent writes a picture completely or not at all. Even if it is killed, it leaves no temporary file in "
-     "the folder.\nStandard output contains only the picture (`-o -`) or the report (`--json`). Everything else goes "
+     "file. Lambent writes a picture completely or not at all. Even if Lambent is killed, it leaves no temporary file "
+     "in the folder.\nStandard output contains only the picture (`-o -`) or the report (`--json`). Everything else "
+     "goes "
      "to standard error: warnings, errors, the line that names the written file, and a progress bar. The progress bar "
      "appears only on a terminal, if the work takes more than half a second."},
     {"view", "The view", BIT(VIEW), TOPIC_NO_TABLE, NULL},
@@ -72,26 +73,29 @@ const struct topic topics[] = {
      "coefficients of all other terms to black. `ambient` sets the ambient coefficient of the default material."},
     {"explain", "Explaining a pixel", 0, TOPIC_NO_TABLE,
      "`lambent explain MODEL X,Y` accepts the options of a picture and prints the calculation of the pixel in column X "
-     "and row Y, counted from 0 at the top left corner. For each visible triangle it prints the samples, the object, "
-     "the position in the triangle, n, v and t, and the material. For each light it prints its matrix (rows ambient, "
-     "diffuse, specular), l, r and h, the angles between n and l, r and v, and n and h, the distance, the attenuation "
-     "and spot factors, the base and exponent of the highlight, and the diffuse and specular terms of the light. At "
-     "the end it prints the terms and their sum, the weighted sum of the triangles over the background, the encoding "
+     "and row Y, counted from 0 at the top left corner. For each visible triangle, it prints the samples, the object, "
+     "the position in the triangle, the vectors n, v and t, and the material. For each light, it prints the colours "
+     "(rows ambient, diffuse, specular), the vectors l, r and h, the distance, and the angles between n and l, r and "
+     "v, and n and h. It also prints the attenuation and spot factors, the base and exponent of the highlight, and the "
+     "diffuse and specular terms of the light. At the end, it prints the terms and their sum, the weighted sum of the "
+     "triangles over the background, the encoding "
      "and the bytes. Vectors are in eye space. The numbers are bit-identical to the numbers behind the picture. For "
      "the formulas, see `docs/lighting.md`. `--json` prints the same numbers on one line. `-o figure.svg` draws the "
      "numbers as a figure."},
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. It lists the format, the "
-     "program that wrote the file, the size and up axis, triangles, meshes, parts and objects, the names that `--hide` "
-     "accepts, materials (numbers and maps), textures and their sizes, lights, cameras, scenes, animations and their "
-     "lengths, variants, glTF "
-     "extensions (supported, ignored or unknown), memory, the loading time, and warnings. Each list is limited to 8 "
+     "program that wrote the file, the size and the up axis, triangles, meshes, parts and objects, and the names that "
+     "`--hide` accepts. It also lists materials (numbers and maps), textures and their sizes, lights, cameras, scenes, "
+     "animations and their lengths, variants, and glTF extensions (supported, ignored or unknown). At the end, it "
+     "prints the memory, the loading time and the warnings. Each list is limited to 8 "
      "rows; `--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF (in metres) and 3MF "
      "(which states its unit), it prints size, area and volume in millimetres. Other formats define no unit. `info` "
-     "prints the volume only for closed surfaces: each edge belongs to as many triangles in one direction as in the "
-     "other. `info` also reads files that require an unknown extension, as with `--lenient`, and reports the "
+     "prints the volume only for closed surfaces. In a closed surface, each edge belongs to as many triangles in one "
+     "direction as in the other. `info` also reads files that require an unknown extension, as with `--lenient`, and "
+     "reports the "
      "extension. The memory is the sum of the model's size and the memory needed to draw a picture of 1024x1024 "
-     "pixels. To measure it, Lambent draws the depths once. If Lambent cannot read a model, it reports the error and "
+     "pixels. To measure this memory, Lambent draws a picture of the depths. If Lambent cannot read a model, it "
+     "reports the error and "
      "continues; the exit code is then the highest exit code of all models."},
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares "
@@ -101,11 +105,13 @@ const struct topic topics[] = {
      "pictures differ, Lambent draws the same scenes with known mistakes. It reports the smallest set of mistakes that "
      "reproduces the shader's pictures, and a corrected line for each mistake. `-o` writes a sheet that shows, for "
      "each scene, the shader's picture, the reference and the difference between them (times `--gain`). `--tolerance` "
-     "(default 2) applies to each channel of a pixel: one pixel in 200 may exceed it, and the mean difference may be "
-     "at most a quarter of it. The shaders run in a separate process, which `--stop-after` and `--memory-limit` limit. "
+     "(default 2) applies to each channel of a pixel: at most one pixel in 200 may exceed the tolerance, and the mean "
+     "difference may be at most a quarter of the tolerance. The shaders run in a separate process, which "
+     "`--stop-after` and `--memory-limit` limit. "
      "`lambent check --class FOLDER --csv grades.csv -o sheets/` checks a class. A submission is a folder with one "
-     "fragment shader and at most one vertex shader; outside such folders it is a fragment shader and the vertex "
-     "shader of the same name. `sheets/index.html` is a page with all results. You can also give several shaders: "
+     "fragment shader and at most one vertex shader. In other folders, each fragment shader forms one submission with "
+     "the vertex shader of the same name. `sheets/index.html` is a page with all results. You can also give several "
+     "shaders: "
      "`lambent check */phong.frag */phong.vert` pairs the fragment and vertex shaders of the same folder and name, and "
      "`-o sheets/` writes a sheet for each shader. If Lambent cannot check a shader, it reports the error and checks "
      "the other shaders. The exit code is 0 if every scene of every shader matches the reference; otherwise it is the "
@@ -133,16 +139,19 @@ const struct topic topics[] = {
      "file instead of the pictures. `lambent hash models/ --check pictures.hash` lists the models whose pictures "
      "changed. For details, see `docs/pull-requests.md`."},
     {"glass", "Glass", 0, TOPIC_NO_TABLE,
-     "`--material glass` is clear, smooth glass: `white,roughness=0,transmission=1`. You can change it with keys: "
-     "`--material glass,roughness=0.3` blurs the scene behind the glass, `glass,diffuse=0.2/0.8/0.5` tints the glass, "
+     "`--material glass` is clear, smooth glass: `white,roughness=0,transmission=1`. You can change this material with "
+     "keys: `--material glass,roughness=0.3` blurs the scene behind the glass, `glass,diffuse=0.2/0.8/0.5` tints the "
+     "glass, "
      "and `thickness` refracts the light. Glass requires the CPU device, Phong shading and a physical reflection "
      "model. For the formulas, see `docs/lighting/layers.md`. For opaque surfaces that let some light through, use "
      "`--material opacity=0.5`."},
     {"settings", "The user's own defaults", BIT(SETTINGS), TOPIC_NO_TABLE,
-     "The file `lambent.json` in the folder `~/.config/lambent` overrides the default picture settings. It uses the "
-     "keys of scene files: `{\"image\": {\"background\": \"white\"}, \"shadows\": true}`. Looks and options on the "
-     "command line override the settings file. Scene files, `batch`, `hash`, `diff`, `check` and pages ignore it. If "
-     "the environment variable `CI` is set, every command ignores it. `lambent config` prints the current settings. "
+     "The file `lambent.json` in the folder `~/.config/lambent` overrides the default picture settings. The file "
+     "contains keys of scene files: `{\"image\": {\"background\": \"white\"}, \"shadows\": true}`. Looks and options "
+     "on the "
+     "command line override the settings file. Scene files, `batch`, `hash`, `diff`, `check` and pages ignore the "
+     "settings file. If the environment variable `CI` is set, every command ignores this file. `lambent config` prints "
+     "the current settings. "
      "For details, see `docs/settings.md`."},
     {"convert", "Models in another format", BIT(CONVERT), TOPIC_NO_TABLE,
      "`lambent convert MODEL OUT.glb` writes any model or scene file as GLB, OBJ (with MTL and PNG files next to it), "
@@ -171,8 +180,9 @@ const struct topic topics[] = {
      "(each with `label`, `below_1_255_from`, null for never, and `points`, 101 pairs) and `picture`."},
     {"work", "Threads and devices", BIT(WORK), TOPIC_NO_TABLE, NULL},
     {"limits", "Limits", BIT(LIMITS), TOPIC_NO_TABLE,
-     "A hostile file could crash a program, hang it or exhaust the machine. Limits prevent this, and options change "
-     "the limits. If a file exceeds a limit, Lambent reports the number found, the number allowed, and the option that "
+     "A malicious file could crash or block a program, or exhaust the machine's memory. Limits prevent this, and "
+     "options change the limits. If a file exceeds a limit, Lambent reports the number found, the number allowed, and "
+     "the option that "
      "raises the limit. The exit code is 4. The same limits apply to the decoders for pictures and compressed meshes. "
      "`SECURITY.md` describes Lambent's security guarantees and their tests."},
     {"reports", "Reports", BIT(REPORT), TOPIC_NO_TABLE, NULL},

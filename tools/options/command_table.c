@@ -87,10 +87,11 @@ const struct command command_table[] = {
                           TAKES_TITLE,
                       .min_operands = 2, .max_operands = 2,
                       .one_more = "it compares two pictures, models or folders of models", .defaults = diff_defaults},
-    [COMMAND_hash] = {"hash", "[MODEL|FOLDER|@LIST|-]...",
-                      "Write hashes of the models' pictures to a text file (-o), or compare them with one (--check).",
-                      (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_HASH | TAKES_JSON | TAKES_QUIET | TAKES_MANY,
-                      .min_operands = 0, .max_operands = -1, .defaults = hash_defaults},
+    [COMMAND_hash] =
+        {"hash", "[MODEL|FOLDER|@LIST|-]...",
+         "Write hashes of the models' pictures to a text file (-o), or compare them with such a file (--check).",
+         (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_HASH | TAKES_JSON | TAKES_QUIET | TAKES_MANY,
+         .min_operands = 0, .max_operands = -1, .defaults = hash_defaults},
     [COMMAND_convert] = {"convert", "MODEL OUT.glb|obj|stl|ply|3mf",
                          "Write a model or a scene as GLB, OBJ, STL, PLY or 3MF, and report everything that the format "
                          "does not support.",

@@ -106,7 +106,7 @@ static const struct choice show_words[] = {
     {"ids", LAM_OUTPUT_IDS, "a colour for each triangle"},
     {"coverage", LAM_OUTPUT_COVERAGE, "the fraction of covered samples"},
     {"overdraw", LAM_OUTPUT_OVERDRAW, "the number of triangles that cover a pixel: c/(c + 3)"},
-    {"clipped", LAM_OUTPUT_CLIPPED, "pixels outside 0 to 1: above red, below blue"},
+    {"clipped", LAM_OUTPUT_CLIPPED, "pixels with a channel outside 0 to 1: red above 1, blue below 0"},
     {"base-color", LAM_OUTPUT_BASE_COLOR, "the base or diffuse colour, with maps and vertex colours"},
     {"roughness", LAM_OUTPUT_ROUGHNESS, "of physical materials"},
     {"metallic", LAM_OUTPUT_METALLIC, "of physical materials"},
@@ -192,7 +192,7 @@ static const struct choice rig_words[] = {
 
 static const struct choice turntable_light_words[] = {
     {"camera", TURNTABLE_LIGHT_CAMERA, "lights stay fixed in the picture while the model turns"},
-    {"model", TURNTABLE_LIGHT_MODEL, "lights and environment turn with the model, as if the camera circled it"},
+    {"model", TURNTABLE_LIGHT_MODEL, "lights and environment turn with the model, as if the camera circled the model"},
     {NULL, 0, NULL}};
 
 static const struct choice device_words[] = {{"auto", DEVICE_AUTO, "the CPU; OpenGL if `--gl-device` names a device"},
@@ -250,16 +250,16 @@ struct option option_table[OPTIONS_MAX] = {
      "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. If "
      "the name of a file, pipe or device has no known extension, Lambent also writes a PNG. By default, Lambent writes "
      "`MODEL.png` to the current folder (`model.png` if the model comes from standard input), and never overwrites a "
-     "file that another program created. `-o pictures/`, with a trailing slash, writes to that folder and creates it "
-     "if it is missing; every command that writes files accepts it. `--out` is an "
+     "file that another program created. `-o pictures/`, with a trailing slash, writes to that folder and creates the "
+     "folder if it is missing; every command that writes files accepts a folder in this form. `--out` is an "
      "alias.\nA file name may contain placeholders in braces, which Lambent replaces for each model: `-o "
      "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
      "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
      "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
      "If two models would be written to the same file, Lambent reports an error before it starts. To write a literal "
-     "brace, use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open it in a browser "
-     "to turn "
-     "the model and change every option; it works offline (`docs/web.md`). This format requires the page built by "
+     "brace, use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open the file in a "
+     "browser to turn the model and change every option; the page works offline (`docs/web.md`). This format requires "
+     "the page built by "
      "`make web`.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
@@ -287,8 +287,8 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "linewidth stroke-width thickness"},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
      "Lambent draws the points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, at "
-     "the same size at every distance. The default is 3 pixels, or at least 8 pixels if there are fewer than 100 "
-     "points.",
+     "the same size at every distance. The default is 3 pixels, or at least 8 pixels if the model contains fewer than "
+     "100 points.",
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
@@ -379,15 +379,14 @@ struct option option_table[OPTIONS_MAX] = {
      .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
      "Without this option, Lambent refuses such a file (exit 3), because the picture could be wrong without the "
-     "extension. With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML "
-     "prefixes in "
-     "3MF files.",
+     "extension. With this option, Lambent also accepts index values that glTF reserves (primitive restart) and "
+     "undeclared XML prefixes in 3MF files.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side to view the model from, or a list: front, back, left, right, top, bottom, iso or three-quarter.",
      "By default, the camera is 30 degrees to the right of the front and 20 degrees above the horizon. The model fills "
-     "92 % of the picture's width or height, whichever limits it. `--azimuth` and `--elevation` override the angles of "
+     "92 % of the picture's width or height. `--azimuth` and `--elevation` override the angles of "
      "a side.\n`render` and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. "
      "Without a pattern in "
      "`-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
@@ -431,7 +430,8 @@ struct option option_table[OPTIONS_MAX] = {
      "A value without `=` is the name of a camera in the model file (glTF), or its number, counted from 0. Otherwise "
      "the value is a list of keys, separated by commas, in the model's own coordinates: `eye` (required), `target` "
      "(default: the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30; "
-     "alone it is `--fov`) or `ortho` (parallel projection: model units from the picture's middle to its top), `near` "
+     "without other keys, the same as `--fov`) or `ortho` (parallel projection: model units from the picture's middle "
+     "to its top), `near` "
      "and `far` (both or neither; fitted by default). You cannot combine this option with `--view`, `--azimuth`, "
      "`--elevation`, `--zoom`, `--fov` or `--projection`. `--json` reports the camera of any picture with these keys.",
      .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
@@ -441,7 +441,8 @@ struct option option_table[OPTIONS_MAX] = {
      "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
      "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`, followed by a colon and keys separated by "
      "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds a light "
-     "to them, and `none` removes all lights except ambient light. If you also give `--rig`, the lights of the rig are "
+     "without replacing others, and `none` removes all lights except ambient light. If you also give `--rig`, the "
+     "lights of the rig are "
      "kept.\nPosition: `position=x/y/z` is in the model's units or, with r after each number, in radii of the model's "
      "bounding sphere, from its centre (default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a "
      "directional light that shines from this direction. `direction=x/y/z` is the direction in which the light "
@@ -462,7 +463,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
      "A named set of options: studio, classic, catalog, technical, or your own file.",
      "A look is a file with one option per line. Options on the command line override options of the look; a rig or "
-     "lights on the command line replace its lights. `lambent looks` lists the built-in looks. `lambent looks catalog` "
+     "lights on the command line replace the look's lights. `lambent looks` lists the built-in looks. `lambent looks "
+     "catalog` "
      "prints a look's file, which you can copy and edit.",
      look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
@@ -481,7 +483,8 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
      "With more than 16 lights, Lambent skips the weakest lights in each part of the picture. Together, the skipped "
-     "lights can change a channel by at most this share of its range. The default is half a step of an 8-bit channel "
+     "lights can change a channel by at most this share of the channel's range. The default is half a step of an 8-bit "
+     "channel "
      "(0.5/255), so no byte changes by more than 1. Lambent always skips lights that contribute nothing, because they "
      "are behind the surface or out of range, or because the surface is outside their cone.",
      .words = NULL},
@@ -491,8 +494,9 @@ struct option option_table[OPTIONS_MAX] = {
      "occlusion requires Phong shading. For the formulas, see `docs/lighting/occlusion.md`.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "Cavity shading makes letters, holes, seams and wrinkles visible. It measures valleys and ridges at a small "
-     "radius. It affects the same light as `--ao`. To see its effect alone, use `--show ao --ao off --cavity on`.",
+     "Cavity shading makes letters, holes, seams and wrinkles visible. Cavity shading measures valleys and ridges at a "
+     "small radius, and affects the same light as `--ao`. To draw only this effect, use `--show ao --ao off --cavity "
+     "on`.",
      .others = "curvature ridges valleys no-cavity"},
     {"specular-aa", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
      "This option enables specular antialiasing. If the normals of a mesh or of a normal map vary within a pixel, "
@@ -502,7 +506,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"brighten", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
      "A black model needs more light than a white one; otherwise only its outline is visible. If the base colours of a "
      "model file are dark, Lambent brightens the studio by up to 2.5 stops. `--exposure 0`, `--color` and `--material` "
-     "disable this. For the rule, see `docs/lighting/tone.md`.",
+     "disable this adjustment. For the rule, see `docs/lighting/tone.md`.",
      .others = "auto-exposure dark-models"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
     {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},
@@ -534,7 +538,8 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
      "NAME selects the objects of that name, or else the parts (OBJ groups, STL solids), or else the surfaces with the "
-     "material of that name. Lambent does not draw them, and they cast no shadows. `lambent view` and the web page "
+     "material of that name. Lambent does not draw the selected surfaces, and these surfaces cast no shadows. `lambent "
+     "view` and the web page "
      "list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 is sharp.",
@@ -560,10 +565,11 @@ struct option option_table[OPTIONS_MAX] = {
     {"viewer", 0, GROUP_SHADING, "KIND", .words = NULL},
     {"match-highlights", 0, GROUP_SHADING, NULL, .words = NULL},
     {"single-scattering", 0, GROUP_SHADING, NULL, NULL, NULL,
-     "Rough metals then look darker, as in renderers that omit this term.", .words = NULL},
+     "Rough metals then look darker, as in renderers without multiple scattering.", .words = NULL},
     {"reference", 0, GROUP_SHADING, "N", NULL, NULL,
-     "By default, Lambent approximates environment light by the split sum. This option integrates it numerically, for "
-     "comparison. With 1024 directions most results are within 0.5 % of the exact integral, with 4096 within 0.2 %. "
+     "By default, Lambent approximates environment light by the split sum. This option integrates the light "
+     "numerically, for comparison. With 1024 directions, most results are within 0.5 % of the exact integral, and with "
+     "4096 directions within 0.2 %. "
      "The directions are the same at every point and on every machine. CPU only.",
      .others = "ground-truth importance-samples"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
@@ -616,11 +622,11 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "faces lines-only no-surfaces hide-surfaces"},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Use this option for comparison with old programs. Lambent then clamps vertex colours to 0...1 before "
-     "interpolation, and limits the shininess to 128. It also attenuates the ambient light of each light and limits it "
-     "to the light's cone.",
+     "interpolation, and limits the shininess to 128. It also attenuates the ambient colour of each light with "
+     "distance, and limits this colour to the light's cone.",
      .words = NULL},
     {"back-faces", 0, GROUP_SHADING, "KIND", "the model's", "The lighting of back faces: two-sided or one-sided.",
-     "`--cull back` omits them.", back_face_words, .store = store_back_faces, .others = "backfaces double-sided"},
+     "`--cull back` omits back faces.", back_face_words, .store = store_back_faces, .others = "backfaces double-sided"},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, for every material.", NULL,
      .store = store_switch, .now = "back-faces", FIELD(shading.two_sided)},
     {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces like front faces, with the unchanged normal.", NULL,
@@ -632,9 +638,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"normals", 0, GROUP_SHADING, "SOURCE", "file",
      "The source of normals: the file, or computed smooth or facet normals.", NULL, normals_words, .store = store_word,
      .others = "recompute-normals smooth-normals facet-normals", FIELD(shading.normals)},
-    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Computed normals are split at edges sharper than this.", NULL,
-     .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth", FIELD(shading.crease_angle_deg),
-     .min = 0, .max = 180, .loads = true},
+    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Computed normals are split at edges sharper than this angle.",
+     NULL, .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth",
+     FIELD(shading.crease_angle_deg), .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "Segments of a built-in shape, such as 64x32: slices around the axis, and stacks along it.",
      "With `--parametric`, N is the number of segments along u and M is the number along v; N alone sets both. N is 3 "
@@ -681,9 +687,9 @@ struct option option_table[OPTIONS_MAX] = {
      "light that has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in "
      "degrees), `intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light "
      "comes, in the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. `time` is the "
-     "time in a glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can give more "
-     "stops: `light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole turn, the last "
-     "frame is one step before the end, so that the loop is seamless. You can combine several sweeps, also with "
+     "time in a glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can give more than "
+     "two values: `light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole turn, Lambent "
+     "ends the sweep one step earlier, so that the loop is seamless. You can combine several sweeps, also with "
      "`--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and `elevation`, the distance of "
      "the camera is constant. For `time`, the camera fits the bounding boxes of all frames. Only `zoom` and `fov` "
      "change the camera between frames.",
@@ -837,16 +843,18 @@ struct option option_table[OPTIONS_MAX] = {
      "`crashed`, and the run continues.",
      .store = store_switch, .others = "process fork sandbox-process", FIELD(batch.isolate), .single = TAKES_MANY},
     {"shard", 0, GROUP_BATCH, "K/N", "1/1",
-     "Draw only part K of N of the models, counted from 1; other machines draw the other parts.",
-     "A model's part depends only on its path, so adding a model does not move other models. `auto` takes K and N from "
-     "SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and their counts; `auto/N` takes K from these variables or from "
-     "JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent draws nothing. Without this option "
-     "it ignores them. Each part writes its own journal and page, with names such as `lambent-2-of-4.jsonl` "
+     "Draw only shard K of N of the models, counted from 1; other machines draw the other shards.",
+     "A model's shard depends only on the model's path, so adding a model does not move other models. `auto` reads K "
+     "and N from SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and the corresponding counts. `auto/N` reads K from these "
+     "variables or from JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent reports an error. "
+     "Without this option, Lambent ignores the variables. Each shard writes its own journal and page, with names such "
+     "as `lambent-2-of-4.jsonl` "
      "(`docs/batch.md`). `lambent journal` summarises them.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or by list.",
-     "With `name` each shard reads all names, which takes a second or two for a million. With `list`, it reads only "
-     "the K-th of N equal parts of one list (`@FILE`). The list must be sorted by the names of the pictures (`LC_ALL=C "
+     "With `name`, each shard reads all names, which takes a second or two for a million models. With `list`, a shard "
+     "reads only the K-th of N equal parts of one list (`@FILE`). The list must be sorted by the names of the pictures "
+     "(`LC_ALL=C "
      "sort`), so that Lambent can check that no two pictures share a name. If the list changes, models move to other "
      "shards, and `--resume` refuses to continue.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
@@ -865,8 +873,8 @@ struct option option_table[OPTIONS_MAX] = {
      "of waiting jobs use at most twice this limit.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write an HTML page that shows all pictures, failures first.",
-     "Lambent writes the thumbnails to the folder FILE-files next to the page. Apart from these, the page needs no "
-     "other files and no network.",
+     "Lambent writes the thumbnails to the folder FILE-files next to the page. The page needs no other files and no "
+     "network.",
      .kind = VALUE_FILE, .store = store_text, .others = "contact-sheet html gallery page", FIELD(batch.report_page),
      .single = TAKES_REPORT},
 
@@ -914,7 +922,8 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_FILE, .store = store_text, .others = "keep cache-dir baseline", FIELD(hash.pictures)},
 
     {"thumbnail", 0, GROUP_CONVERT, NULL, NULL, "Put a picture of the model into the GLB file.",
-     "The picture is the same as that of `lambent MODEL`, with 512x512 pixels. The property `asset.thumbnail` stores "
+     "The picture is identical to the one that `lambent MODEL` draws with 512x512 pixels. The property "
+     "`asset.thumbnail` stores "
      "the index of the picture in `images`, as in the draft of glTF 2.1. Programs that do not support this property "
      "ignore it.",
      .store = store_switch, .others = "preview icon", FIELD(convert.thumbnail)},
@@ -1001,7 +1010,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "glsl-version shader-version", FIELD(shader.glsl)},
     {"host", 0, GROUP_SHADER, "LANGUAGE", NULL, "Also print code that sets all inputs of the shaders: c.",
      "The code compiles the sources, describes the vertex layout to OpenGL and sets every uniform to its value in this "
-     "picture, with OpenGL's own calls only. `-o NAME` writes it to `NAME.c`.",
+     "picture. The code calls only OpenGL. `-o NAME` writes the code to `NAME.c`.",
      host_words, .store = store_word, FIELD(shader.host)},
     {"products", 0, GROUP_SHADER, NULL, NULL,
      "Pass the products ka La, kd Ld and ks Ls as uniforms, as in many lectures.", NULL, .store = store_switch,
@@ -1017,8 +1026,9 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
      style_words, .store = store_word, FIELD(shader.style)},
     {"mistake", 0, GROUP_SHADER, "NAME", NULL,
-     "Introduce a known mistake into shaders of the lecture style; `list` lists them.",
-     "Use it for exercises such as \"find the mistake\": `lambent check` reports the mistake. `lambent compare MODEL "
+     "Introduce a known mistake into shaders of the lecture style; `list` prints the known mistakes.",
+     "Use this option for exercises such as \"find the mistake\": `lambent check` reports the mistake. `lambent "
+     "compare MODEL "
      "--across mistake=A,B` shows the effect of mistakes. `--mistake list --json` prints the list for programs.",
      .store = store_text, .others = "error bug fault wrong", FIELD(shader.mistake)},
     {"parametric", 0, GROUP_SHAPE, "FORMULAS", NULL,

@@ -47,7 +47,7 @@ WORDS(occlusion_words,
       {"off", LAM_OCCLUSION_OFF, "no occlusion"},
       {"screen", LAM_OCCLUSION_SCREEN, "computed from the depths of visible surfaces around each pixel"},
       {"rays", LAM_OCCLUSION_RAYS, "traces rays from each point: slower, includes hidden surfaces; only on the CPU"})
-WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if the ambient occlusion `auto` is `screen`"},
+WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `--ao auto` selects `screen`"},
       {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on with the studio's lights or environment light"},
@@ -98,7 +98,7 @@ static const lam_setting rows[] = {
     {"flat_normal", MEMBER(WORD, flat_normal), WORDS_OF(flat_normal_words), .expected = "stage, viewer or flat_normal",
      .summary = "The normal for flat shading: the normal of the face, or of its last vertex."},
     {"match_highlights", MEMBER(FLAG, match_highlights),
-     .summary = "Multiply Blinn-Phong's shininess by 4, so that it looks like Phong."},
+     .summary = "Multiply Blinn-Phong's shininess by 4, so that highlights look like Phong's."},
     {"single_scattering", MEMBER(FLAG, single_scattering),
      .summary = "Omit multiple scattering between microfacets (GGX)."},
     {"gl1", MEMBER(FLAG, gl1),
@@ -112,9 +112,9 @@ static const lam_setting rows[] = {
      .summary =
          "A ground plane at the model's lowest point: shadow, checker, a colour or off; without a value, shadow."},
     {"ground_color", MEMBER(RGB, ground_color),
-     .summary = "The ground's colour, or the colour of its bright squares. Default: black; with checker 0.6."},
+     .summary = "The ground's colour, or the colour of the bright squares. Default: black; with checker 0.6."},
     {"anisotropy", MEMBER(WHOLE, anisotropy), .min = 1, .max = 16, .standard = 1, .expected = "0 to 16",
-     .summary = "Texture samples per pixel on slanted surfaces, 1 to 16; more are sharper."},
+     .summary = "Texture samples per pixel on slanted surfaces, 1 to 16; more samples are sharper."},
     {"reference", MEMBER(WHOLE, reference), .min = 16, .max = 1 << 20, .zero = true,
      .expected = "0 or 16 to 1048576 directions",
      .summary = "Integrate the environment's light on physical materials over N directions per point, 16 to 1048576; "

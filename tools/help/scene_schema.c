@@ -9,15 +9,16 @@
 #include "field_tables.h"
 #include "schema.inc"
 
-static const char every_light[] = "        \"name\": {\"type\": \"string\", \"minLength\": 1},\n"
-                                  "        \"frame\": {\n"
-                                  "          \"enum\": [\"world\", \"camera\", \"view\", \"object\"],\n"
-                                  "          \"default\": \"world\",\n"
-                                  "          \"description\": \"The coordinate system of position, direction and up.\"\n"
-                                  "        },\n"
-                                  "        \"object\": {\"type\": \"string\", \"minLength\": 1, \"description\": "
-                                  "\"The name of the object, if frame is object. Default: the "
-                                  "first object.\"}";
+static const char every_light[] =
+    "        \"name\": {\"type\": \"string\", \"minLength\": 1},\n"
+    "        \"frame\": {\n"
+    "          \"enum\": [\"world\", \"camera\", \"view\", \"object\"],\n"
+    "          \"default\": \"world\",\n"
+    "          \"description\": \"The coordinate system of position, direction and up.\"\n"
+    "        },\n"
+    "        \"object\": {\"type\": \"string\", \"minLength\": 1, \"description\": "
+    "\"The name of the object, if frame is object. Default: the "
+    "first object.\"}";
 static const char colored_light[] = "        \"color\": {\"$ref\": \"#/$defs/color3\", \"description\": \"color "
                                     "times intensity sets diffuse and specular. Default: "
                                     "1, 1, 1.\"},\n"

@@ -282,7 +282,7 @@ struct option option_table[OPTIONS_MAX] = {
      "area is blurred. With N samples along the area, textures look up to N times as sharp.",
      .others = "anisotropic anisotropic-filtering"},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
-     "Lambent draws the lines of OBJ (`l`), PLY (`edge`) and glTF files with the same width at every distance. It "
+     "Lambent draws the lines of OBJ (`l`), PLY (`edge`) and glTF files with the same width at every distance. Lambent "
      "moves lines towards the eye by their width, so that lines on a surface are visible. Lines have no end caps.",
      .others = "linewidth stroke-width thickness"},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
@@ -292,7 +292,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
-     "The background fills all pixels that the model does not cover. This also applies to `--show` and to sheets. The "
+     "The background fills all pixels that the model does not cover. The same applies to `--show` and to sheets. The "
      "sheets of `compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), "
      "one of the basic names (`black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
      "`orange` and the other colour names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or "
@@ -317,8 +317,9 @@ struct option option_table[OPTIONS_MAX] = {
      "Also show the picture in the terminal, with this method; off disables it.",
      "If the terminal can show pictures and `-o` is missing, Lambent shows a single picture above the line that names "
      "its file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by "
-     "their environment variables, and queries other terminals (for at most half a second). It scales the picture down "
-     "to the width of the window. With a value other than `auto`, Lambent also shows the picture if `-o` names a file "
+     "their environment variables, and queries other terminals (for at most half a second). If the picture is wider "
+     "than the window, Lambent scales the picture down. With a value other than `auto`, Lambent also shows the picture "
+     "if `-o` names a file "
      "with 8 bits per channel. Lambent shows no picture with `--json` or `--quiet`, with several models, or if "
      "standard output is not a terminal. `sixel` and `blocks` need libchafa (Debian's package `libchafa0`). "
      "`docs/terminal.md` lists the terminals.",
@@ -331,11 +332,12 @@ struct option option_table[OPTIONS_MAX] = {
      .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
      "Brighten or darken the picture: 1 doubles the light, -1 halves it; or auto.",
-     "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. This "
-     "includes `--color-mode raw`, float pictures and the light terms of `--show`. The background keeps its colour. If "
+     "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. The "
+     "exposure also applies to `--color-mode raw`, to float pictures and to the light terms of `--show`. The "
+     "background keeps its colour. If "
      "the picture uses the lights of a glTF file (candela, lux), the default is `auto`. With `auto`, Lambent selects "
      "an exposure, in thirds of a stop, at which 95 % of the covered pixels are no brighter than 0.8. Lambent reports "
-     "the selected value. `--exposure 0` keeps the light unchanged.",
+     "the selected exposure. `--exposure 0` keeps the light unchanged.",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
@@ -419,8 +421,10 @@ struct option option_table[OPTIONS_MAX] = {
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
-     "The axis is x, y or z of the scene; rotations apply in the given order. Lights do not move, except lights in the "
-     "model's frame. Radii refer to the model before the rotation. Lambent also fits the camera to the model before "
+     "The axis is x, y or z of the scene. Lambent applies rotations in the given order. Lights do not move, except "
+     "lights in the "
+     "model's frame. Lengths with the unit r refer to the model before the rotation. Lambent also fits the camera to "
+     "the model before "
      "the rotation. If the model would leave the picture at any angle, the camera moves back, so that the model has "
      "the same size and position at every angle. All pictures of a sheet share this camera.",
      .brief = "rotate the model: y:30", .store = store_rotation, .others = "r rotation turn spin",
@@ -490,7 +494,8 @@ struct option option_table[OPTIONS_MAX] = {
      .words = NULL},
     {"ao", 0, GROUP_LIGHTS, "METHOD", NULL, NULL,
      "A recess receives less light from its surroundings than an open face. Occlusion dims ambient, hemisphere and "
-     "environment light. It also dims lights whose key `occluded` is above 0, such as the studio's lights. Ambient "
+     "environment light. Occlusion also dims lights whose key `occluded` is above 0, such as the studio's lights. "
+     "Ambient "
      "occlusion requires Phong shading. For the formulas, see `docs/lighting/occlusion.md`.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
@@ -580,7 +585,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
      "Lights then cast shadows on the ground plane and on the model. The kind `shadow` draws only the shadows, over "
      "any background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to the "
-     "up axis (`--up`) and fades out with distance. It is invisible from below. A ground plane requires Phong shading. "
+     "up axis (`--up`) and fades out with distance. The ground plane is invisible from below. A ground plane requires "
+     "Phong shading. "
      "For pictures, see `docs/lighting/ground.md`.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
@@ -622,7 +628,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "faces lines-only no-surfaces hide-surfaces"},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Use this option for comparison with old programs. Lambent then clamps vertex colours to 0...1 before "
-     "interpolation, and limits the shininess to 128. It also attenuates the ambient colour of each light with "
+     "interpolation, and limits the shininess to 128. Lambent also attenuates the ambient colour of each light with "
      "distance, and limits this colour to the light's cone.",
      .words = NULL},
     {"back-faces", 0, GROUP_SHADING, "KIND", "the model's", "The lighting of back faces: two-sided or one-sided.",
@@ -681,7 +687,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
      "Animate a number: light.azimuth=0..360, roughness=0..1; repeatable.",
      "KEY is an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, `ambient`, "
-     "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. It may also be a key of `--material` (`roughness`, `kd`, "
+     "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. KEY may also be a key of `--material` (`roughness`, `kd`, "
      "`roughness@NAME`) or a numeric property of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's "
      "name or its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first "
      "light that has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in "
@@ -781,8 +787,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
      "Drop all privileges that reading files does not need: auto, require or off.",
      "In the sandbox, a file that exploits a decoder cannot run programs, open sockets or read other files. The "
-     "process can read only the folders of the models and of `--allow-path`, and the system's libraries and fonts. It "
-     "cannot change any file: a small process outside the sandbox writes only the pictures. The sandbox consists of "
+     "process can read only the folders of the models and of `--allow-path`, and the system's libraries and fonts. The "
+     "process cannot change any file: a small process outside the sandbox writes only the pictures. The sandbox "
+     "consists of "
      "Linux's Landlock and a seccomp filter. `auto` uses both if the kernel supports them. `require` fails if one is "
      "missing (exit 3), and restricts scene files to their own folder (`--files-inside`) and `--allow-path`. `-v`, "
      "`--json` and `--version` report the methods in use. The sandbox applies to commands that read models or "
@@ -813,7 +820,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl in the folder of the pictures",
      "Write a line of JSON for each picture that succeeds or fails.",
      "A line records the model, the picture, the result (`class`, `exit`, `error`), the duration of each step in "
-     "milliseconds, the number of triangles and the warnings. It also records the size of the picture in bytes, the "
+     "milliseconds, the number of triangles and the warnings. The line also records the size of the picture in bytes, "
+     "the "
      "picture's hash, a hash for each file that Lambent read, and the key for `--skip-same`. Lambent writes the line "
      "after the picture is complete. `none` writes no journal. `docs/batch.md` describes every field.",
      .kind = VALUE_FILE, .store = store_text, .others = "log record", FIELD(batch.journal)},
@@ -880,15 +888,15 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "Lambent prints the report to standard output, instead of the line with the file's name. If the picture goes to "
-     "standard output, Lambent prints the report, and nothing else, to standard error. It also prints a report on "
+     "standard output, Lambent prints the report, and nothing else, to standard error. Lambent also prints a report on "
      "failure. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption of each picture "
      "and the options that draw the picture.",
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,
      "Print the pictures that the command would draw and write, but write nothing.",
-     "Lambent reads and checks the models and the options, and checks whether it can write each picture. It draws "
-     "nothing. For each model, Lambent prints the name and size of the picture, whether the picture would overwrite a "
+     "Lambent reads and checks the models and the options, and checks whether it can write each picture. Lambent draws "
+     "nothing. For each model, it prints the name and size of the picture, whether the picture would overwrite a "
      "file, the camera, the device and the options on the command line. With `--json`, the report contains `planned` "
      "instead of `image`. Errors and exit codes are the same as without `--dry-run`.",
      .store = store_switch, .others = "plan simulate no-write preview what-if check-only", FIELD(report.dry_run)},
@@ -1078,8 +1086,9 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(viewer.no_open)},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
-     "By default, the environment variable `LAMBENT_FONT` names the font. If it is not set, Lambent uses the first of "
-     "these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, FreeSans, Roboto. "
+     "By default, the environment variable `LAMBENT_FONT` names the font. If this variable is not set, Lambent uses "
+     "the first of these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, "
+     "FreeSans, Roboto. "
      "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
      "sheet are always identical. An SVG file requests DejaVu Sans, but the viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
@@ -1089,7 +1098,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
      "The settings file: keys of scene files that override the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if it exists and the "
-     "environment variable `CI` is not set. It never reads a settings file from a model's folder. Looks and options on "
+     "environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks and "
+     "options on "
      "the command line override settings; scene files ignore them. `lambent config` prints the current settings, and "
      "`docs/settings.md` describes the file.",
      .kind = VALUE_FILE, .store = store_text, .others = "settings preferences rc conf configuration",

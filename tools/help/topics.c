@@ -24,7 +24,7 @@ const struct topic topics[] = {
      "server: it reads one JSON job per line and answers each job (`docs/worker.md`)."},
     {"viewer", "The viewer", BIT(VIEWER), TOPIC_NO_TABLE,
      "`lambent view bunny.obj` shows a model in the browser, and updates the picture when the file changes. `lambent "
-     "view models/` shows a gallery of a folder. The viewer requires a page. To build it, run `make web` once in "
+     "view models/` shows a gallery of a folder. The viewer requires a page. To build the page, run `make web` once in "
      "Lambent's source folder. Lambent serves the page only on 127.0.0.1, at an address with a secret token. Press "
      "Ctrl-C to stop the viewer. For details, see `docs/view.md`."},
     {"formats", "Model formats", 0, TOPIC_NO_TABLE,
@@ -56,7 +56,7 @@ const struct topic topics[] = {
     {"animations", "Animations", BIT(ANIMATION), TOPIC_NO_TABLE,
      "`lambent MODEL --turntable 36` and `lambent MODEL --sweep light.azimuth=0..360` draw several pictures of one "
      "model, and read the model only once. Lambent writes the frames to one animated PNG or WebP (by the extension in "
-     "`-o`), which loops forever. With `{frame}` in the name, it writes each frame to a separate file. A frame is "
+     "`-o`), which loops forever. With `{frame}` in the name, Lambent writes each frame to a separate file. A frame is "
      "identical to a picture drawn alone with the same options. All frames use the camera and the automatic exposure "
      "of the first frame."},
     {"sheets", "Sheets", BIT(SHEET) | BIT(CAPTIONS), TOPIC_NO_TABLE,
@@ -108,8 +108,8 @@ const struct topic topics[] = {
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares "
      "these pictures with the pictures of the CPU device. Without `--vertex`, Lambent generates a correct vertex "
-     "shader. Lambent recognises the contract by the names of uniforms and attributes. If no contract fits, it infers "
-     "the role of each input from its use. `--list` prints the contracts, the scenes and the known mistakes. If "
+     "shader. Lambent recognises the contract by the names of uniforms and attributes. If no contract fits, Lambent "
+     "infers the role of each input from its use. `--list` prints the contracts, the scenes and the known mistakes. If "
      "pictures differ, Lambent draws the same scenes with known mistakes. Lambent reports the smallest set of mistakes "
      "that reproduces the shader's pictures, and a corrected line for each mistake. `-o` writes a sheet that shows, "
      "for "
@@ -188,7 +188,8 @@ const struct topic topics[] = {
      "Blinn-Phong at four times the shininess, which looks like Phong. Without arguments, each plot draws a default "
      "set of curves. The values come from the same functions that compute the lighting of pixels.\nBy default, Lambent "
      "writes a picture of 1600x1000 pixels to `attenuation.png`, `spot.png` or `highlight.png` (with `-o plots/`, in "
-     "that folder). If the name ends in `.svg`, it writes an SVG file. The table on standard output lists the distance "
+     "that folder). If the name ends in `.svg`, Lambent writes an SVG file. The table on standard output lists the "
+     "distance "
      "or angle at which each curve falls below 1/255. With `--json`, the table is one line: `plot`, `x`, `y`, `curves` "
      "(each with `label`, `below_1_255_from`, null for never, and `points`, 101 pairs) and `picture`."},
     {"work", "Threads and devices", BIT(WORK), TOPIC_NO_TABLE, NULL},

@@ -251,8 +251,8 @@ struct option option_table[OPTIONS_MAX] = {
      "the name of a file, pipe or device has no known extension, Lambent also writes a PNG. By default, Lambent writes "
      "`MODEL.png` to the current folder (`model.png` if the model comes from standard input), and never overwrites a "
      "file that another program created. `-o pictures/`, with a trailing slash, writes to that folder and creates the "
-     "folder if it is missing; every command that writes files accepts a folder in this form. `--out` is an "
-     "alias.\nA file name may contain placeholders in braces, which Lambent replaces for each model: `-o "
+     "folder if it is missing; every command that writes files accepts a folder in this form. `--out` is an alias of "
+     "`--output`.\nA file name may contain placeholders in braces, which Lambent replaces for each model: `-o "
      "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
      "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
      "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
@@ -341,7 +341,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
-     "with physical materials. For all other pictures, and with `--color-mode raw`, it selects `none`, which clips "
+     "with physical materials. For all other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips "
      "light at 1. Floating-point pictures store the light without the curve. For the formulas, see "
      "`docs/lighting/tone.md`.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
@@ -509,7 +509,8 @@ struct option option_table[OPTIONS_MAX] = {
      "(`docs/lighting/physical.md`).",
      .others = "specular-antialiasing toksvig glitter fireflies no-specular-aa"},
     {"brighten", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "A black model needs more light than a white one; otherwise only its outline is visible. If the base colours of a "
+     "A black model needs more light than a white model; otherwise, only the outline of the black model is visible. If "
+     "the base colours of a "
      "model file are dark, Lambent brightens the studio by up to 2.5 stops. `--exposure 0`, `--color` and `--material` "
      "disable this adjustment. For the rule, see `docs/lighting/tone.md`.",
      .others = "auto-exposure dark-models"},
@@ -675,7 +676,8 @@ struct option option_table[OPTIONS_MAX] = {
      "The model rotates about its up axis in equal steps, counter-clockwise as seen from above. Frame k is identical "
      "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
      "exposure. By default, and with a name that ends in `.png` or `.webp`, Lambent writes all frames to one animated "
-     "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a "
+     "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame "
+     "to a "
      "separate file, in any format. `36,light=model` turns the lights with the model instead of keeping them with the "
      "camera; lights in an object's frame always turn with the object. For examples, see `docs/animation.md`.",
      .store = store_integer, .keyed = true, .others = "spin turnaround orbit rotate360 animate gif apng",
@@ -732,7 +734,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
      "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
      "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
-     "counts memory before allocating it. The default is a quarter of the available memory, divided by the number of "
+     "counts memory before the allocation. The default is a quarter of the available memory, divided by the number of "
      "models drawn at the same time. The available memory is the smallest of the machine's memory, the limits of "
      "control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and T are "
      "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the process "
@@ -740,7 +742,8 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
      "The limit applies to the elapsed time for reading, drawing and writing each model. Multiplied by the number of "
-     "threads (`--threads`), it also limits the processor time. Lambent stops within half a second after the limit. In "
+     "threads (`--threads`), the limit also applies to the processor time. Lambent stops within half a second after "
+     "the limit. In "
      "an animation, the default applies to each frame; a limit that you set applies to all frames together.",
      .store = store_seconds, .others = "timeout", FIELD(limits.time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
@@ -790,8 +793,9 @@ struct option option_table[OPTIONS_MAX] = {
      "process can read only the folders of the models and of `--allow-path`, and the system's libraries and fonts. The "
      "process cannot change any file: a small process outside the sandbox writes only the pictures. The sandbox "
      "consists of "
-     "Linux's Landlock and a seccomp filter. `auto` uses both if the kernel supports them. `require` fails if one is "
-     "missing (exit 3), and restricts scene files to their own folder (`--files-inside`) and `--allow-path`. `-v`, "
+     "Linux's Landlock and a seccomp filter. `auto` uses both methods if the kernel supports them. `require` fails if "
+     "one of the methods is missing (exit 3), and restricts scene files to their own folder (`--files-inside`) and "
+     "`--allow-path`. `-v`, "
      "`--json` and `--version` report the methods in use. The sandbox applies to commands that read models or "
      "pictures. `check` and OpenGL need privileges for their drivers; with `auto` they run without a sandbox. With "
      "`auto`, a scene file (`.json`) may refer to files in any folder, unless you give `--files-inside` or "
@@ -831,12 +835,13 @@ struct option option_table[OPTIONS_MAX] = {
      "first repeats the models that were in progress, each in a separate process.",
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
     {"retry-failed", 0, GROUP_BATCH, "N", "0", "Retry a picture that failed, at most N times.",
-     "Lambent retries at the end of the run. With `--resume`, it also retries failures of earlier runs. Each line of "
+     "Lambent retries at the end of the run. With `--resume`, Lambent also retries failures of earlier runs. Each line "
+     "of "
      "the journal counts as one attempt. At the end Lambent lists the models that still fail.",
      .store = store_integer, .others = "retries retry attempts", FIELD(batch.retry_failed), .max = 1000},
     {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
      "Exit with 0 even if models fail, provided that the journal records each result.",
-     "Open MPI stops all ranks if one rank exits with a code other than 0, and other systems repeat the task. The "
+     "Open MPI stops all ranks if one rank exits with a code other than 0. Other systems repeat the task. The "
      "journal and the messages still report the failures. If a run ends early, for example after a wrong option or an "
      "interrupt, it still exits with an error code.",
      .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
@@ -857,7 +862,7 @@ struct option option_table[OPTIONS_MAX] = {
      "variables or from JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent reports an error. "
      "Without this option, Lambent ignores the variables. Each shard writes its own journal and page, with names such "
      "as `lambent-2-of-4.jsonl` "
-     "(`docs/batch.md`). `lambent journal` summarises them.",
+     "(`docs/batch.md`). `lambent journal` summarises these journals.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or by list.",
      "With `name`, each shard reads all names, which takes a second or two for a million models. With `list`, a shard "
@@ -896,7 +901,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,
      "Print the pictures that the command would draw and write, but write nothing.",
      "Lambent reads and checks the models and the options, and checks whether it can write each picture. Lambent draws "
-     "nothing. For each model, it prints the name and size of the picture, whether the picture would overwrite a "
+     "nothing. For each model, Lambent prints the name and size of the picture, whether the picture would overwrite a "
      "file, the camera, the device and the options on the command line. With `--json`, the report contains `planned` "
      "instead of `image`. Errors and exit codes are the same as without `--dry-run`.",
      .store = store_switch, .others = "plan simulate no-write preview what-if check-only", FIELD(report.dry_run)},
@@ -953,8 +958,9 @@ struct option option_table[OPTIONS_MAX] = {
      "OPTION is one of the options above without its dashes. Separate the values by commas. If the values themselves "
      "contain commas, as for `light` and `material`, separate them by semicolons "
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
-     "accepts. For `shininess` they are 10, 50 and 1000, for `light` one light of each type, and for `show` (also "
-     "called `term`) the five terms. If you give `--across` twice, the first defines the rows of a grid and the second "
+     "accepts. The default values of `shininess` are 10, 50 and 1000, of `light` one light of each type, and of `show` "
+     "(also called `term`) the five terms. If you give `--across` twice, the first defines the rows of a grid and the "
+     "second "
      "defines its columns. `mistake=A,B` uses OpenGL to draw shaders with known mistakes next to the correct shader, "
      "with the differences between them (`lambent shader --mistake list`). `mistake` alone draws all mistakes that are "
      "visible in the scene.",
@@ -980,7 +986,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
      "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
      "By default, Lambent expects a term if the shaders declare one of its names. For example, without a specular "
-     "colour, it expects no highlight. If the shaders do not declare an expected colour, Lambent uses white.",
+     "colour, Lambent expects no highlight. If the shaders do not declare an expected colour, Lambent uses white.",
      term_words, .store = store_words, FIELD(check.terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
@@ -1097,8 +1103,9 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
      "The settings file: keys of scene files that override the default picture settings.",
-     "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if it exists and the "
-     "environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks and "
+     "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if this file exists "
+     "and the environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks "
+     "and "
      "options on "
      "the command line override settings; scene files ignore them. `lambent config` prints the current settings, and "
      "`docs/settings.md` describes the file.",

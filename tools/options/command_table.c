@@ -217,7 +217,7 @@ const struct example examples[] = {
      "saves a surface given by formulas as a model", false},
     {"lambent shape --implicit 'x^2+y^2+z^2-1'", "draws the surface on which an expression is zero, here a sphere",
      false},
-    {"lambent diff old.png new.png -o where.png", "prints the difference between two pictures, and draws it", false},
+    {"lambent diff old.png new.png -o where.png", "prints and draws the difference between two pictures", false},
     {"lambent diff old/ new/ -o report.html", "shows models before and after a change on one page", false},
     {"lambent hash models/ -o pictures.hash",
      "writes the hashes of all pictures to a file, which you can keep in a repository", false},

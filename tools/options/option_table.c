@@ -56,7 +56,7 @@ static const struct choice shard_by_words[] = {
     {"list", SHARD_BY_LIST, "into consecutive blocks of one sorted list, so that each shard reads only its own models"},
     {NULL, 0, NULL}};
 static const struct choice light_frame_words[] = {
-    {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
+    {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms the position, like the vertices"},
     {"camera", LAM_FRAME_CAMERA, "in eye space: used as given"},
     {NULL, 0, NULL}};
 
@@ -76,8 +76,8 @@ static const struct choice compress_words[] = {
 
 static const struct choice term_words_list[] = {
     {"auto", TERM_AUTO, "kitty, iterm2 or sixel, if the terminal supports it and no file is named"},
-    {"kitty", TERM_KITTY, "sends the PNG itself: kitty, Ghostty, Konsole"},
-    {"iterm2", TERM_ITERM2, "sends the PNG itself: iTerm2, WezTerm"},
+    {"kitty", TERM_KITTY, "sends the PNG file: kitty, Ghostty, Konsole"},
+    {"iterm2", TERM_ITERM2, "sends the PNG file: iTerm2, WezTerm"},
     {"sixel", TERM_SIXEL, "256 colours: xterm, foot, mlterm; needs libchafa"},
     {"blocks", TERM_BLOCKS, "coloured characters, on any terminal; needs libchafa"},
     {"off", TERM_OFF, "shows no picture"},
@@ -108,9 +108,9 @@ static const struct choice show_words[] = {
     {"overdraw", LAM_OUTPUT_OVERDRAW, "the number of triangles that cover a pixel: c/(c + 3)"},
     {"clipped", LAM_OUTPUT_CLIPPED, "pixels with a channel outside 0 to 1: red above 1, blue below 0"},
     {"base-color", LAM_OUTPUT_BASE_COLOR, "the base or diffuse colour, with maps and vertex colours"},
-    {"roughness", LAM_OUTPUT_ROUGHNESS, "of physical materials"},
-    {"metallic", LAM_OUTPUT_METALLIC, "of physical materials"},
-    {"occlusion", LAM_OUTPUT_OCCLUSION, "from an occlusion map"},
+    {"roughness", LAM_OUTPUT_ROUGHNESS, "the roughness of physical materials"},
+    {"metallic", LAM_OUTPUT_METALLIC, "the metalness of physical materials"},
+    {"occlusion", LAM_OUTPUT_OCCLUSION, "the factor of an occlusion map"},
     {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour's map: level / 10"},
     {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: white where nothing is occluded"},
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of one .exr file"},
@@ -228,7 +228,7 @@ static const struct choice sheet_words[] = {
      "ambient, diffuse and specular alone; all terms at shininess 50, at 1000, and at 1000 with flat shading"},
     {"stages", SHEET_STAGES, "lighting per vertex and per fragment, with the brightest highlight enlarged"},
     {"light", SHEET_LIGHT, "the model under white and green light, in its own colours and in orange"},
-    {"ambient", SHEET_AMBIENT, "ambient and diffuse light: both white, red and white, both red"},
+    {"ambient", SHEET_AMBIENT, "ambient and diffuse light: first both white, then red and white, then both red"},
     {"frames", SHEET_FRAMES,
      "one light in the frames of the world, the camera and the model, before and after a rotation"},
     {"surfaces", SHEET_SURFACES, "specular, diffuse and translucent"},
@@ -835,7 +835,8 @@ struct option option_table[OPTIONS_MAX] = {
      "first repeats the models that were in progress, each in a separate process.",
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
     {"retry-failed", 0, GROUP_BATCH, "N", "0", "Retry a picture that failed, at most N times.",
-     "Lambent retries at the end of the run. With `--resume`, Lambent also retries failures of earlier runs. Each line "
+     "Lambent retries failed pictures at the end of the run. With `--resume`, Lambent also retries failures of earlier "
+     "runs. Each line "
      "of "
      "the journal counts as one attempt. At the end Lambent lists the models that still fail.",
      .store = store_integer, .others = "retries retry attempts", FIELD(batch.retry_failed), .max = 1000},
@@ -977,7 +978,7 @@ struct option option_table[OPTIONS_MAX] = {
      "The contract that defines the shaders' variable names: a built-in contract's name, or a contract file.",
      "`auto` recognises a built-in contract by its names. If no contract fits, Lambent infers the role of each input "
      "from its use. `auto` never selects `chile` or `glsl120`; to use one of these contracts, give its name. `--list` "
-     "prints the contracts. To use your own contract, write it in JSON (`docs/check/contract-file.md`).",
+     "prints the contracts. You can also write your own contract in JSON (`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(check.light_frame)},
@@ -1022,7 +1023,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The version of GLSL: 330, 120 or 300es.",
      "\"300 es\", as in a shader's first line, is also accepted.", glsl_words, .store = store_glsl,
      .others = "glsl-version shader-version", FIELD(shader.glsl)},
-    {"host", 0, GROUP_SHADER, "LANGUAGE", NULL, "Also print code that sets all inputs of the shaders: c.",
+    {"host", 0, GROUP_SHADER, "LANGUAGE", NULL,
+     "Also print code, in this language, that sets all inputs of the shaders: c.",
      "The code compiles the sources, describes the vertex layout to OpenGL and sets every uniform to its value in this "
      "picture. The code calls only OpenGL. `-o NAME` writes the code to `NAME.c`.",
      host_words, .store = store_word, FIELD(shader.host)},

@@ -107,7 +107,7 @@ static const lam_setting rows[] = {
     {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator), WORDS_OF(terminator_words),
      .summary = "Start shadow rays on the curved surface defined by the normals: on or off."},
     {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 112, .expected = "0 to 256",
-     .summary = "Shadow rays to a light with a radius from each point in its penumbra."},
+     .summary = "The number of shadow rays from each point in a penumbra to a light with a radius."},
     {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
      .summary =
          "A ground plane at the model's lowest point: shadow, checker, a colour or off; without a value, shadow."},
@@ -131,7 +131,7 @@ static const lam_setting rows[] = {
      .expected = "more than 0, up to 10",
      .summary = "The range of occlusion, as a fraction of half the diagonal of the scene's bounding box."},
     {"ao_samples", MEMBER(WHOLE, occlusion_samples), .min = 1, .max = 1024, .standard = 64, .expected = "0 to 1024",
-     .summary = "Rays of ambient occlusion (`rays`) from each lit point; more rays reduce noise."},
+     .summary = "The number of rays from each lit point for ambient occlusion (`rays`); more rays reduce noise."},
     {"light_cutoff", MEMBER(NUMBER, light_cutoff), .max = 1, .standard = 0.5 / 255, .zero_is_negative = true,
      .expected = "at most 1",
      .summary = "The maximum error caused by skipping weak lights; 0 evaluates every light everywhere."},

@@ -253,9 +253,10 @@ struct option option_table[OPTIONS_MAX] = {
      "file that another program created. `-o pictures/`, with a trailing slash, writes to that folder and creates the "
      "folder if it is missing; every command that writes files accepts a folder in this form. `--out` is an alias of "
      "`--output`.\nA file name may contain placeholders in braces, which Lambent replaces for each model: `-o "
-     "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
-     "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
-     "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
+     "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` is the "
+     "extension, and `{dir}` is the model's folder (without `..` and a leading slash). `{view}` is the value of "
+     "`--view`, and `{size}` is the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces "
+     "existing files. "
      "If two models would be written to the same file, Lambent reports an error before it starts. To write a literal "
      "brace, use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open the file in a "
      "browser to turn the model and change every option; the page works offline (`docs/web.md`). This format requires "
@@ -294,9 +295,9 @@ struct option option_table[OPTIONS_MAX] = {
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
      "The background fills all pixels that the model does not cover. The same applies to `--show` and to sheets. The "
      "sheets of `compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), "
-     "one of the basic names (`black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
-     "`orange` and the other colour names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or "
-     "`transparent`.",
+     "three or four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a name. The names are `black`, `white`, "
+     "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour names of "
+     "HTML 4.",
      .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
      .others = "bg background-color backdrop transparent", FIELD(picture.background)},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
@@ -431,12 +432,13 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(shading.rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
      "A camera: eye=x/y/z,target=x/y/z,fovy=30 and more keys; or a camera of the file, by name or number.",
-     "A value without `=` is the name of a camera in the model file (glTF), or its number, counted from 0. Otherwise "
-     "the value is a list of keys, separated by commas, in the model's own coordinates: `eye` (required), `target` "
-     "(default: the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30; "
-     "without other keys, the same as `--fov`) or `ortho` (parallel projection: model units from the picture's middle "
-     "to its top), `near` "
-     "and `far` (both or neither; fitted by default). You cannot combine this option with `--view`, `--azimuth`, "
+     "A value without `=` is the name of a camera in the model file (glTF), or its number, counted from 0. Otherwise, "
+     "the value is a list of keys, separated by commas, in the model's own coordinates. `eye` is required. By default, "
+     "`target` is the middle of the model, and `up` is the model's up axis. The projection is `fovy` (the full "
+     "vertical "
+     "angle in degrees: 30; without other keys, the same as `--fov`), or `ortho` (parallel projection: model units "
+     "from the picture's middle to its top). Give `near` and `far`, or neither; they are fitted by default. You cannot "
+     "combine this option with `--view`, `--azimuth`, "
      "`--elevation`, `--zoom`, `--fov` or `--projection`. `--json` reports the camera of any picture with these keys.",
      .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
      .min = FOV_MIN, .max = FOV_MAX},

@@ -47,7 +47,7 @@ WORDS(occlusion_words,
       {"off", LAM_OCCLUSION_OFF, "no occlusion"},
       {"screen", LAM_OCCLUSION_SCREEN, "computed from the depths of visible surfaces around each pixel"},
       {"rays", LAM_OCCLUSION_RAYS, "traces rays from each point: slower, includes hidden surfaces; only on the CPU"})
-WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `--ao auto` selects `screen`"},
+WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `ao` is `auto` and selects `screen`"},
       {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on with the studio's lights or environment light"},

@@ -96,7 +96,7 @@ def beside(row):
         text += "; CPU time " + ", ".join("%s %s" % (ISA_NAMES.get(key, key), ms(t["median"])) for key, t in row["cpu_ms"].items()) + " ms (%s)" % (
             ", ".join("%s: %s" % (ISA_NAMES.get(isa, isa), times(r["median"])) for isa, r in row["cpu_ratio"].items()))
     if "decoding_cpu_ms" in row:
-        text += "; of that decoding the pictures %s ms; all else: %s" % (ms(row["decoding_cpu_ms"]["median"]), ", ".join(
+        text += "; decoding of the pictures %s ms; without decoding: %s" % (ms(row["decoding_cpu_ms"]["median"]), ", ".join(
             "%s %s" % (ISA_NAMES.get(isa, isa), times(r["median"])) for isa, r in row["besides_decoding_ratio"].items()))
     extra = ["%s: %s" % (key, times(r["median"])) for key, r in row.get("ratio", {}).items() if key not in ISA_NAMES]
     if "alone_ratio" in row:
@@ -107,7 +107,7 @@ def beside(row):
         extra.append("tried: " + ", ".join("%s %s" % (name, ms(t)) for name, t in row["peers_tried_ms"].items()))
     extra += ["failed: " + problem for problem in row.get("peers_failed", [])]
     if "apart_load" in row:
-        extra.append("measured apart from the others, at a load of %.1f" % row["apart_load"])
+        extra.append("measured separately, at a load of %.1f" % row["apart_load"])
     return "; ".join([text] + extra)
 
 
@@ -123,8 +123,8 @@ def table(header, rows):
 
 def conditions(result):
     machine = result["machine"]
-    lines = ["Measured %s on %s, %d processors, Debian %s, in %.0f s; %s. Load %.2f before and %.2f after, others took %.0f %% of the "
-             "processors' time meanwhile. %d of %d rows reached their target." % (
+    lines = ["Measured %s on %s, %d processors, Debian %s, in %.0f s; %s. The load was %.2f before and %.2f after. Other processes used %.0f %% of the "
+             "processor time. %d of %d rows reached their target." % (
                  result["date"], machine["processor"], machine["processors"], machine["system"], result["took_s"],
                  result["version"].splitlines()[0], machine["load_before"], machine["load_after"], 100 * machine["share_of_others"],
                  sum(1 for r in result["rows"] if r["reached"]), len(result["rows"]))]
@@ -136,10 +136,10 @@ def verdict(reached):
 
 
 def rows_section(result):
-    return conditions(result) + table(("", "row", "target", "measured", "spread", "", "times, and beside"), (
+    return conditions(result) + table(("", "row", "target", "measured", "spread", "", "times and details"), (
         (str(row["number"]), row["name"], row["target"], measured(row), spread_of(row), "" if is_absent(row) else verdict(row["reached"]),
          beside(row)) for row in result["rows"])) + [""] + [
-        "- Frames against llvmpipe, %s: geometric mean of %d rows %s (target ≥ 10 ×: %s), least %s (target ≥ 3 ×: %s)." % (
+        "- Frames against llvmpipe, %s: geometric mean of %d rows %s (target ≥ 10 ×: %s), minimum %s (target ≥ 3 ×: %s)." % (
             ISA_NAMES[isa], mean["rows"], times(mean["mean"]), verdict(mean["mean"] >= 10), times(mean["least"]), verdict(mean["least"] >= 3))
         for isa, mean in result["frames"].items()]
 
@@ -153,11 +153,11 @@ def limits_section(result):
                 ("read", "read"), ("copy", "copy"), ("first touch, pages of 4 KiB", "first_touch_4k"),
                 ("first touch, pages of 2 MiB", "first_touch_2m"))))
     if (result.get("limits") or {}).get("arithmetic"):
-        lines += [""] + table(("one core, 10⁹ operations a second", "multiply and add apart", "fused"), (
+        lines += [""] + table(("one core, 10⁹ operations a second", "separate multiply and add", "fused"), (
             (ISA_NAMES.get(isa, isa), "%.0f" % rates["unfused"], "%.0f" % rates["fused"] if rates.get("fused") else "")
             for isa, rates in result["limits"]["arithmetic"].items()))
     if result.get("distance"):
-        lines += [""] + table(("step, 1 M PLY, 1024², 1 sample", "ms", "least, ms", "times the least", "the least is"), (
+        lines += [""] + table(("step, 1 M PLY, 1024², 1 sample", "ms", "minimum, ms", "times the minimum", "the minimum is the time for"), (
             (name, ms(taken), "%.2f" % least if least else "", times(taken / least) if least else "", why)
             for name, taken, least, why in result["distance"]))
     return lines

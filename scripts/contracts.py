@@ -80,7 +80,7 @@ def facts(contract):
     yield "lit in " + SPACES[contract["space"]]
     yield "terms: " + ", ".join(contract["terms"])
     if "specular" in contract["terms"]:
-        yield "highlight: " + {"phong": "Phong's", "blinn-phong": "Blinn–Phong's", "metallic-roughness": "of metalness and roughness"}[contract["highlight"]]
+        yield "highlight: " + {"phong": "Phong's", "blinn-phong": "Blinn–Phong's", "metallic-roughness": "metalness and roughness"}[contract["highlight"]]
 
 
 FORMS = {"masking": {"smith": "Smith's masking for GGX with correlated heights", "schlick": "Schlick's approximation of the masking, k = (roughness + 1)²/8"},
@@ -88,9 +88,9 @@ FORMS = {"masking": {"smith": "Smith's masking for GGX with correlated heights",
                      "whole": "a diffuse part of 1 − metallic"},
          "tone": {"reinhard": "Reinhard's tone curve"}, "encoding": {"gamma": "gamma-encoded, pow(x, 1/2.2)"}}
 
-MAPS = {"colors": {"linear": "their colours are linear, as a sampler returns them for a texture with an sRGB format",
-                   "gamma": "their colours are encoded, and the shader decodes them, pow(x, 2.2)"},
-        "v": {"up": "v goes up if u goes right", "down": "v goes down if u goes right, as in glTF files"}}
+MAPS = {"colors": {"linear": "the colours are linear, because the sampler converts a texture with an sRGB format",
+                   "gamma": "the colours are encoded, and the shader decodes them by pow(x, 2.2)"},
+        "v": {"up": "v runs upward in the picture", "down": "v runs downward in the picture, as in glTF files"}}
 
 
 def value(x):
@@ -120,7 +120,7 @@ def section(program, contract, meaning):
         yield "Values for inputs that a shader does not declare: " + "; ".join("`%s` %s" % (key, value(x)) for key, x in fixed.items()) + "."
     numbers = contract.get("constants", {})
     if numbers:
-        yield "Numbers in the text that replace them: " + ", ".join("`%s`" % key for key in numbers) + "."
+        yield "Variables whose numbers replace these values: " + ", ".join("`%s`" % key for key in numbers) + "."
     forms = contract.get("physical")
     if forms:
         yield ""
@@ -131,10 +131,10 @@ def section(program, contract, meaning):
     correct = CORRECT.get(name)
     if correct:
         yield ""
-        yield "A correct program (%s), its vertex shader:" % files(correct)
+        yield "The vertex shader of a correct program (%s):" % files(correct)
         yield ""
         yield indented(read(SHADERS, correct + ".vert"))
-        yield "Its fragment shader:"
+        yield "The fragment shader of this program:"
         yield ""
         yield indented(read(SHADERS, correct + ".frag"))
         # If the names leave strengths open, the use of the inputs decides; the name selects the
@@ -142,10 +142,10 @@ def section(program, contract, meaning):
         yield from reported(program, correct, " --contract " + name if contract.get("strengths") == "any" else "")
     if contract.get("printed"):
         yield ""
-        yield "[Shaders](../shaders.md) are printed by `lambent shader`, and are correct programs of this contract.\n"
+        yield "`lambent shader` prints correct programs of this contract ([shaders](../shaders.md)).\n"
     for lecture, course, title, _, _ in LECTURES:
         if course == name:
-            yield "The course's own, %s (%s)." % (title, files("lectures/" + lecture))
+            yield "The course's own program, %s (%s)." % (title, files("lectures/" + lecture))
             yield from reported(program, "lectures/" + lecture)
 
 
@@ -177,7 +177,7 @@ This page lists the names that each built-in contract expects, and the mistakes 
 
 `scripts/contracts.py` (`make docs`) writes this page. Each section contains a contract's names, a correct program, and the report on
 the course's own program, rewritten with the same mistakes. [Checking a shader](../check.md) explains the reports, and [contract
-files](contract-file.md) how to write your own contract.
+files](contract-file.md) explains how to write your own contract.
 """
     yield from glance()
     order = re.findall(r'\{"([\w-]+)", text_\w+_json\}', read("classroom", "check", "contract", "contract.c"))

@@ -25,8 +25,8 @@ PARTS = [
     ("geometry, environments, shadows, edges, other pictures", r""),
 ]
 
-FIRST, MODULE = "all that loads first", "the module of a page: the first two parts"
-THREADS = "the module with threads, fetched in place of the second part where the page is cross-origin isolated"
+FIRST, MODULE = "all files of the first load", "the module of a page: the first two parts"
+THREADS = "the module with threads, loaded instead of the second part if the page is cross-origin isolated"
 
 
 def parts_of(map_path):
@@ -61,14 +61,14 @@ def table(folder):
     first, rest, more = module_parts.PARTS
     start = scripts["first"] + ["index.html", "page.css"]
     rows = [(title, size, None, None) for title, size in parts_of(os.path.join(folder, "wasm", "web", "lambent.map")).items()]
-    rows += [("the module as a whole", os.path.getsize(module), None, None), of("its part that draws the first picture", [first]), of("scripts, page and style", start),
-             of(FIRST, [first, *start]), of("its second part, fetched after the first picture", [rest]), of(MODULE, [first, rest]),
-             of("its third part, fetched when it is used: explanations, formulas, scene files", [more]),
-             of("the decoders of Draco and meshoptimizer, fetched when a file needs them", ["lambent-decoders.wasm"]),
-             of(THREADS, [module_parts.THREADS_PARTS[0]]), of("its second part, fetched when it is used", [module_parts.THREADS_PARTS[1]]),
-             of("scripts that are fetched when they are used", scripts["later"]),
+    rows += [("the module as a whole", os.path.getsize(module), None, None), of("its first part, which draws the first picture", [first]), of("scripts, page and style", start),
+             of(FIRST, [first, *start]), of("its second part, loaded after the first picture", [rest]), of(MODULE, [first, rest]),
+             of("its third part, loaded on first use: explanations, formulas, scene files", [more]),
+             of("the decoders of Draco and meshoptimizer, loaded when a file needs them", ["lambent-decoders.wasm"]),
+             of(THREADS, [module_parts.THREADS_PARTS[0]]), of("its second part, loaded on first use", [module_parts.THREADS_PARTS[1]]),
+             of("scripts that are loaded on first use", scripts["later"]),
              of("the editor of shaders", scripts["editor"]),
-             of("checks of shaders, fetched when one is checked", ["check_worker.js", "check.wasm"])]
+             of("the module of shader checks, loaded when you check a shader", ["check_worker.js", "check.wasm"])]
     return rows
 
 

@@ -109,7 +109,7 @@ static void add_lights(struct text *text, const struct glsl_facts *f, const stru
 {
     text_print(text, "\nstatic const struct {\n%s%s%s%s    vec3 diffuse%s;\n} lights[] = {\n",
                f->positions ? "    vec3 position;\n" : "",
-               f->directions ? "    vec3 direction;   // in which the light travels; a spotlight's axis\n" : "",
+               f->directions ? "    vec3 direction;   // in which the light travels; a spot light's axis\n" : "",
                f->has_falloff ? "    vec4 attenuation; // 1 / (x + y d + z d^2); w is 1 / range\n" : "",
                f->has_cone ? "    vec4 cone;        // cos cutoff, exponent; cos outer, 1 / (cos inner - cos outer)\n"
                            : "",

@@ -371,7 +371,7 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
       "kajiya-kay", "highlights along threads, from the tangents", \
       "sin(t,l)", "max(sin(t,l) sin(t,v) − cos(t,l) cos(t,v), 0)") \
     X(KAJIYA_KAY_LECTURE, kajiya_kay_lecture_lobe(s, l), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT, \
-      "kajiya-kay-lecture", "the same, with the sign used in a lecture", \
+      "kajiya-kay-lecture", "kajiya-kay with the plus sign that some lectures print", \
       "sin(t,l)", "max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)") \
     X(OREN_NAYAR, oren_nayar_lobe(s, l, m.roughness_angle_rad), 0, \
       "oren-nayar", "rough matt surfaces, no highlight", \

@@ -65,7 +65,7 @@ class Mistakes(Case):
 
     def test_errors(self):
         self.bad(1, "compare", "sphere", "--across", "mistake=nogate", says="did you mean 'no-gate'?")
-        self.bad(3, "compare", "sphere", "--across", "mistake=no-cone", says="mistake 'no-cone': the shader lacks the code that this mistake changes; expected a spotlight")
+        self.bad(3, "compare", "sphere", "--across", "mistake=no-cone", says="mistake 'no-cone': the shader lacks the code that this mistake changes; expected a spot light")
         self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--stage", "application", says="options '--stage application' and '--across mistake'")
         self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--device", "cpu", says="see 'lambent compare -h'")
         many = [word for i in range(46) for word in ("--caption", f"Picture {i}")]  # the sphere shows fewer than all 47 mistakes

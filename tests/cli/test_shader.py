@@ -277,7 +277,7 @@ class Shader(Case):
     def test_mistakes_that_do_not_apply(self):
         self.bad(1, "shader", "--mistake", "nogate", says="did you mean 'no-gate'?")
         self.bad(1, "shader", "--mistake", "no-gate", "--style", "full", says="options '--mistake' and '--style full'")
-        self.bad(3, "shader", "--mistake", "no-cone", says="mistake 'no-cone': the shader lacks the code that this mistake changes; expected a spotlight")
+        self.bad(3, "shader", "--mistake", "no-cone", says="mistake 'no-cone': the shader lacks the code that this mistake changes; expected a spot light")
 
     def test_mistakes(self):
         """Each mistake edits the text, and has a description."""

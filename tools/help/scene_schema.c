@@ -9,20 +9,21 @@
 #include "field_tables.h"
 #include "schema.inc"
 
-static const char every_light[] = "        \"name\": {\"type\": \"string\", \"minLength\": 1},\n"
-                                  "        \"frame\": {\n"
-                                  "          \"enum\": [\"world\", \"camera\", \"view\", \"object\"],\n"
-                                  "          \"default\": \"world\",\n"
-                                  "          \"description\": \"The space of position, direction and up.\"\n"
-                                  "        },\n"
-                                  "        \"object\": {\"type\": \"string\", \"minLength\": 1, \"description\": "
-                                  "\"With frame object: its name. Default: the "
-                                  "first object.\"}";
-static const char colored_light[] = "        \"color\": {\"$ref\": \"#/$defs/color3\", \"description\": \"Times "
-                                    "intensity it is diffuse and specular. Default: "
+static const char every_light[] =
+    "        \"name\": {\"type\": \"string\", \"minLength\": 1},\n"
+    "        \"frame\": {\n"
+    "          \"enum\": [\"world\", \"camera\", \"view\", \"object\"],\n"
+    "          \"default\": \"world\",\n"
+    "          \"description\": \"The coordinate system of position, direction and up.\"\n"
+    "        },\n"
+    "        \"object\": {\"type\": \"string\", \"minLength\": 1, \"description\": "
+    "\"The name of the object, if frame is object. Default: the "
+    "first object.\"}";
+static const char colored_light[] = "        \"color\": {\"$ref\": \"#/$defs/color3\", \"description\": \"color "
+                                    "times intensity sets diffuse and specular. Default: "
                                     "1, 1, 1.\"},\n"
                                     "        \"intensity\": {\"type\": \"number\", \"minimum\": 0, \"default\": 1, "
-                                    "\"description\": \"Factor of color.\"}";
+                                    "\"description\": \"The factor of color.\"}";
 
 static void print_field(const lam_field *field)
 {

@@ -87,10 +87,11 @@ const struct command command_table[] = {
                           TAKES_TITLE,
                       .min_operands = 2, .max_operands = 2,
                       .one_more = "it compares two pictures, models or folders of models", .defaults = diff_defaults},
-    [COMMAND_hash] = {"hash", "[MODEL|FOLDER|@LIST|-]...",
-                      "Write hashes of the models' pictures to a text file (-o), or compare them with one (--check).",
-                      (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_HASH | TAKES_JSON | TAKES_QUIET | TAKES_MANY,
-                      .min_operands = 0, .max_operands = -1, .defaults = hash_defaults},
+    [COMMAND_hash] =
+        {"hash", "[MODEL|FOLDER|@LIST|-]...",
+         "Write hashes of the models' pictures to a text file (-o), or compare them with such a file (--check).",
+         (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_HASH | TAKES_JSON | TAKES_QUIET | TAKES_MANY,
+         .min_operands = 0, .max_operands = -1, .defaults = hash_defaults},
     [COMMAND_convert] = {"convert", "MODEL OUT.glb|obj|stl|ply|3mf",
                          "Write a model or a scene as GLB, OBJ, STL, PLY or 3MF, and report everything that the format "
                          "does not support.",
@@ -182,7 +183,7 @@ uint64_t find_groups(const char *name)
 
 const struct example examples[] = {
     {"lambent koala.obj", "writes koala.png, 1024x1024", true},
-    {"lambent part.stl -o shot.png -b white", "sets the name and a white background", true},
+    {"lambent part.stl -o shot.png -b white", "writes to shot.png, with a white background", true},
     {"lambent scan.ply -s 640 --view front", "draws 640x640 pixels from the front", false},
     {"lambent teapot --color '#ff8800'", "draws a built-in shape (`lambent shapes`)", true},
     {"lambent -q *.stl -o pictures/", "writes all pictures to one folder", true},
@@ -214,10 +215,10 @@ const struct example examples[] = {
      "writes the model's shaders, and C code that sets their inputs", false},
     {"lambent shape --parametric 'x=u*cos(v); y=u*sin(v); z=cos(3u)' --u 0..4 -o ripple.obj",
      "saves a surface given by formulas as a model", false},
-    {"lambent shape --implicit 'x^2+y^2+z^2-1'", "draws the surface on which an expression is zero; here, a sphere",
+    {"lambent shape --implicit 'x^2+y^2+z^2-1'", "draws the surface on which an expression is zero, here a sphere",
      false},
-    {"lambent diff old.png new.png -o where.png", "prints the difference between two pictures, and draws it", false},
-    {"lambent diff old/ new/ -o report.html", "shows models before and after on one page", false},
+    {"lambent diff old.png new.png -o where.png", "prints and draws the difference between two pictures", false},
+    {"lambent diff old/ new/ -o report.html", "shows models before and after a change on one page", false},
     {"lambent hash models/ -o pictures.hash",
      "writes the hashes of all pictures to a file, which you can keep in a repository", false},
     {"lambent hash --check pictures.hash", "lists the models whose pictures changed", false},

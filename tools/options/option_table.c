@@ -56,7 +56,7 @@ static const struct choice shard_by_words[] = {
     {"list", SHARD_BY_LIST, "into consecutive blocks of one sorted list, so that each shard reads only its own models"},
     {NULL, 0, NULL}};
 static const struct choice light_frame_words[] = {
-    {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms it, like the vertices"},
+    {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms the position, like the vertices"},
     {"camera", LAM_FRAME_CAMERA, "in eye space: used as given"},
     {NULL, 0, NULL}};
 
@@ -76,8 +76,8 @@ static const struct choice compress_words[] = {
 
 static const struct choice term_words_list[] = {
     {"auto", TERM_AUTO, "kitty, iterm2 or sixel, if the terminal supports it and no file is named"},
-    {"kitty", TERM_KITTY, "sends the PNG itself: kitty, Ghostty, Konsole"},
-    {"iterm2", TERM_ITERM2, "sends the PNG itself: iTerm2, WezTerm"},
+    {"kitty", TERM_KITTY, "sends the PNG file: kitty, Ghostty, Konsole"},
+    {"iterm2", TERM_ITERM2, "sends the PNG file: iTerm2, WezTerm"},
     {"sixel", TERM_SIXEL, "256 colours: xterm, foot, mlterm; needs libchafa"},
     {"blocks", TERM_BLOCKS, "coloured characters, on any terminal; needs libchafa"},
     {"off", TERM_OFF, "shows no picture"},
@@ -106,11 +106,11 @@ static const struct choice show_words[] = {
     {"ids", LAM_OUTPUT_IDS, "a colour for each triangle"},
     {"coverage", LAM_OUTPUT_COVERAGE, "the fraction of covered samples"},
     {"overdraw", LAM_OUTPUT_OVERDRAW, "the number of triangles that cover a pixel: c/(c + 3)"},
-    {"clipped", LAM_OUTPUT_CLIPPED, "pixels outside 0 to 1: above red, below blue"},
+    {"clipped", LAM_OUTPUT_CLIPPED, "pixels with a channel outside 0 to 1: red above 1, blue below 0"},
     {"base-color", LAM_OUTPUT_BASE_COLOR, "the base or diffuse colour, with maps and vertex colours"},
-    {"roughness", LAM_OUTPUT_ROUGHNESS, "of physical materials"},
-    {"metallic", LAM_OUTPUT_METALLIC, "of physical materials"},
-    {"occlusion", LAM_OUTPUT_OCCLUSION, "from an occlusion map"},
+    {"roughness", LAM_OUTPUT_ROUGHNESS, "the roughness of physical materials"},
+    {"metallic", LAM_OUTPUT_METALLIC, "the metalness of physical materials"},
+    {"occlusion", LAM_OUTPUT_OCCLUSION, "the factor of an occlusion map"},
     {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour's map: level / 10"},
     {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: white where nothing is occluded"},
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of one .exr file"},
@@ -192,7 +192,7 @@ static const struct choice rig_words[] = {
 
 static const struct choice turntable_light_words[] = {
     {"camera", TURNTABLE_LIGHT_CAMERA, "lights stay fixed in the picture while the model turns"},
-    {"model", TURNTABLE_LIGHT_MODEL, "lights and environment turn with the model, as if the camera circled it"},
+    {"model", TURNTABLE_LIGHT_MODEL, "lights and environment turn with the model, as if the camera circled the model"},
     {NULL, 0, NULL}};
 
 static const struct choice device_words[] = {{"auto", DEVICE_AUTO, "the CPU; OpenGL if `--gl-device` names a device"},
@@ -228,7 +228,7 @@ static const struct choice sheet_words[] = {
      "ambient, diffuse and specular alone; all terms at shininess 50, at 1000, and at 1000 with flat shading"},
     {"stages", SHEET_STAGES, "lighting per vertex and per fragment, with the brightest highlight enlarged"},
     {"light", SHEET_LIGHT, "the model under white and green light, in its own colours and in orange"},
-    {"ambient", SHEET_AMBIENT, "ambient and diffuse light: both white, red and white, both red"},
+    {"ambient", SHEET_AMBIENT, "ambient and diffuse light: first both white, then red and white, then both red"},
     {"frames", SHEET_FRAMES,
      "one light in the frames of the world, the camera and the model, before and after a rotation"},
     {"surfaces", SHEET_SURFACES, "specular, diffuse and translucent"},
@@ -250,16 +250,17 @@ struct option option_table[OPTIONS_MAX] = {
      "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. If "
      "the name of a file, pipe or device has no known extension, Lambent also writes a PNG. By default, Lambent writes "
      "`MODEL.png` to the current folder (`model.png` if the model comes from standard input), and never overwrites a "
-     "file that another program created. `-o pictures/`, with a trailing slash, writes to that folder and creates it "
-     "if it is missing; every command that writes files accepts it. `--out` is an "
-     "alias.\nA file name may contain placeholders in braces, which Lambent replaces for each model: `-o "
-     "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` the "
-     "extension, `{dir}` the model's folder (without `..` and a leading slash), `{view}` the value of `--view`, and "
-     "`{size}` the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces existing files. "
+     "file that another program created. `-o pictures/`, with a trailing slash, writes to that folder and creates the "
+     "folder if it is missing; every command that writes files accepts a folder in this form. `--out` is an alias of "
+     "`--output`.\nA file name may contain placeholders in braces, which Lambent replaces for each model: `-o "
+     "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` is the "
+     "extension, and `{dir}` is the model's folder (without `..` and a leading slash). `{view}` is the value of "
+     "`--view`, and `{size}` is the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces "
+     "existing files. "
      "If two models would be written to the same file, Lambent reports an error before it starts. To write a literal "
-     "brace, use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open it in a browser "
-     "to turn "
-     "the model and change every option; it works offline (`docs/web.md`). This format requires the page built by "
+     "brace, use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open the file in a "
+     "browser to turn the model and change every option; the page works offline (`docs/web.md`). This format requires "
+     "the page built by "
      "`make web`.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
@@ -282,21 +283,21 @@ struct option option_table[OPTIONS_MAX] = {
      "area is blurred. With N samples along the area, textures look up to N times as sharp.",
      .others = "anisotropic anisotropic-filtering"},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
-     "Lambent draws the lines of OBJ (`l`), PLY (`edge`) and glTF files with the same width at every distance. It "
+     "Lambent draws the lines of OBJ (`l`), PLY (`edge`) and glTF files with the same width at every distance. Lambent "
      "moves lines towards the eye by their width, so that lines on a surface are visible. Lines have no end caps.",
      .others = "linewidth stroke-width thickness"},
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
      "Lambent draws the points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, at "
-     "the same size at every distance. The default is 3 pixels, or at least 8 pixels if there are fewer than 100 "
-     "points.",
+     "the same size at every distance. The default is 3 pixels, or at least 8 pixels if the model contains fewer than "
+     "100 points.",
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
-     "The background fills all pixels that the model does not cover. This also applies to `--show` and to sheets. The "
+     "The background fills all pixels that the model does not cover. The same applies to `--show` and to sheets. The "
      "sheets of `compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), "
-     "one of the basic names (`black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
-     "`orange` and the other colour names of HTML 4), three or four linear numbers `r/g/b` or `r/g/b/a`, or "
-     "`transparent`.",
+     "three or four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a name. The names are `black`, `white`, "
+     "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour names of "
+     "HTML 4.",
      .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
      .others = "bg background-color backdrop transparent", FIELD(picture.background)},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
@@ -317,8 +318,9 @@ struct option option_table[OPTIONS_MAX] = {
      "Also show the picture in the terminal, with this method; off disables it.",
      "If the terminal can show pictures and `-o` is missing, Lambent shows a single picture above the line that names "
      "its file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by "
-     "their environment variables, and queries other terminals (for at most half a second). It scales the picture down "
-     "to the width of the window. With a value other than `auto`, Lambent also shows the picture if `-o` names a file "
+     "their environment variables, and queries other terminals (for at most half a second). If the picture is wider "
+     "than the window, Lambent scales the picture down. With a value other than `auto`, Lambent also shows the picture "
+     "if `-o` names a file "
      "with 8 bits per channel. Lambent shows no picture with `--json` or `--quiet`, with several models, or if "
      "standard output is not a terminal. `sixel` and `blocks` need libchafa (Debian's package `libchafa0`). "
      "`docs/terminal.md` lists the terminals.",
@@ -331,15 +333,16 @@ struct option option_table[OPTIONS_MAX] = {
      .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
      "Brighten or darken the picture: 1 doubles the light, -1 halves it; or auto.",
-     "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. This "
-     "includes `--color-mode raw`, float pictures and the light terms of `--show`. The background keeps its colour. If "
+     "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. The "
+     "exposure also applies to `--color-mode raw`, to float pictures and to the light terms of `--show`. The "
+     "background keeps its colour. If "
      "the picture uses the lights of a glTF file (candela, lux), the default is `auto`. With `auto`, Lambent selects "
      "an exposure, in thirds of a stop, at which 95 % of the covered pixels are no brighter than 0.8. Lambent reports "
-     "the selected value. `--exposure 0` keeps the light unchanged.",
+     "the selected exposure. `--exposure 0` keeps the light unchanged.",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
-     "with physical materials. For all other pictures, and with `--color-mode raw`, it selects `none`, which clips "
+     "with physical materials. For all other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips "
      "light at 1. Floating-point pictures store the light without the curve. For the formulas, see "
      "`docs/lighting/tone.md`.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
@@ -379,15 +382,14 @@ struct option option_table[OPTIONS_MAX] = {
      .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
      "Without this option, Lambent refuses such a file (exit 3), because the picture could be wrong without the "
-     "extension. With it, Lambent also accepts index values that glTF reserves (primitive restart) and undeclared XML "
-     "prefixes in "
-     "3MF files.",
+     "extension. With this option, Lambent also accepts index values that glTF reserves (primitive restart) and "
+     "undeclared XML prefixes in 3MF files.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side to view the model from, or a list: front, back, left, right, top, bottom, iso or three-quarter.",
      "By default, the camera is 30 degrees to the right of the front and 20 degrees above the horizon. The model fills "
-     "92 % of the picture's width or height, whichever limits it. `--azimuth` and `--elevation` override the angles of "
+     "92 % of the picture's width or height. `--azimuth` and `--elevation` override the angles of "
      "a side.\n`render` and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. "
      "Without a pattern in "
      "`-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
@@ -420,19 +422,23 @@ struct option option_table[OPTIONS_MAX] = {
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
-     "The axis is x, y or z of the scene; rotations apply in the given order. Lights do not move, except lights in the "
-     "model's frame. Radii refer to the model before the rotation. Lambent also fits the camera to the model before "
+     "The axis is x, y or z of the scene. Lambent applies rotations in the given order. Lights do not move, except "
+     "lights in the "
+     "model's frame. Lengths with the unit r refer to the model before the rotation. Lambent also fits the camera to "
+     "the model before "
      "the rotation. If the model would leave the picture at any angle, the camera moves back, so that the model has "
      "the same size and position at every angle. All pictures of a sheet share this camera.",
      .brief = "rotate the model: y:30", .store = store_rotation, .others = "r rotation turn spin",
      FIELD(shading.rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
      "A camera: eye=x/y/z,target=x/y/z,fovy=30 and more keys; or a camera of the file, by name or number.",
-     "A value without `=` is the name of a camera in the model file (glTF), or its number, counted from 0. Otherwise "
-     "the value is a list of keys, separated by commas, in the model's own coordinates: `eye` (required), `target` "
-     "(default: the middle of the model), `up` (the model's up axis), `fovy` (the full vertical angle in degrees: 30; "
-     "alone it is `--fov`) or `ortho` (parallel projection: model units from the picture's middle to its top), `near` "
-     "and `far` (both or neither; fitted by default). You cannot combine this option with `--view`, `--azimuth`, "
+     "A value without `=` is the name of a camera in the model file (glTF), or its number, counted from 0. Otherwise, "
+     "the value is a list of keys, separated by commas, in the model's own coordinates. `eye` is required. By default, "
+     "`target` is the middle of the model, and `up` is the model's up axis. The projection is `fovy` (the full "
+     "vertical "
+     "angle in degrees: 30; without other keys, the same as `--fov`), or `ortho` (parallel projection: model units "
+     "from the picture's middle to its top). Give `near` and `far`, or neither; they are fitted by default. You cannot "
+     "combine this option with `--view`, `--azimuth`, "
      "`--elevation`, `--zoom`, `--fov` or `--projection`. `--json` reports the camera of any picture with these keys.",
      .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
      .min = FOV_MIN, .max = FOV_MAX},
@@ -441,7 +447,8 @@ struct option option_table[OPTIONS_MAX] = {
      "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
      "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`, followed by a colon and keys separated by "
      "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds a light "
-     "to them, and `none` removes all lights except ambient light. If you also give `--rig`, the lights of the rig are "
+     "without replacing others, and `none` removes all lights except ambient light. If you also give `--rig`, the "
+     "lights of the rig are "
      "kept.\nPosition: `position=x/y/z` is in the model's units or, with r after each number, in radii of the model's "
      "bounding sphere, from its centre (default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a "
      "directional light that shines from this direction. `direction=x/y/z` is the direction in which the light "
@@ -462,7 +469,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
      "A named set of options: studio, classic, catalog, technical, or your own file.",
      "A look is a file with one option per line. Options on the command line override options of the look; a rig or "
-     "lights on the command line replace its lights. `lambent looks` lists the built-in looks. `lambent looks catalog` "
+     "lights on the command line replace the look's lights. `lambent looks` lists the built-in looks. `lambent looks "
+     "catalog` "
      "prints a look's file, which you can copy and edit.",
      look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
@@ -481,18 +489,21 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
      "With more than 16 lights, Lambent skips the weakest lights in each part of the picture. Together, the skipped "
-     "lights can change a channel by at most this share of its range. The default is half a step of an 8-bit channel "
+     "lights can change a channel by at most this share of the channel's range. The default is half a step of an 8-bit "
+     "channel "
      "(0.5/255), so no byte changes by more than 1. Lambent always skips lights that contribute nothing, because they "
      "are behind the surface or out of range, or because the surface is outside their cone.",
      .words = NULL},
     {"ao", 0, GROUP_LIGHTS, "METHOD", NULL, NULL,
      "A recess receives less light from its surroundings than an open face. Occlusion dims ambient, hemisphere and "
-     "environment light. It also dims lights whose key `occluded` is above 0, such as the studio's lights. Ambient "
+     "environment light. Occlusion also dims lights whose key `occluded` is above 0, such as the studio's lights. "
+     "Ambient "
      "occlusion requires Phong shading. For the formulas, see `docs/lighting/occlusion.md`.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "Cavity shading makes letters, holes, seams and wrinkles visible. It measures valleys and ridges at a small "
-     "radius. It affects the same light as `--ao`. To see its effect alone, use `--show ao --ao off --cavity on`.",
+     "Cavity shading makes letters, holes, seams and wrinkles visible. Cavity shading measures valleys and ridges at a "
+     "small radius, and affects the same light as `--ao`. To draw only this effect, use `--show ao --ao off --cavity "
+     "on`.",
      .others = "curvature ridges valleys no-cavity"},
     {"specular-aa", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
      "This option enables specular antialiasing. If the normals of a mesh or of a normal map vary within a pixel, "
@@ -500,9 +511,10 @@ struct option option_table[OPTIONS_MAX] = {
      "(`docs/lighting/physical.md`).",
      .others = "specular-antialiasing toksvig glitter fireflies no-specular-aa"},
     {"brighten", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "A black model needs more light than a white one; otherwise only its outline is visible. If the base colours of a "
+     "A black model needs more light than a white model; otherwise, only the outline of the black model is visible. If "
+     "the base colours of a "
      "model file are dark, Lambent brightens the studio by up to 2.5 stops. `--exposure 0`, `--color` and `--material` "
-     "disable this. For the rule, see `docs/lighting/tone.md`.",
+     "disable this adjustment. For the rule, see `docs/lighting/tone.md`.",
      .others = "auto-exposure dark-models"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
     {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},
@@ -534,7 +546,8 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
      "NAME selects the objects of that name, or else the parts (OBJ groups, STL solids), or else the surfaces with the "
-     "material of that name. Lambent does not draw them, and they cast no shadows. `lambent view` and the web page "
+     "material of that name. Lambent does not draw the selected surfaces, and these surfaces cast no shadows. `lambent "
+     "view` and the web page "
      "list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 is sharp.",
@@ -560,10 +573,11 @@ struct option option_table[OPTIONS_MAX] = {
     {"viewer", 0, GROUP_SHADING, "KIND", .words = NULL},
     {"match-highlights", 0, GROUP_SHADING, NULL, .words = NULL},
     {"single-scattering", 0, GROUP_SHADING, NULL, NULL, NULL,
-     "Rough metals then look darker, as in renderers that omit this term.", .words = NULL},
+     "Rough metals then look darker, as in renderers without multiple scattering.", .words = NULL},
     {"reference", 0, GROUP_SHADING, "N", NULL, NULL,
-     "By default, Lambent approximates environment light by the split sum. This option integrates it numerically, for "
-     "comparison. With 1024 directions most results are within 0.5 % of the exact integral, with 4096 within 0.2 %. "
+     "By default, Lambent approximates environment light by the split sum. This option integrates the light "
+     "numerically, for comparison. With 1024 directions, most results are within 0.5 % of the exact integral, and with "
+     "4096 directions within 0.2 %. "
      "The directions are the same at every point and on every machine. CPU only.",
      .others = "ground-truth importance-samples"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
@@ -574,7 +588,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
      "Lights then cast shadows on the ground plane and on the model. The kind `shadow` draws only the shadows, over "
      "any background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to the "
-     "up axis (`--up`) and fades out with distance. It is invisible from below. A ground plane requires Phong shading. "
+     "up axis (`--up`) and fades out with distance. The ground plane is invisible from below. A ground plane requires "
+     "Phong shading. "
      "For pictures, see `docs/lighting/ground.md`.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
@@ -616,11 +631,11 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "faces lines-only no-surfaces hide-surfaces"},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Use this option for comparison with old programs. Lambent then clamps vertex colours to 0...1 before "
-     "interpolation, and limits the shininess to 128. It also attenuates the ambient light of each light and limits it "
-     "to the light's cone.",
+     "interpolation, and limits the shininess to 128. Lambent also attenuates the ambient colour of each light with "
+     "distance, and limits this colour to the light's cone.",
      .words = NULL},
     {"back-faces", 0, GROUP_SHADING, "KIND", "the model's", "The lighting of back faces: two-sided or one-sided.",
-     "`--cull back` omits them.", back_face_words, .store = store_back_faces, .others = "backfaces double-sided"},
+     "`--cull back` omits back faces.", back_face_words, .store = store_back_faces, .others = "backfaces double-sided"},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, for every material.", NULL,
      .store = store_switch, .now = "back-faces", FIELD(shading.two_sided)},
     {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces like front faces, with the unchanged normal.", NULL,
@@ -632,9 +647,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"normals", 0, GROUP_SHADING, "SOURCE", "file",
      "The source of normals: the file, or computed smooth or facet normals.", NULL, normals_words, .store = store_word,
      .others = "recompute-normals smooth-normals facet-normals", FIELD(shading.normals)},
-    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Computed normals are split at edges sharper than this.", NULL,
-     .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth", FIELD(shading.crease_angle_deg),
-     .min = 0, .max = 180, .loads = true},
+    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Computed normals are split at edges sharper than this angle.",
+     NULL, .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth",
+     FIELD(shading.crease_angle_deg), .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "Segments of a built-in shape, such as 64x32: slices around the axis, and stacks along it.",
      "With `--parametric`, N is the number of segments along u and M is the number along v; N alone sets both. N is 3 "
@@ -663,7 +678,8 @@ struct option option_table[OPTIONS_MAX] = {
      "The model rotates about its up axis in equal steps, counter-clockwise as seen from above. Frame k is identical "
      "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
      "exposure. By default, and with a name that ends in `.png` or `.webp`, Lambent writes all frames to one animated "
-     "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), it writes each frame to a "
+     "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame "
+     "to a "
      "separate file, in any format. `36,light=model` turns the lights with the model instead of keeping them with the "
      "camera; lights in an object's frame always turn with the object. For examples, see `docs/animation.md`.",
      .store = store_integer, .keyed = true, .others = "spin turnaround orbit rotate360 animate gif apng",
@@ -675,15 +691,15 @@ struct option option_table[OPTIONS_MAX] = {
     {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
      "Animate a number: light.azimuth=0..360, roughness=0..1; repeatable.",
      "KEY is an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, `ambient`, "
-     "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. It may also be a key of `--material` (`roughness`, `kd`, "
+     "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. KEY may also be a key of `--material` (`roughness`, `kd`, "
      "`roughness@NAME`) or a numeric property of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's "
      "name or its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first "
      "light that has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in "
      "degrees), `intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light "
      "comes, in the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. `time` is the "
-     "time in a glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can give more "
-     "stops: `light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole turn, the last "
-     "frame is one step before the end, so that the loop is seamless. You can combine several sweeps, also with "
+     "time in a glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can give more than "
+     "two values: `light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole turn, Lambent "
+     "ends the sweep one step earlier, so that the loop is seamless. You can combine several sweeps, also with "
      "`--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and `elevation`, the distance of "
      "the camera is constant. For `time`, the camera fits the bounding boxes of all frames. Only `zoom` and `fov` "
      "change the camera between frames.",
@@ -720,7 +736,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
      "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
      "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
-     "counts memory before allocating it. The default is a quarter of the available memory, divided by the number of "
+     "counts memory before the allocation. The default is a quarter of the available memory, divided by the number of "
      "models drawn at the same time. The available memory is the smallest of the machine's memory, the limits of "
      "control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and T are "
      "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the process "
@@ -728,7 +744,8 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
      "The limit applies to the elapsed time for reading, drawing and writing each model. Multiplied by the number of "
-     "threads (`--threads`), it also limits the processor time. Lambent stops within half a second after the limit. In "
+     "threads (`--threads`), the limit also applies to the processor time. Lambent stops within half a second after "
+     "the limit. In "
      "an animation, the default applies to each frame; a limit that you set applies to all frames together.",
      .store = store_seconds, .others = "timeout", FIELD(limits.time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
@@ -775,10 +792,12 @@ struct option option_table[OPTIONS_MAX] = {
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
      "Drop all privileges that reading files does not need: auto, require or off.",
      "In the sandbox, a file that exploits a decoder cannot run programs, open sockets or read other files. The "
-     "process can read only the folders of the models and of `--allow-path`, and the system's libraries and fonts. It "
-     "cannot change any file: a small process outside the sandbox writes only the pictures. The sandbox consists of "
-     "Linux's Landlock and a seccomp filter. `auto` uses both if the kernel supports them. `require` fails if one is "
-     "missing (exit 3), and restricts scene files to their own folder (`--files-inside`) and `--allow-path`. `-v`, "
+     "process can read only the folders of the models and of `--allow-path`, and the system's libraries and fonts. The "
+     "process cannot change any file: a small process outside the sandbox writes only the pictures. The sandbox "
+     "consists of "
+     "Linux's Landlock and a seccomp filter. `auto` uses both methods if the kernel supports them. `require` fails if "
+     "one of the methods is missing (exit 3), and restricts scene files to their own folder (`--files-inside`) and "
+     "`--allow-path`. `-v`, "
      "`--json` and `--version` report the methods in use. The sandbox applies to commands that read models or "
      "pictures. `check` and OpenGL need privileges for their drivers; with `auto` they run without a sandbox. With "
      "`auto`, a scene file (`.json`) may refer to files in any folder, unless you give `--files-inside` or "
@@ -807,7 +826,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl in the folder of the pictures",
      "Write a line of JSON for each picture that succeeds or fails.",
      "A line records the model, the picture, the result (`class`, `exit`, `error`), the duration of each step in "
-     "milliseconds, the number of triangles and the warnings. It also records the size of the picture in bytes, the "
+     "milliseconds, the number of triangles and the warnings. The line also records the size of the picture in bytes, "
+     "the "
      "picture's hash, a hash for each file that Lambent read, and the key for `--skip-same`. Lambent writes the line "
      "after the picture is complete. `none` writes no journal. `docs/batch.md` describes every field.",
      .kind = VALUE_FILE, .store = store_text, .others = "log record", FIELD(batch.journal)},
@@ -817,12 +837,14 @@ struct option option_table[OPTIONS_MAX] = {
      "first repeats the models that were in progress, each in a separate process.",
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
     {"retry-failed", 0, GROUP_BATCH, "N", "0", "Retry a picture that failed, at most N times.",
-     "Lambent retries at the end of the run. With `--resume`, it also retries failures of earlier runs. Each line of "
+     "Lambent retries failed pictures at the end of the run. With `--resume`, Lambent also retries failures of earlier "
+     "runs. Each line "
+     "of "
      "the journal counts as one attempt. At the end Lambent lists the models that still fail.",
      .store = store_integer, .others = "retries retry attempts", FIELD(batch.retry_failed), .max = 1000},
     {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
      "Exit with 0 even if models fail, provided that the journal records each result.",
-     "Open MPI stops all ranks if one rank exits with a code other than 0, and other systems repeat the task. The "
+     "Open MPI stops all ranks if one rank exits with a code other than 0. Other systems repeat the task. The "
      "journal and the messages still report the failures. If a run ends early, for example after a wrong option or an "
      "interrupt, it still exits with an error code.",
      .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
@@ -837,16 +859,18 @@ struct option option_table[OPTIONS_MAX] = {
      "`crashed`, and the run continues.",
      .store = store_switch, .others = "process fork sandbox-process", FIELD(batch.isolate), .single = TAKES_MANY},
     {"shard", 0, GROUP_BATCH, "K/N", "1/1",
-     "Draw only part K of N of the models, counted from 1; other machines draw the other parts.",
-     "A model's part depends only on its path, so adding a model does not move other models. `auto` takes K and N from "
-     "SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and their counts; `auto/N` takes K from these variables or from "
-     "JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent draws nothing. Without this option "
-     "it ignores them. Each part writes its own journal and page, with names such as `lambent-2-of-4.jsonl` "
-     "(`docs/batch.md`). `lambent journal` summarises them.",
+     "Draw only shard K of N of the models, counted from 1; other machines draw the other shards.",
+     "A model's shard depends only on the model's path, so adding a model does not move other models. `auto` reads K "
+     "and N from SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and the corresponding counts. `auto/N` reads K from these "
+     "variables or from JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent reports an error. "
+     "Without this option, Lambent ignores the variables. Each shard writes its own journal and page, with names such "
+     "as `lambent-2-of-4.jsonl` "
+     "(`docs/batch.md`). `lambent journal` summarises these journals.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or by list.",
-     "With `name` each shard reads all names, which takes a second or two for a million. With `list`, it reads only "
-     "the K-th of N equal parts of one list (`@FILE`). The list must be sorted by the names of the pictures (`LC_ALL=C "
+     "With `name`, each shard reads all names, which takes a second or two for a million models. With `list`, a shard "
+     "reads only the K-th of N equal parts of one list (`@FILE`). The list must be sorted by the names of the pictures "
+     "(`LC_ALL=C "
      "sort`), so that Lambent can check that no two pictures share a name. If the list changes, models move to other "
      "shards, and `--resume` refuses to continue.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
@@ -865,21 +889,21 @@ struct option option_table[OPTIONS_MAX] = {
      "of waiting jobs use at most twice this limit.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write an HTML page that shows all pictures, failures first.",
-     "Lambent writes the thumbnails to the folder FILE-files next to the page. Apart from these, the page needs no "
-     "other files and no network.",
+     "Lambent writes the thumbnails to the folder FILE-files next to the page. The page needs no other files and no "
+     "network.",
      .kind = VALUE_FILE, .store = store_text, .others = "contact-sheet html gallery page", FIELD(batch.report_page),
      .single = TAKES_REPORT},
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "Lambent prints the report to standard output, instead of the line with the file's name. If the picture goes to "
-     "standard output, Lambent prints the report, and nothing else, to standard error. It also prints a report on "
+     "standard output, Lambent prints the report, and nothing else, to standard error. Lambent also prints a report on "
      "failure. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption of each picture "
      "and the options that draw the picture.",
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,
      "Print the pictures that the command would draw and write, but write nothing.",
-     "Lambent reads and checks the models and the options, and checks whether it can write each picture. It draws "
+     "Lambent reads and checks the models and the options, and checks whether it can write each picture. Lambent draws "
      "nothing. For each model, Lambent prints the name and size of the picture, whether the picture would overwrite a "
      "file, the camera, the device and the options on the command line. With `--json`, the report contains `planned` "
      "instead of `image`. Errors and exit codes are the same as without `--dry-run`.",
@@ -914,7 +938,8 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_FILE, .store = store_text, .others = "keep cache-dir baseline", FIELD(hash.pictures)},
 
     {"thumbnail", 0, GROUP_CONVERT, NULL, NULL, "Put a picture of the model into the GLB file.",
-     "The picture is the same as that of `lambent MODEL`, with 512x512 pixels. The property `asset.thumbnail` stores "
+     "The picture is identical to the one that `lambent MODEL` draws with 512x512 pixels. The property "
+     "`asset.thumbnail` stores "
      "the index of the picture in `images`, as in the draft of glTF 2.1. Programs that do not support this property "
      "ignore it.",
      .store = store_switch, .others = "preview icon", FIELD(convert.thumbnail)},
@@ -936,8 +961,9 @@ struct option option_table[OPTIONS_MAX] = {
      "OPTION is one of the options above without its dashes. Separate the values by commas. If the values themselves "
      "contain commas, as for `light` and `material`, separate them by semicolons "
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
-     "accepts. For `shininess` they are 10, 50 and 1000, for `light` one light of each type, and for `show` (also "
-     "called `term`) the five terms. If you give `--across` twice, the first defines the rows of a grid and the second "
+     "accepts. The default values of `shininess` are 10, 50 and 1000, of `light` one light of each type, and of `show` "
+     "(also called `term`) the five terms. If you give `--across` twice, the first defines the rows of a grid and the "
+     "second "
      "defines its columns. `mistake=A,B` uses OpenGL to draw shaders with known mistakes next to the correct shader, "
      "with the differences between them (`lambent shader --mistake list`). `mistake` alone draws all mistakes that are "
      "visible in the scene.",
@@ -954,7 +980,7 @@ struct option option_table[OPTIONS_MAX] = {
      "The contract that defines the shaders' variable names: a built-in contract's name, or a contract file.",
      "`auto` recognises a built-in contract by its names. If no contract fits, Lambent infers the role of each input "
      "from its use. `auto` never selects `chile` or `glsl120`; to use one of these contracts, give its name. `--list` "
-     "prints the contracts. To use your own contract, write it in JSON (`docs/check/contract-file.md`).",
+     "prints the contracts. You can also write your own contract in JSON (`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(check.light_frame)},
@@ -963,7 +989,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
      "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
      "By default, Lambent expects a term if the shaders declare one of its names. For example, without a specular "
-     "colour, it expects no highlight. If the shaders do not declare an expected colour, Lambent uses white.",
+     "colour, Lambent expects no highlight. If the shaders do not declare an expected colour, Lambent uses white.",
      term_words, .store = store_words, FIELD(check.terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
@@ -999,9 +1025,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The version of GLSL: 330, 120 or 300es.",
      "\"300 es\", as in a shader's first line, is also accepted.", glsl_words, .store = store_glsl,
      .others = "glsl-version shader-version", FIELD(shader.glsl)},
-    {"host", 0, GROUP_SHADER, "LANGUAGE", NULL, "Also print code that sets all inputs of the shaders: c.",
+    {"host", 0, GROUP_SHADER, "LANGUAGE", NULL,
+     "Also print code, in this language, that sets all inputs of the shaders: c.",
      "The code compiles the sources, describes the vertex layout to OpenGL and sets every uniform to its value in this "
-     "picture, with OpenGL's own calls only. `-o NAME` writes it to `NAME.c`.",
+     "picture. The code calls only OpenGL. `-o NAME` writes the code to `NAME.c`.",
      host_words, .store = store_word, FIELD(shader.host)},
     {"products", 0, GROUP_SHADER, NULL, NULL,
      "Pass the products ka La, kd Ld and ks Ls as uniforms, as in many lectures.", NULL, .store = store_switch,
@@ -1017,8 +1044,9 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
      style_words, .store = store_word, FIELD(shader.style)},
     {"mistake", 0, GROUP_SHADER, "NAME", NULL,
-     "Introduce a known mistake into shaders of the lecture style; `list` lists them.",
-     "Use it for exercises such as \"find the mistake\": `lambent check` reports the mistake. `lambent compare MODEL "
+     "Introduce a known mistake into shaders of the lecture style; `list` prints the known mistakes.",
+     "Use this option for exercises such as \"find the mistake\": `lambent check` reports the mistake. `lambent "
+     "compare MODEL "
      "--across mistake=A,B` shows the effect of mistakes. `--mistake list --json` prints the list for programs.",
      .store = store_text, .others = "error bug fault wrong", FIELD(shader.mistake)},
     {"parametric", 0, GROUP_SHAPE, "FORMULAS", NULL,
@@ -1068,8 +1096,9 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(viewer.no_open)},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
-     "By default, the environment variable `LAMBENT_FONT` names the font. If it is not set, Lambent uses the first of "
-     "these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, FreeSans, Roboto. "
+     "By default, the environment variable `LAMBENT_FONT` names the font. If this variable is not set, Lambent uses "
+     "the first of these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, "
+     "FreeSans, Roboto. "
      "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
      "sheet are always identical. An SVG file requests DejaVu Sans, but the viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
@@ -1078,8 +1107,10 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
      "The settings file: keys of scene files that override the default picture settings.",
-     "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if it exists and the "
-     "environment variable `CI` is not set. It never reads a settings file from a model's folder. Looks and options on "
+     "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if this file exists "
+     "and the environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks "
+     "and "
+     "options on "
      "the command line override settings; scene files ignore them. `lambent config` prints the current settings, and "
      "`docs/settings.md` describes the file.",
      .kind = VALUE_FILE, .store = store_text, .others = "settings preferences rc conf configuration",

@@ -133,7 +133,7 @@ static lam_explained_place place_of(const struct frame_draw *draw, lam_vec3 orig
     }
     const double w = pixel[3];
     out.eye_position = v3(eye[0], eye[1], eye[2]);
-    out.clip[0] = 2 * pixel[0] / width - w; // the frame's matrix maps to pixels, with y downwards
+    out.clip[0] = 2 * pixel[0] / width - w; // the frame's matrix maps positions to pixels, with y downwards
     out.clip[1] = w - 2 * pixel[1] / height;
     out.clip[2] = pixel[2];
     out.clip[3] = w;
@@ -234,7 +234,7 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
 
 // An explanation and the arena that owns its memory.
 struct explanation {
-    lam_explanation values; // first
+    lam_explanation values; // the first member, because its pointer is cast to the struct
     struct arena arena;
 };
 

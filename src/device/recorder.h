@@ -39,7 +39,7 @@ void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int
                     float share);
 
 // Records the light behind a sample's translucent layers, which comes from the picture behind them or from the
-// background. It has the units of the sum.
+// background. The light has the units of the sum.
 void recorder_behind(struct recorder *recorder, int pixel, const float light[3]);
 
 // Allocates zeroed memory for the explanation. Returns NULL if memory runs out.

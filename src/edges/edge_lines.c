@@ -220,7 +220,8 @@ static bool add_part(struct edge_task *task, const struct edge_line *line, doubl
     return edge_stroke_add(task->strokes, stroke, task->view->loop->call);
 }
 
-// Adds dashes of 5 widths and gaps of 3, measured along the chain of the line; widths below a pixel count as one.
+// Adds dashes of 5 widths and gaps of 3, measured along the chain of the line. A width below one pixel counts as one
+// pixel.
 static bool add_dashes(struct edge_task *task, const struct edge_line *line, double from, double to)
 {
     if (line->reversed) {
@@ -317,7 +318,7 @@ bool edge_task_draw(struct edge_task *task, void *memory)
         line->first = s->point_count;
         line->count = 0;
         if (!shows_all) {
-            // The line gets one point per pixel of its length, in the middle of the pixel's interval.
+            // The line is divided into one interval per pixel of its length, with a point in the middle of each.
             line->count = line->length < 1                 ? 1
                           : line->length < POINTS_PER_LINE ? (uint32_t)(line->length + 0.5)
                                                            : POINTS_PER_LINE;

@@ -1,10 +1,10 @@
 // edge_pixels.c: converts strokes to coverage, and blends their colour over the picture.
 //
-// The coverage of a pixel is the area that a strip of the stroke's width shares with the square of the pixel. Projected
-// across the strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin|
-// of the strip's angle. The sum of a line's coverage along any row or column that crosses it is therefore its width
-// there, at any position. At a crossing the largest coverage is used, so that edges shared by two triangles, and
-// corners, are not darker than the rest.
+// The coverage of a pixel is the area of its square that a strip of the stroke's width covers. Projected across the
+// strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
+// strip's angle. The sum of a line's coverage along any row or column that crosses it is therefore its width there, at
+// any position. At a crossing the largest coverage is used, so that edges shared by two triangles, and corners, are not
+// darker than the rest.
 #define LANES 1
 #include "edge_lines.h"
 

@@ -8,8 +8,8 @@
 
 enum {
     EDGE_INNER = 1,  // inside a polygon according to all of its triangles (lam_mesh.inner_edges)
-    EDGE_OPEN = 2,   // has one face; triangles with the same three vertices are one face
-    EDGE_SHARED = 4, // has more than two faces
+    EDGE_OPEN = 2,   // belongs to one face; triangles with the same three vertices are one face
+    EDGE_SHARED = 4, // belongs to more than two faces
     EDGE_ALIKE = 8,  // both faces have the same direction along it, so they are wound differently
 };
 
@@ -24,7 +24,7 @@ static inline uint32_t edge_end(uint32_t corner) { return corner % 3 == 2 ? corn
 
 // Lists the edges of a mesh in `edges`, which has space for three per triangle, and returns their number. Corners at
 // the same position are the same corner, regardless of their indices. Triangles with two equal corners have no edges.
-// Sets *failed and fills `error` if memory runs out or the call must stop.
+// Sets *failed and fills `error` if memory runs out or the call is stopped.
 uint32_t mesh_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct call_control *call, bool *failed,
                     lam_error *error);
 

@@ -31,8 +31,8 @@ int lam_default_samples(int width, int height)
                                                : LARGE_SAMPLES;
 }
 
-// Sets the planes to enclose all objects with a margin. In perspective, the near distance is at least 1/10000 of the
-// far distance.
+// Sets the near and the far plane so that they enclose all objects with a margin. In perspective, the near distance is
+// at least 1/10000 of the far distance.
 static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthographic, double *near_plane,
                        double *far_plane)
 {
@@ -114,7 +114,8 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
 
 static int material_index(int scene_index) { return scene_index < 0 ? 0 : scene_index + 1; }
 
-// Returns whether a material has translucent or masked points. `varies` means that the mesh's colours have alphas.
+// Returns whether a material has translucent or masked points. `varies` means that the mesh's colours contain alpha
+// values.
 static bool sees_through(const lam_material *material, bool varies)
 {
     varies |= material->maps[LAM_MAP_OPACITY] || texture_map_translucent(material->maps[LAM_MAP_DIFFUSE]);
@@ -483,7 +484,7 @@ static void set_glass(struct frame *frame, const lam_mat4 *pixel)
 {
     static const lam_rgba white = {1, 1, 1, 1};
     bool clear =
-        // a single term excludes the background
+        // a picture of a single term excludes the background
         frame->settings.background.a <= 0 && output_is_picture(frame->settings.output);
     const lam_rgba *back = clear ? &white : &frame->settings.background;
     for (int c = 0; c < 3; c++)

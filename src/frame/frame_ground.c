@@ -6,13 +6,13 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// In radii of the scene's sphere: the distances at which the ground begins and ends to fade. A catcher only shows its
-// shadow.
+// The distances at which the ground begins to fade and has faded out, in radii of the scene's sphere. A catcher only
+// shows its shadow.
 #define WHOLE       3.0
 #define END         6.0
 #define CATCHER_END 4.0
-// As a fraction of half the picture's size from its centre: a catcher fades between these values, so that no shadow is
-// cut off at the border. The model of a fitted camera is inside (FILL_ON_GROUND in camera_fit.c).
+// A catcher fades between these distances from the picture's centre, as fractions of half the picture's size, so that
+// no shadow is cut off at the border. The model of a fitted camera is inside (FILL_ON_GROUND in camera_fit.c).
 #define BORDER_FIRST 0.8
 #define BORDER_LAST  0.95
 // The distance below the lowest point, in radii. Without it, a flat underside would have the same depth as the ground.

@@ -26,8 +26,8 @@ static size_t corners_of(const lam_mesh *mesh, size_t point_corners)
 
 size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners) { return corners_of(mesh, point_corners) - 2; }
 
-// As a fraction of the picture's smaller side: the size of a single point, which shrinks with the square root of their
-// number.
+// The size of a single point, as a fraction of the picture's smaller side. It shrinks with the square root of the
+// number of points.
 #define POINT_SHARE 0.16
 // Sizes in pixels: the minimum, the minimum for few points, and the maximum for few points as a fraction of the
 // picture's smaller side.

@@ -1,8 +1,8 @@
 // frame_strokes.h: converts lines and points to polygons that face the eye, so that devices draw only triangles.
 //
-// A line becomes the rectangle around its projection: its ends are moved to both sides, at right angles to it in the
-// window, each at its own depth. A point becomes a square or, if the difference is visible, a regular polygon of 8 or
-// 16 corners. Both are planar in space and in the window, so depth and attributes are interpolated along a line as
+// A line becomes the rectangle around its projection: its ends are moved to both sides, at right angles to the line in
+// the window, each at its own depth. A point becomes a square or, if the difference is visible, a regular polygon of 8
+// or 16 corners. Both are planar in space and in the window, so depth and attributes are interpolated along a line as
 // along the edge of a triangle. Each is drawn nearer to the eye than its vertices, by its own width; otherwise a
 // slanted surface would hide half of a line on it. Line ends have no caps, also where lines meet.
 #ifndef FRAME_STROKES_H

@@ -39,7 +39,7 @@ struct gl_context {
     EGLSurface surface; // EGL_NO_SURFACE if the driver needs none
     bool es, software;
     int major, minor;
-    bool debug; // messages are collected
+    bool debug; // whether debug messages are collected
     struct gl_messages messages;
     char renderer[128], driver[128]; // "llvmpipe (…)"; maker and version
 };

@@ -1,4 +1,4 @@
-// gl_device.h: the parts of the OpenGL device: their shared data and their functions.
+// gl_device.h: the modules of the OpenGL device, with their shared data and their functions.
 //
 //   meshes           arrays of a mesh -> vertex buffers, once                    gl_meshes.c
 //   programs         choices -> compiled shaders, once (glsl.h makes the text)   gl_programs.c
@@ -34,7 +34,8 @@ enum texture_unit {
     UNIT_NEARER_DEPTH_IDS, // depth and number of the previous layer
     UNIT_OPAQUE_DEPTH_IDS, // depth and number of the opaque surfaces
     UNIT_OCCLUSION =
-        UNIT_NEARER_DEPTH_IDS, // only translucent surfaces read these, and occlusion dims only the ground among them
+        // only translucent surfaces read depth ids; the ground is the only one of them that occlusion dims
+    UNIT_NEARER_DEPTH_IDS,
     UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
     UNIT_COPY,
     UNIT_SHADOW_TREE = UNIT_COPY,           // no program reads both
@@ -111,7 +112,7 @@ struct gl_vertex_lighting {
 
 // --- programs
 
-// Uniforms that are no rows of glsl_rows.h; a program's rows follow.
+// Uniforms that are not rows of glsl_rows.h. The program's rows follow.
 enum { UNIFORM_SHADOW_MATRIX, UNIFORM_SHADOW_OFFSETS, UNIFORM_SHADOW_ROUNDING, UNIFORM_FIRST_TRIANGLE, UNIFORM_ROWS };
 
 struct gl_uniform {
@@ -169,8 +170,8 @@ enum gl_blending {
     BLENDING_MULTIPLY,
 };
 
-// The current state of the context, so that no state is set twice. It is unknown at the start of a frame in the
-// caller's context.
+// A copy of the context's current state, so that a state is set only if it changes. In the caller's context, the state
+// is unknown at the start of a frame.
 struct gl_current_state {
     GLuint program, array, framebuffer;
     int unit; // active texture unit; −1 if unknown
@@ -189,7 +190,8 @@ struct gl_current_state {
 
 // The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
 struct gl_surfaces {
-    uint64_t key, next_key; // hashes of all inputs of the texels: of those in the texture, and for this frame; 0: none
+    // hashes of all inputs of the texels: for the texels in the texture, and for this frame; 0: none
+    uint64_t key, next_key;
     // for the current frame: the first record of each range, and the positions of the textures
     struct buffer records, pixels;
 };
@@ -203,7 +205,7 @@ struct gl_device {
     bool hardware_filter; // lam_gl_params
     GLint block_size_max, block_alignment, texture_size_max;
     GLint unit_count;    // number of texture units of the fragment shader that are used, up to UNIT_COUNT
-    bool has_norm16;     // textures with 16-bit numbers for 0…1
+    bool has_norm16;     // the driver supports textures with 16-bit numbers for 0…1
     GLenum float_format; // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver supports no more
 
     struct gl_mesh *meshes;
@@ -216,7 +218,7 @@ struct gl_device {
     struct gl_vertex_lighting *vertex_lighting; // one for each draw
     int vertex_lighting_capacity;
     struct vertex_colors vertex_colors;
-    uint64_t vertex_colors_frame; // number of the frame for which it was set up
+    uint64_t vertex_colors_frame; // number of the frame for which vertex_lighting was set up
     struct gl_program *programs;
     int program_count, program_capacity;
     GLuint copy_program, empty_array;
@@ -305,7 +307,8 @@ void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum 
 // Sets an attribute of the vertex array: `size` floats from float `at` of each vertex of the bound buffer.
 void gl_point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at);
 
-// Adds bytes to a key: a hash of 64 bits of the inputs of uploaded data, which are sent again if the key differs.
+// Adds bytes to a key, a 64-bit hash of the inputs of uploaded data. The data are uploaded again if the key has
+// changed.
 void gl_key_add(uint64_t *key, const void *bytes, size_t count);
 
 // Returns the list with space for another row, or NULL on failure.
@@ -342,14 +345,14 @@ struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum verte
 void meshes_evict(struct gl_frame *f);
 void meshes_free(struct gl_device *device);
 
-// Sets the attributes of a vertex array by the locations of glsl.h; `lit`: without those that only lighting reads.
+// Sets the attributes of a vertex array, by the locations of glsl.h. With `lit`, attributes that only lighting reads are
+// omitted.
 void mesh_describe(struct gl_frame *f, const struct gl_mesh *mesh, GLuint array, bool lit);
 // Returns the number of floats per vertex in the buffer.
 size_t mesh_vertex_floats(const lam_mesh *mesh);
 
 // --- gl_textures.c
-// Uploads the textures that a program reads for a range. Until the frame ends, textures_use finds
-// them there.
+// Uploads the textures that a program reads for a range. textures_use can bind these textures until the frame ends.
 bool textures_upload(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range,
                      lam_error *error);
 // Binds the textures of the maps.
@@ -373,13 +376,13 @@ static inline enum texture_unit gl_occlusion_unit(const struct gl_program *progr
 // (LAM_OUTPUT_DEPTH). The device owns the rows.
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
                     lam_error *error);
-// Uploads the current part.
+// Uploads the occlusion of the current part of the picture.
 bool occlusion_send(struct gl_frame *f, lam_error *error);
 
 // --- gl_programs.c
 // Returns the program of the choices, compiled on first use. Returns NULL on failure.
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
-// Set a uniform of a program unless it has this value already: an int, or 16, 9, 4 or one float.
+// Set a uniform of a program, unless the uniform already has this value: an int, or 16, 9, 4 or one float.
 void program_set_int(struct gl_frame *f, struct gl_program *program, int uniform, GLint value);
 void program_set(struct gl_frame *f, struct gl_program *program, int uniform, const float *values, int count);
 bool program_copy_make(struct gl_device *device, lam_error *error);

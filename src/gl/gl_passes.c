@@ -2,7 +2,7 @@
 // sample's offset. A pass draws the opaque surfaces, then peels the translucent ones layer by layer, nearest first.
 //
 // A depth id is the depth and the triangle number of a fragment. Layers are ordered by depth id, so that surfaces of
-// equal depth are in the CPU device's order, the lower triangle number in front, and none is lost.
+// equal depth have the same order as on the CPU device, with the lower triangle number in front, and none is lost.
 //
 // The target's rows are top-down, like the picture: the projection flips y, which reverses the winding.
 #include "gl_device.h"
@@ -235,7 +235,7 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     return true;
 }
 
-// Returns whether a pixel is the value at the covered sample nearest to its centre instead of an average.
+// Returns whether a pixel gets the value of the covered sample nearest to its centre, instead of an average.
 static bool is_value(lam_output output)
 {
     return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED && output != LAM_OUTPUT_COVERAGE &&

@@ -13,9 +13,9 @@
 enum {
     RECORD = 4,  // texels of a triangle: its sides, and the texture coordinates of its corners
     COLORED = 7, // the same with the colours of its corners
-    SIDE = 4,    // of a material
-    MAP = 4,     // of a map
-    MAPS = 4,    // maps that affect the transmitted light of a side
+    SIDE = 4,    // texels of one side of a material
+    MAP = 4,     // texels of a map
+    MAPS = 4,    // number of maps that affect the transmitted light of a side
     WIDE = -1,   // channel number for all four channels
 };
 

@@ -54,7 +54,7 @@ static void pack_level(const struct lam_texture *texture, int level, const struc
         }
 }
 
-// Returns whether a number is outside 0…1. Bytes are always inside, and so are averages of numbers that are.
+// Returns whether a number is outside 0…1. Bytes represent numbers in 0…1, and averages of such numbers are in 0…1 too.
 static bool needs_floats(const struct lam_texture *texture)
 {
     const struct texture_level *l = &texture->levels[0];

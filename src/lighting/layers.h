@@ -15,7 +15,7 @@ STRUCT(layer_values)
     num ior;                 // the dielectric's index of refraction
     num specular_weight;     // reflectance at grazing angles
     vec3 f0_color;           // factor of the reflectance along the normal
-    num specular_glossiness; // share of the reflectance along the normal that the matt part loses
+    num specular_glossiness; // share of the reflectance along the normal that diffuse light loses
     num clearcoat;           // share of the surface that is coated
     num clearcoat_roughness;
     vec3 clearcoat_normal; // unit
@@ -28,7 +28,7 @@ STRUCT(layer_values)
     num film; // thickness in nanometres
     num transmission;
     num thickness;        // the thickness of the volume behind the surface
-    num path;             // distance that light travels in it, in units of attenuation_distance
+    num path;             // distance that light travels in the volume, in units of attenuation_distance
     vec3 attenuation_log; // log2 of the volume's colour after a path of 1
 };
 
@@ -53,15 +53,15 @@ STRUCT(layered)
     vec3 sheen_color;
     num sheen_largest; // the largest channel
     num sheen_roughness;
-    num sheen_left; // share of the light towards the eye that the sheen lets through
+    num sheen_left; // share of the light towards the eye that the sheen transmits
     vec3 coat_normal;
     num coat; // share that the coat reflects, including its Fresnel factor
     num coat_roughness;
     num coat_gain; // gain by multiple scattering in the coat
 };
 
-// The response of all layers to light from one direction: factors of kd Ld and of Ls; and intermediate values, which
-// drawing does not read.
+// The response of all layers to light from one direction: the factors of kd Ld and of Ls. It also contains intermediate
+// values, which drawing does not read.
 STRUCT(layered_value)
 {
     num diffuse;
@@ -69,7 +69,7 @@ STRUCT(layered_value)
     num strength; // S of the base
     num base_diffuse;
     vec3 base;
-    num sheen_left; // share of the base that the sheen lets through
+    num sheen_left; // share of the base's light that the sheen transmits
     vec3 sheen;
     num coat;
 };
@@ -179,7 +179,7 @@ FN num stretched_lobe(surface s, vec3 l, layered m)
 //    S = pi D V n.l
 //    D = (2 + 1/alpha) s^(1/alpha) / (2 pi)
 //    V = 1 / (4 n.l |n.v| (1 + L(|n.v|) + L(n.l)))
-// L is their fit of the shadowing between fibres.
+// L is the authors' fit of the shadowing between fibres.
 FN num sheen_fit(num x, num alpha)
 {
     num part = (1.0f - alpha) * (1.0f - alpha);
@@ -467,8 +467,8 @@ FN vec3 layered_transmittance(surface s, layered m, layer_values given, int set)
 
 // --- C only: the GLSL text ends here (src/glsl/embed.py).
 
-// The numbers of a material that are the same at all points. Its base colour, the coat's normal and the stretched
-// direction differ between points.
+// Returns the numbers of a material that are the same at all points. The base colour, the coat's normal and the
+// stretched direction are not set, because they differ between points.
 LANE_FN layer_values layers_of(const lam_material *m)
 {
     layer_values y;

@@ -66,7 +66,8 @@ FN num spot_at(num c, light_source light, int kind)
     return spot;
 }
 
-// Returns the light at the end of the vector `way` from a point; `square` is its squared length, `inverse` 1 / length.
+// Returns the sample for a light at the end of the vector `way` from a point. `square` is the squared length of `way`,
+// and `inverse` is 1 / length.
 FN light_sample toward_along(vec3 way, num square, num inverse)
 {
     light_sample t;
@@ -77,7 +78,8 @@ FN light_sample toward_along(vec3 way, num square, num inverse)
     return t;
 }
 
-// Applies attenuation and cone. At the light's own position there is no light, because it has no direction there.
+// Applies the attenuation and the cone. A point at the light's own position receives no light, because no direction is
+// defined there.
 FN light_sample weaken_light(light_sample t, num square, light_source light, int kind, int falloff)
 {
     if (falloff != FALLOFF_NONE) {

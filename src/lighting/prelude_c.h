@@ -9,7 +9,7 @@
 
 #include "functions.h"
 
-#define FN LANE_FN // starts every function
+#define FN LANE_FN // precedes every function
 #define STRUCT(name)                                                                                                   \
     typedef struct name name;                                                                                          \
     struct name // starts every struct

@@ -1,4 +1,4 @@
-// occlusion_pattern.h: the rays of ambient occlusion from every lit point.
+// occlusion_pattern.h: the directions and lengths of the rays that compute ambient occlusion at a lit point.
 //
 // Directions are projected from points of a disc below the hemisphere (Malley's method), so that each has an equal
 // share of the cosine-weighted integral. The points form Vogel's spiral (1979), as for lights with a size

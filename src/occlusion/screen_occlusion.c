@@ -97,8 +97,8 @@ static void fill_beside(const struct screen_occlusion *o, float *plane, int y, f
         row[x] = value;
 }
 
-// Filters also read beside the cells. This function stores 0 there, and marks the depth as containing no surface, which
-// gives the values the weight 0.
+// Filters also read values outside the cells. This function stores 0 there and marks the depths as containing no
+// surface, so that these values have the weight 0.
 static void fill_rows_beside(const struct screen_occlusion *o, int first, int end)
 {
     for (int y = first; y < end; y++) {

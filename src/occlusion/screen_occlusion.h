@@ -96,8 +96,8 @@ struct occlusion_kernels {
     void (*pixel_rows)(const struct screen_occlusion *occlusion, int first, int end);
 };
 
-// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL). If the call must stop, it stops with
-// incomplete results.
+// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL). If the call is stopped, the results are
+// incomplete.
 void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occlusion_kernels *kernels,
                            struct pool *pool, struct call_control *call);
 

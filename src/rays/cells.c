@@ -1,10 +1,10 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and distributes small ranges to threads.
 //
 // The centres of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
-// of its cells instead of the far more numerous triangles. A range of few triangles is removed from its cells and
-// divided by one thread (splits.c), and so is a range within one cell; if that range is large, it gets its own grid.
-// Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its triangles, so
-// the result does not depend on the number of threads.
+// of its cells instead of the far more numerous triangles. A range of few triangles, or a range within one cell, is
+// removed from its cells. One thread then divides it (splits.c), unless it is large; a large range within one cell gets
+// its own grid. Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its
+// triangles, so the result does not depend on the number of threads.
 #include "ranges.h"
 
 #include "fail.h"

@@ -7,7 +7,7 @@
 //
 // If N exceeds LIGHT_PROBES, that many probes are traced first: probe i at the radius √(i/(LIGHT_PROBES − 1)), from the
 // rim inwards. If they agree, the point is in full light or full shadow; otherwise it is in a penumbra, and the N
-// points are used. With fewer probes, thin stems between them leave patches without their faint shadow.
+// points are used. With fewer probes, thin stems can lie between the probes, and their faint shadows have gaps.
 #ifndef LIGHT_PATTERN_H
 #define LIGHT_PATTERN_H
 

@@ -8,12 +8,12 @@
 // are read at level 0. A masked surface has 0 or 1. With `back`, returns the opacity of its back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
-// Gets the light, red, green and blue, that passes such a point: 1 − opacity, plus, of the opaque share, the light that
-// continues behind a transmitting surface: transmission (1 − metallic) · base. The boundary of a volume counts only
-// where light enters it.
+// Gets the light (red, green, blue) that passes such a point: 1 − opacity, plus the light that continues behind a
+// transmitting surface, which is opacity · transmission · (1 − metallic) · base. The boundary of a volume colours light
+// only where the light enters the volume.
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3]);
 
-// Returns whether both are the same at all points of a triangle.
+// Returns whether opacity and transmitted light are the same at all points of a triangle.
 bool ray_share_is_constant(const struct frame *frame, uint32_t number, bool back);
 
 // The translucent triangles that a group of rays passes.

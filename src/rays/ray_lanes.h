@@ -1,7 +1,7 @@
 // ray_lanes.h: intersects LANES rays at a time with a hierarchy. Define LANES as 1, 4, 8 or 16 before including it.
 //
 // A ray is origin + t direction with 0 < t < end, in the hierarchy's space. Only crosses() decides whether a ray meets
-// a triangle, in double and in a fixed order of operations; boxes merely save work. The result therefore does not
+// a triangle. It uses double and a fixed order of operations; boxes merely save work. The result therefore does not
 // depend on the hierarchy, on the number of lanes, or on which rays are traced together.
 //
 // The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013): seen along the ray, with
@@ -40,7 +40,7 @@ struct ray_lanes {
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // the rays with each k
-    int k, i, j;      // the same for all requested rays, which then use only row k; k is −1 if they differ
+    int k, i, j;      // equal for all requested rays, which then use only row k; k is −1 if they differ
 };
 
 LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
@@ -139,7 +139,7 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
     return hit ? hit & mask_bits(inum_load(ray->own) != (int32_t)triangle->twin) : 0;
 }
 
-// Returns the `lanes`, whose rays cross a triangle, for which the start point is in the triangle's plane within the
+// The rays of `lanes` cross a triangle. Returns the lanes whose start point is in the triangle's plane, within the
 // rounding error:
 //    |N·(p_0 − point)| ≤ 2 Σ_i |N_i| rounding_i + 2⁻⁵⁰ Σ_i (|a_j b_k| + |a_k b_j|) |p_0 − point|_i    N = a × b
 // where a and b lead from corner p_0 to the others. Both triangle and point are rounded (hierarchy.rounding); the last
@@ -221,7 +221,7 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
 // meets. Rounding is monotonic, so this also holds for the computed numbers.
 struct ray_bundle {
     unsigned lanes;
-    int first[3], last[3];           // the planes that they meet first and last, as positions among a node's floats
+    int first[3], last[3];           // the planes that the rays meet first and last, as indices into a node's floats
     const float *start[3], *stop[3]; // for box_rays: the origin, to be subtracted from these planes
     eight near[3], far[3];           // the same for all rays
     eight least[3], most[3];         // the range of the inverse of their directions
@@ -381,8 +381,9 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
 }
 
 #if LANES == 1
-// Returns the nearest triangle on a ray by its number in the frame (at equal distances the lowest), and its distance
-// *t. Returns NO_TRIANGLE if there is none. `counts` decides whether a triangle is considered.
+// Returns the number in the frame of the nearest triangle on a ray, and the triangle's distance *t. Of triangles at
+// equal distances, it returns the lowest number. Returns NO_TRIANGLE if there is none. `counts` decides whether a
+// triangle is considered.
 LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *ray,
                              bool (*counts)(void *user, const struct ray_triangle *triangle,
                                             const struct ray_lanes *ray, const struct ray_view *view),

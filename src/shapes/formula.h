@@ -1,9 +1,9 @@
-// formula.h: surfaces given by text, "x=…; y=…; z=…" over u and v or an expression of x, y and z that is zero on the
-// surface, and their derivatives. docs/shapes.md describes the language.
+// formula.h: surfaces that a text defines, and their derivatives. The text is "x=…; y=…; z=…" over u and v, or an
+// expression of x, y and z that is zero on the surface. docs/shapes.md describes the language.
 //
-// A text becomes a list of operations (formula_graph.c). Equal operations are shared, constants are evaluated, and the
-// list also contains the partial derivatives of the results, made by the rules of calculus. Evaluating the surface
-// takes one pass over the list.
+// The parser converts a text to a list of operations (formula_graph.c). Equal operations are shared, and constants are
+// evaluated. The list also contains the partial derivatives of the results, which are derived symbolically. Evaluating
+// the surface takes one pass over the list.
 #ifndef FORMULA_H
 #define FORMULA_H
 
@@ -12,13 +12,13 @@
 #include <lambent/mesh.h>
 
 enum {
-    FORMULA_BYTES_MAX = 4096,  // bytes of a text
-    FORMULA_DEPTH_MAX = 64,    // nesting of parentheses, signs and powers
-    FORMULA_NODES_MAX = 16384, // operations, derivatives included
+    FORMULA_BYTES_MAX = 4096,  // the maximum length of a text in bytes
+    FORMULA_DEPTH_MAX = 64,    // the maximum nesting of parentheses, signs and powers
+    FORMULA_NODES_MAX = 16384, // the maximum number of operations, including derivatives
 };
 
 // NUMBER and the parameters have no operand. LESS: 1 if a < b, ½ if they are equal, otherwise 0. CHAIN: a · b, but 0 if
-// b is 0: a term of a derivative, whose outer factor may be infinite where the inner function is constant.
+// b is 0. It is a term of a derivative, whose outer factor may be infinite where the inner function is constant.
 enum formula_op {
     OP_NUMBER,
     OP_PARAMETER_0, // u or x

@@ -202,7 +202,7 @@ static bool is_closed(struct surface *s, int axis)
     return true;
 }
 
-// Lists the steps at which an axis is cut, including its ends. Returns their number, or 0 if the call must stop.
+// Lists the steps at which an axis is cut, including its ends. Returns their number, or 0 if the call is stopped.
 static int find_cuts(struct surface *s, int axis, int *cuts, struct call_control *call)
 {
     int count = 0;

@@ -92,8 +92,8 @@ static void cone_side(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = v3_scale(v3_sub(up(2), outward), 1 / n->stacks);
 }
 
-// Discs. v goes from rim to centre on the top disc and from centre to rim on the bottom disc, so that ∂p/∂u × ∂p/∂v
-// points outward.
+// Discs. v runs from the rim to the centre on the top disc, and from the centre to the rim on the bottom disc, so that
+// ∂p/∂u × ∂p/∂v points outward.
 static void top_disc(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;

@@ -1,17 +1,18 @@
 // shapes_implicit.c: tessellates implicit surfaces f(p) = 0 by marching cubes, with a table that is computed here.
 //
 // The box is divided into cells. A lattice point is inside if f < 0; 0 and NaN are outside. The surface crosses an edge
-// of a cell if its ends differ: the edge then has one vertex, shared by all cells at the edge. Root finding along the
-// edge puts the vertex on the surface up to rounding; its normal comes from ∇f.
+// of a cell if one end of the edge is inside and the other is outside. The edge then contains one vertex, which all
+// cells at the edge share. Root finding along the edge places the vertex on the surface, up to rounding. The vertex's
+// normal is computed from ∇f.
 //
 // The table connects the vertices of a cell. Going around a face of the cell counter-clockwise, seen from outside the
 // cell, each run of inside corners begins after one crossed edge and ends before another. The surface intersects the
 // face in a line from the first of these edges to the second. A face with two opposite inside corners has two such
-// lines, each cutting off its corner. This rule depends only on the face, so both cells at it agree and the mesh has no
-// holes. A crossed edge starts a line in one of its two faces and ends one in the other, so the lines form closed
-// loops, counter-clockwise seen from outside the surface. Loops are triangulated with diagonals that are not in a face,
-// because the neighbouring cell might have the same diagonal. Among these, the triangles that agree best with the
-// normals at their corners are chosen.
+// lines, each cutting off its corner. This rule depends only on the face, so both cells at the face agree and the mesh
+// has no holes. A crossed edge starts a line in one of its two faces and ends one in the other, so the lines form
+// closed loops, counter-clockwise seen from outside the surface. Loops are triangulated with diagonals that are not in
+// a face, because the neighbouring cell might have the same diagonal. Among these, the triangles that agree best with
+// the normals at their corners are chosen.
 #include "shapes.h"
 
 #include "fail.h"
@@ -147,8 +148,8 @@ static lam_vec3 lattice(const struct march *m, int x, int y, int z)
 
 static bool is_inside(double value) { return value < 0; }
 
-// Returns the root of f between a (0) and b (1) by the Illinois method: regula falsi that halves the value at an end
-// which is kept twice.
+// Returns the root of f between a (0) and b (1) by the Illinois method, a variant of regula falsi that halves the value
+// at an end that was kept twice.
 static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa, double fb)
 {
     const lam_implicit *s = m->surface;

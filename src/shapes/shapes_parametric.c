@@ -29,11 +29,11 @@
 #define VANISHED 1e-9
 // The distance from the boundary at which the one-sided limit is approximated, as a fraction of the domain.
 #define INSET 1e-4
-// A pole is smooth if the cosines of its normals with their mean are above this (0.08°).
+// A pole is smooth if the cosine between each of its normals and their mean is above this limit (0.08°).
 #define SMOOTH_POLE (1 - 1e-6)
 
 enum {
-    ROWS = 4,            // of a parallel task
+    ROWS = 4,            // rows of a parallel task
     OF_THREAD = 1 << 12, // the fewest vertices for which a thread is started
 };
 

@@ -1,9 +1,10 @@
 // teapot.c: the Utah teapot from its Bézier patches.
 //
 // Adjacent patches form one parametric surface. u goes around: 4 patches for body and lid, 2 for handle and spout. v
-// runs along the part: from the centre of the bottom over body and rim, from the edge of the lid to its top, from the
-// body outward. All joints are smooth in the data and share positions and normals. As published, the pot is open: the
-// lid rests in the rim without touching it, and handle and spout end inside the body's wall.
+// runs from the centre of the bottom over the body to the rim, from the edge of the lid to its top, and along the
+// handle and the spout away from the body. All joints are smooth in the data and share positions and normals. As
+// published, the pot is open: the lid rests in the rim without touching it, and handle and spout end inside the body's
+// wall.
 #include "shapes.h"
 
 #include "fail.h"

@@ -46,8 +46,8 @@ static bool is_selected(const struct frame *frame, const struct frame_draw_range
     return !draw->strokes && (object < 0 || draw->object == object);
 }
 
-// Merges the maps of another material, which may have more: a missing map is 1 everywhere (glsl_map_values). Returns
-// false if one source cannot read both.
+// Merges the maps of another material. A map that one of the materials lacks is 1 everywhere for it (glsl_map_values).
+// Returns false if one source cannot read both.
 static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
 {
     bool same = true;

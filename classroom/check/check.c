@@ -19,7 +19,7 @@
 
 // --- preparation
 
-// Returns a scene as the shaders can express it, without features that its terms do not show.
+// Returns the version of a scene that the shaders can express, without features that none of its terms shows.
 static struct reference_scene visible_scene(const struct run *r, int index)
 {
     struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);
@@ -78,8 +78,8 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
     return true;
 }
 
-// Gets the given contract, or the contract that has the shaders' names; `*out` is NULL if there is none. Returns false
-// and fills `error` on failure.
+// Gets the given contract or, if no contract is given, the one that contains the shaders' names. `*out` is NULL if
+// there is none. Returns false and fills `error` on failure.
 static bool choose_contract(struct run *r, const struct contract **out, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -150,8 +150,8 @@ static bool draw_here(struct run *r, const lam_bytes *request, lam_error *error)
     return check_draw(request->data, request->size, &r->painter, &r->bytes, error);
 }
 
-// Draws the scenes. Returns false if no verdict is possible. A process that timed out or crashed sets the report's
-// verdict.
+// Draws the scenes. Returns false if no verdict is possible. If the drawing process timed out or crashed, the report's
+// verdict says so.
 static bool draw(struct run *r, unsigned scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -211,7 +211,8 @@ static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTI
                                           BIT(SEMANTIC_ZERO) | BIT(SEMANTIC_ONE) | BIT(SEMANTIC_EYE_POSITION);
 
 // Returns whether the shaders use the names of the contract: a verdict needs a value for every input. Misspelt names
-// are mistakes, which the report names; names that differ only in case and underscores belong to another course.
+// are mistakes, which the report lists. Names that differ from the contract's only in case and underscores belong to
+// another course.
 static bool suits_contract(const struct run *r)
 {
     bool drawn_here = !r->texts.vertex;
@@ -311,13 +312,13 @@ static bool compile_alone(struct run *r, lam_error *error)
         return false;
     if (r->drawn.state == DRAWN_REFUSED && r->drawn.refused_fragment)
         return true;
-    r->diagnostics.count = 0; // the errors of linking with an empty vertex shader
+    r->diagnostics.count = 0; // removes the errors of linking with an empty vertex shader
     forget_scenes(r);
     return true;
 }
 
-// Infers the roles of the inputs from their use, in each possible space. It accepts the first interpretation under
-// which the shaders are correct, or else one in which a single mistake explains the difference.
+// Infers the roles of the inputs from their use, in each possible space. Accepts the first interpretation under which
+// the shaders are correct or, if there is none, one in which a single mistake explains the difference.
 static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -402,7 +403,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (!check_reserved("lam_check_params", params, error) ||
         (params->painter && !check_reserved("lam_check_painter", params->painter, error)))
         return false;
-    lam_check_params own = *params; // uses the fixed state of GLSL 110 and 120 as inputs
+    lam_check_params own = *params; // a copy whose shaders read the fixed state of GLSL 110 and 120 from inputs
     struct run r = {.params = &own, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)

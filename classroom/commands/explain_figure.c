@@ -9,7 +9,8 @@
 #include "console.h"
 
 enum { INK = 0x222222, GREY = 0x707070, RULE = 0xd8d8d8, WHITE = 0xffffff };
-enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 }; // the panel's measures, in units
+// the number of arrows, and the panel's size in units
+enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 };
 
 // Colours that remain distinct for colour-blind readers (Okabe and Ito, https://jfly.uni-koeln.de/color/).
 static const struct {
@@ -101,8 +102,8 @@ static double distance_of(struct point p, const struct diagram *g, int arrow)
     return length_of((struct point){to.x - along * way.x, to.y - along * way.y});
 }
 
-// Finds a position for an arrow's letter around its tip that does not overlap the arrows and earlier letters. If there
-// is none, returns the farthest position tried.
+// Finds a position for an arrow's letter around the arrow's tip, so that the letter does not overlap the arrows and
+// earlier letters. If every tried position overlaps, returns the last one, at the largest distance from the tip.
 static struct point find_place(const struct diagram *g, int arrow, const struct point *letters, int count)
 {
     struct point way = minus(g->tips[arrow], g->from), at = g->tips[arrow];
@@ -195,7 +196,7 @@ static bool find_tips(const struct explain_figure *f, const struct subject *s, d
     return inside;
 }
 
-// Draws the arrows on the picture, as long as they all fit, with a dot at the point.
+// Draws the arrows on the picture, with a dot at the point. The arrows are shortened until all of them fit.
 static bool draw_vectors(const struct explain_figure *f, const struct subject *s, struct point corner, double unit,
                          struct drawing *d, lam_error *error)
 {
@@ -239,7 +240,7 @@ static bool draw_from_the_side(const struct subject *s, const struct sheet_layou
     double up = dot(other, n);
     lam_vec3 level = {other.x - up * n.x, other.y - up * n.y, other.z - up * n.z};
     double size = __builtin_sqrt(dot(level, level));
-    if (!(size > 1e-4)) { // parallel to the normal, so any direction of the surface will do
+    if (!(size > 1e-4)) { // the vector is parallel to the normal, so any direction along the surface is suitable
         level = n.x * n.x < 0.5 ? (lam_vec3){0, n.z, -n.y} : (lam_vec3){-n.z, 0, n.x};
         size = __builtin_sqrt(dot(level, level));
     }
@@ -390,7 +391,7 @@ static bool put_terms(const lam_explanation *e, const struct subject *s, struct 
     return true;
 }
 
-// Prints the heading of the panel: the surface, the methods, and the light of the arrows.
+// Prints the heading of the panel: the surface, the methods, and the light that the arrows belong to.
 static void put_words(const struct explain_figure *f, const struct subject *s, struct drawing *d,
                       struct sheet_layout *at)
 {

@@ -1,5 +1,5 @@
-// application.c: makes the application stage in the lecture style: a C function that lights a vertex, from
-// application.c.in, with the scene's own lights, materials and matrices.
+// application.c: makes the application stage in the lecture style: a C function that lights a vertex. The text comes
+// from application.c.in, with the scene's own lights, materials and matrices.
 #include "lecture.h"
 
 #include "application.inc"
@@ -247,7 +247,7 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
                           const struct frame_draw_range *const *ranges, int count, lam_error *error)
 {
     struct glsl_choices lit = *choices;
-    lit.stage = LAM_STAGE_VERTEX; // the vertex stage has all facts about the light
+    lit.stage = LAM_STAGE_VERTEX; // because the facts of the vertex stage include all facts about the lighting
     const struct glsl_facts f = glsl_facts_of(&lit);
     if (!lecture_check(&lit, &f, error))
         return NULL;

@@ -7,7 +7,7 @@
 #include "lecture.h"
 #include "text_builder.h"
 
-// Most rows have no text.
+// Most rows omit some members.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 #include <stdio.h>
@@ -22,8 +22,8 @@ struct edit {
     const char *before, *after;
 };
 
-// Adjacent rows with the same id are forms of one mistake; the first applicable form is used. The first row contains
-// the sentences. Forms for the C function of the application stage are last.
+// Adjacent rows with the same id are forms of one mistake, and the first applicable form is used. Only the first of
+// these rows contains the sentences. Forms for the C function of the application stage come last.
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];

@@ -1,5 +1,5 @@
-// contract_values.c: reads a contract's values for varyings, undeclared names, numbers, an engine, and metalness and
-// roughness.
+// contract_values.c: reads the sections of a contract about varyings, undeclared names, numbers, the engine, and
+// metalness and roughness.
 #include "contract_reader.h"
 
 #include <stdio.h>

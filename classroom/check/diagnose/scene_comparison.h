@@ -16,7 +16,7 @@ struct scene_comparison {
     bool alpha;     // alpha is also compared
     double mean_difference;
     bool passes;
-    bool spoilt; // contains NaN and is useless for a search
+    bool spoilt; // the shader's picture contains NaN, so the scene is useless for a search
 };
 
 struct difference {

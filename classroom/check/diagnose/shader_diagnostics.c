@@ -1,4 +1,5 @@
-// shader_diagnostics.c: diagnostics from the compiler's log, and about names that the contract does not know.
+// shader_diagnostics.c: makes diagnostics from the compiler's log, and diagnostics about names that are not in the
+// contract.
 #include "shader_diagnostics.h"
 
 #include <ctype.h>
@@ -152,7 +153,7 @@ void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_re
             if (d->kind != DECLARED_UNIFORM && !attribute)
                 continue;
             if (!contract_find(r->contract, d->name, attribute, NULL)) {
-                // An unknown name without any effect is harmless.
+                // An unknown name that has no effect is harmless.
                 if (drawn->state != DRAWN_PICTURES || is_active(drawn, d->name))
                     report_unknown(diagnostics, r, d->name, attribute ? "attribute" : "uniform", file, d->line);
             } else if (!attribute)

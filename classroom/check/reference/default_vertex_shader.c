@@ -7,8 +7,8 @@
 
 #include "fail.h"
 
-// The expression of each varying in each space, a vec3, and its w. Varyings without a space have the same expression in
-// all.
+// For each varying, its expression in each space, a vec3, and its w. Varyings without a space have the same expression
+// in all spaces.
 static const struct {
     enum varying_semantic semantic;
     lam_light_frame space;

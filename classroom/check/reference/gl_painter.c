@@ -256,7 +256,7 @@ static void forget(void *place, lam_check_program *program)
 {
     struct gl_place *t = place;
     struct gl_program *p = program->program;
-    if (p && !t->rests) { // otherwise they are freed with the context
+    if (p && !t->rests) { // otherwise the objects are freed with the context
         t->context.gl.DeleteProgram(p->name);
         t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // this call and the next one ignore 0
         t->context.gl.DeleteTextures(MAX_TEXTURES, p->textures);
@@ -421,7 +421,7 @@ static void upload_mesh(struct gl_place *t, const lam_check_mesh *mesh)
     own->there = true;
 }
 
-// Binds a buffer to an attribute, or to the built-in attribute if the number is negative.
+// Binds a buffer to the attribute `place`, or to the built-in attribute if `place` is negative.
 static void point_at(const struct gl *gl, GLuint buffer, int place, int width, bool is_normal)
 {
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer);

@@ -1,5 +1,5 @@
 // lecture_style.h: reads the lighting of a shader printed by `lambent shader --style lecture` from its words. It
-// recognises the lines of classroom/lecture/lecture.glsl, also if they contain a known mistake.
+// recognises the lines of classroom/lecture/lecture.glsl, even if they contain a known mistake.
 #ifndef LECTURE_STYLE_H
 #define LECTURE_STYLE_H
 

@@ -59,7 +59,7 @@ static char *join(const char *prefix, const char *text)
     char *out = malloc(size);
     if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark is only allowed at the beginning
         text += 3;
-    // The #line directive takes the number of the next line; in older versions of GLSL, of the line after that.
+    // The #line directive contains the number of the next line or, in older versions of GLSL, of the line after that.
     bool modern = strncmp(prefix, "#version 3", 10) == 0;
     if (out)
         snprintf(out, size, "%s\n#line %d\n%s", prefix, modern ? 1 : 0, text);

@@ -11,8 +11,8 @@ struct complete_texts {
     int lines[2];                  // the number of lines in the prefixes
 };
 
-// Returns whether a contract's engine completes texts with these declarations: they have no version line and declare
-// none of the names in its prefix. `vertex` may be NULL. Returns false if memory runs out.
+// Gets whether a contract's engine completes texts with these declarations: texts without a version line that declare
+// none of the names in the engine's prefix. `vertex` may be NULL. Returns false if memory runs out.
 bool prefix_applies(const struct contract *contract, const struct declarations *vertex,
                     const struct declarations *fragment, bool *applies, lam_error *error);
 

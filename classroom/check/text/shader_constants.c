@@ -44,7 +44,7 @@ static bool read_vector(const struct declarations *d, int *at, double out[3])
     return true;
 }
 
-// Parses a number, vec3(a), vec3(a, b, c), or normalize() of one of these, up to `;` or the next name.
+// Parses a number, vec3(a), vec3(a, b, c), or normalize() of one of these. A `;` or the next name must follow.
 static bool read_value(const struct declarations *d, int at, double out[3])
 {
     bool unit = is(d, at, "normalize") && is(d, at + 1, "(");
@@ -165,7 +165,8 @@ void shader_constants_find(struct shader_interface *r)
 
 // --- numbers without a name
 
-// Colours and strengths are found by trial; directions and exponents are recognised by their names.
+// Returns whether the values of a semantic are vectors. Colours and strengths are found by trial, and directions and
+// exponents are recognised by their names.
 static bool is_vector(enum uniform_semantic semantic)
 {
     return semantic == SEMANTIC_LIGHT_AMBIENT || semantic == SEMANTIC_LIGHT_COLOR ||

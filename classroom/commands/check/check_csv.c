@@ -91,5 +91,5 @@ int check_csv_row(FILE *file, const struct check_result *result)
     putc(',', file);
     check_csv_text(file, result->sheet ? result->sheet : "");
     putc('\n', file);
-    return fflush(file) == 0 ? 0 : errno; // saves this grade even if a later check fails
+    return fflush(file) == 0 ? 0 : errno; // so that this grade is saved even if a later check fails
 }

@@ -37,7 +37,7 @@ static double highlight_value(const struct curve *c, double x)
 // interval until its ends are neighbouring floats.
 static double find_below(const struct curve *curve, double level, double farthest)
 {
-    // An inverse square evaluates to 0 at the light itself, so the search starts next to it.
+    // An inverse square evaluates to 0 at the light itself, so the search starts next to the light.
     double low = curve->value(curve, 0) == 0 ? 1e-3 : 0, high = farthest < 1 ? farthest : 1;
     if (curve->value(curve, low) < level)
         return 0;
@@ -83,7 +83,7 @@ static bool add_faded(struct plot *plot, const lam_light *light, const char *nam
     if (!curve)
         return false;
     curve->light = *light;
-    curve->light.name = NULL; // the name's owner is freed before the plot
+    curve->light.name = NULL; // the owner of the name is freed before the plot
     curve->light.object = NULL;
     curve->marked = true;
     lam_attenuation a = light->attenuation;
@@ -104,7 +104,8 @@ static bool add_words(struct plot *plot, const char *kind, const char *word, con
                       lam_error *error)
 {
     lam_error reason;
-    lam_scene *scene = lam_scene_make(&reason); // has no triangles, so lengths in r are rejected
+    // an empty scene: it contains no triangles, so lengths in r are rejected
+    lam_scene *scene = lam_scene_make(&reason);
     bool read = scene && lam_scene_add_light_text(scene, light, NULL, &reason) == 0;
     bool ok = read ? add(plot, lam_scene_light(scene, 0), word, error)
                    : complain(error, reason.code, "plot %s: '%.60s': %.300s", kind, word, reason.text);
@@ -290,9 +291,9 @@ static const struct kind *find_kind(const char *name, lam_error *error)
     return NULL;
 }
 
-// Returns the length of the axis, which extends to where the last curve has fallen to a twentieth, so that the curves
-// fill the plot. Returns 10 if no curve does. The point where a curve falls below 1/255 is outside the axis, so the
-// legend states it.
+// Returns the length of the axis. The axis ends where the last curve has fallen to a twentieth, so that the curves fill
+// the plot. The length is 10 if no curve falls that far. The point where a curve falls below 1/255 is outside the axis,
+// so the legend states it.
 static double length_of(const struct plot *plot, double farthest)
 {
     double most = 0;

@@ -133,7 +133,8 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
     enum { STEPS = 400 };
     struct path path = {0};
     double x = 0, y = curve->value(curve, 0);
-    // An inverse square is 0 at the light itself and unbounded next to it, so the curve starts next to it.
+    // An inverse square is 0 at the light itself and unbounded next to the light, so the curve starts next to the
+    // light.
     double beside = plot->x_max * 1e-4;
     if (y == 0 && curve->value(curve, beside) > plot->y_max)
         y = curve->value(curve, x = beside);
@@ -149,7 +150,8 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
     return ok;
 }
 
-// Draws dots where curves fall below the level, and prints numbers above them, in several rows if they would overlap.
+// Draws dots where curves fall below the level, and prints numbers above them, in several rows if the numbers would
+// overlap.
 static bool draw_marks(const struct plot *plot, const struct layout *at, struct drawing *d, lam_error *error)
 {
     double u = at->unit, taken[CURVES_MAX] = {0}; // the right end of each row of numbers

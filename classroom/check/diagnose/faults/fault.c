@@ -90,7 +90,7 @@ bool fault_is_style(const struct fault *fault, const struct shader_interface *in
     return fault->style || (fault->demand && !(fault->demand & interface->contract->demands));
 }
 
-// Returns row `index` of the public list, which contains no styles, and only the first form of each mistake.
+// Returns row `index` of the public list. The list contains the first form of each mistake, and no styles.
 static const struct fault *listed(int index)
 {
     for (int i = 0; i < fault_count; i++)

@@ -67,8 +67,8 @@ static uint64_t count_not_numbers(const float *pixels, size_t count)
 
 static float decode(float encoded) { return (float)srgb_linear((double)encoded); }
 
-// Returns whether the shader encodes its colours as sRGB, like shaders of `lambent shader`: the constant 12.92 of the
-// encoding occurs in its text. Its pictures are then decoded before they are compared.
+// Returns whether the shader encodes its colours as sRGB, like shaders of `lambent shader`: its text then contains the
+// constant 12.92 of the encoding. The pictures of such a shader are decoded before they are compared.
 static bool is_encoded(const struct run *r)
 {
     return r->interface.contract->printed && declarations_uses(&r->interface.fragment, "12.92");

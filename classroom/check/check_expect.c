@@ -1,4 +1,4 @@
-// check_expect.c: draws the reference pictures, which show the result expected from the shaders.
+// check_expect.c: draws the reference pictures: the pictures that correct shaders would draw.
 #include "check_run.h"
 
 #include <stdio.h>
@@ -71,7 +71,7 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
     if (!is_of_device(r) || bump.x != 0 || bump.y != 0 || bump.z != 0) // only the fault shader draws such scenes
         return draw_by_shader(r, scene, error);
     lam_camera camera;
-    struct reference_scene opaque = scene->reference_scene; // the shader under test is drawn without blending
+    struct reference_scene opaque = scene->reference_scene; // because the shader under test is drawn without blending
     opaque.alpha = 1;
     lam_scene *world = surfaces_of(r, &opaque, &camera, error);
     lam_image image = {0};
@@ -175,7 +175,7 @@ struct open_number {
     int count, own; // 1 + the index of the contract's own value; 0 means the text does not contain it
 };
 
-// Finds the open numbers, and counts their combinations.
+// Finds the numbers with an open value, and counts the combinations of values.
 static int find_open(struct shader_interface *interface, struct open_number open[MAX_OPEN], int *count)
 {
     enum uniform_semantic semantics[SEMANTIC_COUNT];
@@ -275,7 +275,7 @@ bool check_draw_references(struct run *r, lam_error *error)
         ok = fit_numbers(r, device, choices, count, &best, error);
         numbers = best.mean < before;
     }
-    if (ok && !best.fits) // the last combination need not be the best
+    if (ok && !best.fits) // because the last combination need not be the best one
         ok = try_candidate(r, device, r->scene_count, &best, error);
     lam_device_free(device);
     render_cache_keep_shader(r->params->cache, r->shader);

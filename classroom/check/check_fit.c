@@ -29,7 +29,7 @@ struct fit {
     struct fault_shader *shader; // draws the pictures with a stride
     int stride, size;
     uint32_t *from[MAX_SCENES],
-        *to[MAX_SCENES]; // pixel indices in the shader's pictures and in those drawn here
+        *to[MAX_SCENES]; // pixel indices in the shader's pictures and in the pictures of the fault shader
     size_t count[MAX_SCENES];
     float *basis[MAX_SCENES], *pixels;
 };
@@ -99,7 +99,8 @@ static bool measure(struct fit *f, int scene_count, struct interpretation *g, la
             g->fits = g->fits && g->factors[c][k] > -max_negative;
     }
     g->fits = g->fits && diffuse > min_diffuse;
-    double tolerance = f->r->tolerance * (lit < 1 ? lit : 1); // products of small colours are dark
+    // reduced if the picture is dark, as with products of small colours
+    double tolerance = f->r->tolerance * (lit < 1 ? lit : 1);
     for (int s = 0; s < scene_count; s++) {
         double sum = 0;
         size_t over = 0;
@@ -140,7 +141,8 @@ static bool has_bit(const struct fault *row, enum fault_bit bit)
     return false;
 }
 
-// Adds each fault to each interpretation until one explains every scene. `nearest` receives the MAX_NEAREST best ones.
+// Adds each fault to each interpretation until one explains every scene. `nearest` receives the MAX_NEAREST best
+// combinations.
 static bool add_faults(struct fit *f, const struct interpretation *interpretations, int count,
                        struct interpretation nearest[MAX_NEAREST], struct interpretation *best, lam_error *error)
 {
@@ -246,8 +248,8 @@ static int by_mean(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Lists the interpretations to combine with faults: they differ from the closest one only in the highlight and its
-// forms. If the text contains reflect(), the highlight is Phong's.
+// Lists the interpretations to combine with faults: those that differ from the closest interpretation only in the
+// highlight and its forms. If the text contains reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct interpretation *interpretations, int count,
                         const struct interpretation *best)
 {

@@ -17,14 +17,14 @@ struct run {
     lam_check_painter painter;                  // the painter in use
     lam_check_contract *shipped[MAX_CONTRACTS]; // the shipped contracts, read if no contract is given
     int shipped_count;
-    lam_check_contract *inferred; // used if no contract contains the shaders' names
+    lam_check_contract *inferred; // inferred from the shaders if no contract contains their names
     struct complete_texts texts;
     struct shader_interface interface;
     int size;
     double tolerance;
     lam_light_frame frame; // the space of the first light
     lam_reflection reflection;
-    char *vertex;    // generated if the caller gives none
+    char *vertex;    // the vertex shader, generated if the caller gives none
     lam_bytes bytes; // the drawing process's message; `drawn` points into it
     struct draw_result drawn;
     struct scene_comparison *scenes;

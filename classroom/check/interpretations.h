@@ -1,5 +1,5 @@
-// interpretations.h: the interpretations of a shader that has its own strengths and colours: the calculations that its
-// source may contain.
+// interpretations.h: the interpretations of a shader that has its own strengths and colours. An interpretation is a
+// calculation that the source may contain.
 #ifndef INTERPRETATIONS_H
 #define INTERPRETATIONS_H
 

@@ -1,6 +1,6 @@
-// explain_figure.c: draws the figure of `explain -o`: the vectors n, l, v, r and h as arrows on the surface (t instead
-// of r and h for threads), the same vectors from the side, and tables of the point's coordinates, the vectors, the
-// angles and the terms.
+// explain_figure.c: draws the figure of `explain -o`. It shows the vectors n, l, v, r and h as arrows on the surface (t
+// instead of r and h for threads), and the same vectors from the side. Tables list the point's coordinates, the
+// vectors, the angles and the terms.
 #include "explain_figure.h"
 
 #include <stdio.h>
@@ -163,8 +163,9 @@ static bool draw_arrow(const struct diagram *g, int arrow, struct drawing *d, la
            draw_line(d, line, 2, 2.6 * unit, color, 0, error) && draw_line(d, wings, 3, 2.6 * unit, color, 0, error);
 }
 
-// In the picture, h covers l and is shorter, because v points towards the viewer. So h is drawn after l, then n, and
-// vectors towards the viewer last.
+// Draws the arrows in an order that keeps all of them visible. In the picture, h lies on l and is shorter, because v
+// points towards the viewer. Therefore h is drawn after l. Then n is drawn, and vectors towards the viewer are drawn
+// last.
 static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *error)
 {
     static const int order[ARROWS] = {2, 3, 5, 1, 4, 0};
@@ -220,9 +221,9 @@ static bool draw_vectors(const struct explain_figure *f, const struct subject *s
     return draw_diagram(&g, d, error);
 }
 
-// Draws the vectors in the plane of the normal and the light (n and v without a light), with the surface as a
-// horizontal line. For a thread it draws the plane of t and l, with the thread as the horizontal line, because only the
-// angle between t and l matters. In the picture, v points towards the viewer.
+// Draws the vectors in the plane of the normal and the light (or of n and v, if there is no light), with the surface as
+// a horizontal line. For a thread, draws the plane of t and l, with the thread as the horizontal line, because only the
+// angle between t and l matters.
 static bool draw_from_the_side(const struct subject *s, const struct sheet_layout *at, struct drawing *d,
                                lam_error *error)
 {

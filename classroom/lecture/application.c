@@ -64,7 +64,7 @@ static void add_helpers(struct text *text, const char *body)
 
 // --- numbers of the scene
 
-// Appends a number with the fewest digits that read back as the same float.
+// Appends a number with the fewest digits from which a program reads the same float.
 static void add_number(struct text *text, float value)
 {
     char number[32];

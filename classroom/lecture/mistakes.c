@@ -1,5 +1,5 @@
-// mistakes.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most occur in lectures and
-// tutorials (docs/mistakes.md). `lambent check` explains each under the same id
+// mistakes.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most of these mistakes occur
+// in lectures and tutorials (docs/mistakes.md). `lambent check` explains each mistake under the same id
 // (classroom/check/diagnose/faults/fault_table.c).
 #include <lambent/shader.h>
 
@@ -355,7 +355,7 @@ bool lam_shader_mistake_row(int row, lam_shader_mistake *mistake)
 
 // --- edits
 
-// Copies `text` with the number of lights for "@lights@"; at most 127 bytes.
+// Copies `text`, with "@lights@" replaced by the number of lights. The copy has at most 127 bytes.
 static void expand(char out[128], const char *text, int lights)
 {
     const char *at = strstr(text, "@lights@");

@@ -14,10 +14,10 @@ struct device_type {
     // device->report, except frame_ms and total_ms.
     bool (*draw)(struct lam_device *device, const struct frame *frame, lam_image *image, struct call_control *call,
                  lam_error *error);
-    // Returns the bytes kept from frame to frame.
+    // Returns the number of bytes that the device keeps from frame to frame.
     uint64_t (*memory)(const struct lam_device *device);
     void (*free)(struct lam_device *device); // also frees the device itself
-    bool makes_normals;                      // whether it can draw frames whose makes_normals is set
+    bool makes_normals;                      // whether the device can draw frames whose makes_normals is set
 };
 
 // The base of every device; a device's own struct begins with it.
@@ -28,7 +28,7 @@ struct lam_device {
     int threads;
     struct pool *pool; // NULL if only the calling thread runs tasks
     struct frame frame;
-    struct hierarchy_memory hierarchy; // used for edges and for the CPU device's shadows
+    struct hierarchy_memory hierarchy; // used for edges, and for shadows of the CPU device
     struct edge_memory edges;
     struct recorder *recorder; // records one pixel (recorder.h), or NULL
     lam_frame_report report;

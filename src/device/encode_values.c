@@ -23,8 +23,8 @@ static void color_of_ids(const float v[3], uint8_t out[4])
         out[c] = (uint8_t)(48 + (h >> (40 + 8 * c) & 0xff) * 207 / 255);
 }
 
-// Returns 1 at the scene's nearest vertex and 0 at its farthest. If the depths differ by less than their rounding
-// error, the whole scene counts as nearest.
+// Returns 1 for the depth of the scene's nearest vertex, and 0 for its farthest vertex. If the depths differ by less
+// than their rounding error, the whole scene counts as nearest.
 static float depth_code(const struct frame *frame, float depth)
 {
     float far = frame->depth_far, range = far - frame->depth_near;

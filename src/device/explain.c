@@ -58,7 +58,7 @@ void *recorder_alloc(struct recorder *recorder, size_t count, size_t size)
     return memory;
 }
 
-// Returns the angle from cross and dot product, which is accurate for small angles too.
+// Computes the angle from the cross and the dot product, which is accurate for small angles too.
 static double angle_between(lam_vec3 a, lam_vec3 b)
 {
     if (v3_dot(a, a) == 0 || v3_dot(b, b) == 0)
@@ -66,8 +66,8 @@ static double angle_between(lam_vec3 a, lam_vec3 b)
     return math_atan2(v3_length(v3_cross(a, b)), v3_dot(a, b));
 }
 
-// Transforms a point from eye space to world space and to the object's mesh; the rectangles of lines and points are in
-// eye space.
+// Transforms a point from eye space to world space and to the space of the object's mesh. The rectangles of lines and
+// points are already in eye space.
 static void leave_eye_space(const lam_camera *camera, const lam_object *object, lam_explained_point *point)
 {
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up), to_world, to_mesh;
@@ -105,7 +105,7 @@ static void complete_map(lam_explained_map *map, const lam_texture_map *given)
     map->row = (float)(wrapped(at_t, given->wrap_t) * map->height);
 }
 
-// Compute values that follow from the recorded ones.
+// The following functions compute values from the recorded values.
 static const lam_mat4 identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
 static void complete_angles(lam_explained_point *point)

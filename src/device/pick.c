@@ -95,7 +95,7 @@ static bool meet(const struct pick_ray *ray, const lam_mesh *mesh, uint32_t tria
 static bool search_draw(const struct frame *frame, int index, const struct pick_ray *ray, struct call_control *call,
                         struct pick_hit *hit)
 {
-    enum { CHECK = 1 << 16 }; // triangles between two checks of the call's limits
+    enum { CHECK = 1 << 16 }; // number of triangles between two checks of the call's limits
     const struct frame_draw *draw = &frame->draws[index];
     for (uint32_t t = 0; t < draw->mesh->triangle_count; t++) {
         double facing, at[3];

@@ -10,7 +10,7 @@ enum { RECORDER_POINTS = 3 }; // the maximum number of points of one fragment
 
 struct recorder {
     struct arena arena;   // owns the explanation
-    lam_explanation *out; // the caller sets the pixel's coordinates before drawing
+    lam_explanation *out; // the explanation; the caller sets the pixel's coordinates before drawing
     lam_explained_fragment *fragments;
     int capacity;
     bool failed; // out of memory
@@ -34,7 +34,8 @@ struct recorder {
 // Adds a zeroed fragment and returns it. Returns NULL if memory runs out.
 lam_explained_fragment *recorder_add(struct recorder *recorder);
 
-// Records that a translucent fragment is blended into a sample. `transmittance` belongs to the layers before it.
+// Records that a translucent fragment is blended into a sample. `transmittance` is the transmittance of the layers in
+// front of the fragment.
 void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float transmittance,
                     float share);
 

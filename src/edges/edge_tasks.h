@@ -9,11 +9,12 @@ struct edge_measure {
     double x[2], y[2], length; // in the window, clipped to the picture; pixels
     int style;                 // −1 if it is not drawn
     bool whole[2];             // whether the end is not clipped
-    // For each end, the edge end that it is linked to: twice the index of that edge, plus 0 or 1. NO_LINK if none.
+    // For each end of this edge, the edge end to which it is linked: twice the index of the other edge, plus 0 or 1.
+    // NO_LINK if none.
     uint32_t link[2];
     bool placed;
     double start;  // length of the chain before it
-    bool reversed; // the chain runs from its end 1 to its end 0
+    bool reversed; // the chain runs from end 1 of this edge to end 0
 };
 #define NO_LINK 0xffffffffu
 
@@ -25,7 +26,7 @@ enum { EDGES_PER_TASK = 2048 };
 enum {
     EDGE_WEIGHT_PIXEL = 1024, // the unit
     EDGE_WEIGHT_MAX = 0xfffd,
-    EDGE_SPECK = 0xfffe,     // too small a group to be drawn
+    EDGE_SPECK = 0xfffe,     // the edge's group is too small to be drawn
     EDGE_UNWEIGHED = 0xffff, // not a feature edge, or outside the picture
 };
 
@@ -41,7 +42,7 @@ struct edge_task {
     uint64_t drawn, rays;         // output: sums to which the task adds
 };
 
-// Bytes of scratch memory that a thread needs.
+// Returns the number of bytes of scratch memory that a thread needs.
 size_t edge_scratch_bytes(void);
 
 // Returns false if memory runs out or the call is stopped.

@@ -5,7 +5,7 @@
 #include "corner_weld.h"
 #include "edge_keys.h"
 
-enum { CHECK_INTERVAL = 1 << 14 }; // ends of edges between two checks for cancellation
+enum { CHECK_INTERVAL = 1 << 14 }; // number of edge ends between two checks for cancellation
 
 static bool is_inner(const lam_mesh *mesh, uint32_t corner)
 {

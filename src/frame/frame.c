@@ -209,8 +209,8 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
     }
 }
 
-// Adds the ground as the frame's last triangles. It is lit like the scene: as a physical material under an environment
-// that lights such materials, otherwise as a matt classic one.
+// Adds the ground as the frame's last triangles. The ground is lit like the scene. If an environment lights physical
+// materials, the ground is a physical material, otherwise a matt classic one.
 static bool add_ground(struct frame *frame, uint64_t next, bool physical, const lam_mat4 *view, const lam_mat4 *pixel,
                        struct call_control *call, lam_error *error)
 {
@@ -306,8 +306,9 @@ static bool uses_physical(const struct frame *frame)
     return frame->settings.reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->settings.reflection);
 }
 
-// Sets the environment and the matrix from directions in eye space to the environment's axes: eye space to world space,
-// the scene's up axis to +Y (as the fitted camera), then the inverse of the environment's rotation.
+// Sets the environment, and the matrix from directions in eye space to the environment's axes. This matrix transforms
+// eye space to world space, then the scene's up axis to +Y (as the fitted camera does), then applies the inverse of the
+// environment's rotation.
 static bool build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, lam_error *error)
 {
     bool lamp = wants_shadows(&frame->settings);
@@ -329,7 +330,8 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     return true;
 }
 
-// Facet normals need no computation before lighting if each is used only for points of its own triangle.
+// Decides whether facet normals can be computed at each point: they need no computation before lighting if each normal
+// is used only for points of its own triangle.
 static void leave_facets(struct frame *frame)
 {
     if (!frame->makes_normals || frame->settings.shading != LAM_SHADING_PHONG || frame_has_rays(frame))
@@ -355,7 +357,7 @@ static bool has_color_maps(const struct frame *frame)
     return false;
 }
 
-// Selects the method of ambient occlusion. The lights must be known.
+// Selects the method of ambient occlusion. Call this function after the lights are set.
 static void set_occlusion(struct frame *frame, const lam_scene *scene, bool physical)
 {
     lam_draw_params *settings = &frame->settings;
@@ -395,7 +397,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     if (frame->cavity_radius > 0 && settings->occlusion == LAM_OCCLUSION_OFF)
         settings->occlusion = LAM_OCCLUSION_SCREEN;
     if (!(half > 0))
-        settings->occlusion = LAM_OCCLUSION_OFF; // the scene has no extent
+        settings->occlusion = LAM_OCCLUSION_OFF; // because the scene has no extent
 }
 
 static void resolve_settings(struct frame *frame, const lam_draw_params *params, int width, int height)

@@ -98,7 +98,7 @@ static void add(struct luminances *sum, double bright, double area)
     sum->all += area;
 }
 
-// Returns the luminance that this share of the surface does not exceed.
+// Returns the luminance that the given share of the surface does not exceed.
 static double percentile(const struct luminances *sum, double share)
 {
     double below = 0;

@@ -32,7 +32,8 @@ static lam_material converted(const lam_material *material, lam_reflection model
     if (frame_is_physical(model))
         return lam_material_as_physical(material);
     lam_material classic = lam_material_as_classic(material);
-    if (lobe_properties((int)model) & LOBE_MIRRORED) // its highlight at α/4 looks like the Blinn–Phong highlight at α
+    // a Phong highlight with the exponent α/4 looks like a Blinn–Phong highlight with α
+    if (lobe_properties((int)model) & LOBE_MIRRORED)
         classic.shininess /= 4;
     return classic;
 }

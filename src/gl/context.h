@@ -52,13 +52,13 @@ struct gl_previous_context {
     EGLenum api;
 };
 
-// Makes a context on one display; the context is not current afterwards. Fails with LAM_UNSUPPORTED and names the
-// missing feature.
+// Makes a context on one display; the context is not current afterwards. Fails with LAM_UNSUPPORTED, and the message
+// names the missing feature.
 bool gl_context_open(struct gl_context *context, const struct egl *egl, const struct gl_platform *platform,
                      enum gl_profile profile, bool debug, lam_error *error);
 
-// Makes a context on the device that `device` names (lam_gl_params.device), or with NULL on the first usable device.
-// The struct must not move while the context collects messages.
+// Makes a context on the device that `device` names (lam_gl_params.device) or, if `device` is NULL, on the first usable
+// device. The struct must not move while the context collects messages.
 bool gl_context_make(struct gl_context *context, const char *library, const char *device, enum gl_profile profile,
                      bool debug, lam_error *error);
 

@@ -35,7 +35,7 @@ static void forget_lighting(struct glsl_choices *c, bool maps)
     c->colors = masks && output_is_value(c->output) && wanted.colors;
 }
 
-// Sets the choices for a range's program. A choice that the program does not depend on keeps its default, so that equal
+// Sets the choices for a range's program. A choice that does not affect the program keeps its default, so that equal
 // programs have equal choices, byte for byte (program_for).
 static void choices_of(const struct gl_frame *f, const struct frame_draw_range *range, struct glsl_choices *c)
 {
@@ -262,7 +262,7 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
 {
     struct gl_device *device = f->device;
     uint64_t clock = now_ns();
-    while (f->gl->GetError() != GL_NO_ERROR) // discards earlier errors of the caller
+    while (f->gl->GetError() != GL_NO_ERROR) // discards earlier OpenGL errors of the caller
         ;
     if (device->external_context)
         gl_state_invalidate(device);

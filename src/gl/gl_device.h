@@ -41,7 +41,8 @@ enum texture_unit {
     UNIT_SHADOW_TREE = UNIT_COPY,           // no program reads both
     UNIT_FIRST_MAP,                         // the maps of materials
     UNIT_GROUND_OCCLUSION = UNIT_FIRST_MAP, // a ground has no maps
-    UNIT_COUNT = 48 // the maximum; every driver has 16 (OpenGL 3.3 and ES 3.0), most 32: gl_device.unit_count
+    // the maximum; every driver supports 16 (OpenGL 3.3 and ES 3.0), most support 32 (gl_device.unit_count)
+    UNIT_COUNT = 48
 };
 enum block_point { POINT_LIGHTS, POINT_PRODUCTS, POINT_BACK_PRODUCTS, POINT_COUNT };
 
@@ -143,7 +144,7 @@ struct gl_targets {
     int width, height; // the size of all textures, at least the part's size
     bool layered, tinted;
     struct gl_target tint;      // with `tinted`, the transmittance of all layers so far
-    struct gl_target sample;    // one sample of each pixel: the opaque surfaces
+    struct gl_target sample;    // the opaque surfaces at one sample of each pixel
     struct gl_target layers[2]; // the current layer of translucent surfaces, and the previous one
     struct gl_target sum;       // the layers composited
     struct gl_target picture;   // the average of the samples
@@ -204,9 +205,10 @@ struct gl_device {
     int mistake;
     bool hardware_filter; // lam_gl_params
     GLint block_size_max, block_alignment, texture_size_max;
-    GLint unit_count;    // number of texture units of the fragment shader that are used, up to UNIT_COUNT
-    bool has_norm16;     // the driver supports textures with 16-bit numbers for 0…1
-    GLenum float_format; // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver supports no more
+    GLint unit_count; // number of texture units that fragment shaders may use, up to UNIT_COUNT
+    bool has_norm16;  // the driver supports textures with 16-bit numbers for 0…1
+    // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver does not support the former
+    GLenum float_format;
 
     struct gl_mesh *meshes;
     int mesh_count, mesh_capacity;
@@ -222,7 +224,7 @@ struct gl_device {
     struct gl_program *programs;
     int program_count, program_capacity;
     GLuint copy_program, empty_array;
-    GLuint tint_program; // multiplies a layer, or the opaque surfaces, by the tint of the layers before
+    GLuint tint_program; // multiplies a layer, or the opaque surfaces, by the tint of the layers in front
     GLint tint_last, tint_background;
     GLint copy_factor; // location of the copy program's uniform `factor`
     float copy_factor_value;
@@ -238,7 +240,7 @@ struct gl_device {
     struct hierarchy_memory hierarchy;
     GLuint shadow_texture;   // contains the hierarchy
     float shadow_offsets[2]; // first texel of the triangles, and of their positions
-    bool shadows_sent;       // whether the texture contains the hierarchy, and the surfaces of surfaces.key
+    bool shadows_sent;       // whether the texture contains the current hierarchy, and the surfaces of surfaces.key
     struct gl_surfaces surfaces;
     uint64_t environment_bytes, target_bytes, shadow_bytes;
     struct gl_current_state current;
@@ -337,8 +339,8 @@ bool mesh_can_share(const lam_mesh *mesh);
 void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
                    uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
-// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. With runs (may be
-// NULL) the elements are ordered by call. The pointer is valid until the next call. Returns NULL on failure.
+// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. If `runs` is not NULL,
+// the elements are ordered by call. The pointer is valid until the next call. Returns NULL on failure.
 struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form, bool passing,
                             const struct mesh_run *runs, int run_count, lam_error *error);
 // Frees the meshes of scenes that no longer exist, and meshes that the frame's scene no longer draws.

@@ -122,8 +122,8 @@ static bool is_layer(const struct gl_frame *f, const struct gl_draw_call *call)
     return f->layered && range_blends(f->frame, call->range);
 }
 
-// Issues the draw calls of the translucent layers, or of everything else. BLENDING_ADD counts every triangle over a
-// pixel, regardless of depth.
+// Issues the draw calls of the translucent layers or, if `layers` is false, of all other surfaces. BLENDING_ADD counts
+// every triangle over a pixel, regardless of depth.
 static void draw_all(struct gl_frame *f, bool layers, enum gl_blending blending)
 {
     gl_use_blending(f->device, blending);
@@ -202,7 +202,7 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     struct gl_device *device = f->device;
     struct gl_targets *t = &device->targets;
     clear_target(f, &t->sum, DEPTH_ID_NEAREST);
-    clear_target(f, &t->layers[1], DEPTH_ID_NEAREST); // precedes the first layer
+    clear_target(f, &t->layers[1], DEPTH_ID_NEAREST); // the depth id before the first layer
     bool tinted = f->frame->transmits;
     if (tinted) {
         static const GLfloat white[4] = {1, 1, 1, 1};

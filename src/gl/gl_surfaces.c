@@ -1,6 +1,6 @@
-// gl_surfaces.c: stores the data with which a shader computes the light that a masked, translucent or transmitting
-// triangle lets through (passed_surface of shadows.glsl): its record, and the records of its materials and their maps
-// at level 0. They follow the hierarchy in its texture.
+// gl_surfaces.c: stores the data with which a shader computes the light that passes a masked, translucent or
+// transmitting triangle (passed_surface in shadows.glsl). These data are the triangle's record, and the records of its
+// materials and their maps at level 0. They follow the hierarchy in the same texture.
 #include "gl_device.h"
 
 #include "fail.h"

@@ -60,7 +60,7 @@ struct glsl_map {
     uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // same as in lam_texture_map
 };
 
-// The choices that determine a shader's text. Zero the struct before assigning members if memcmp is to compare it.
+// The choices that determine a shader's text. If memcmp compares two structs, zero them before assigning members.
 struct glsl_choices {
     enum glsl_version version;
     enum glsl_storage storage;
@@ -115,8 +115,8 @@ struct glsl_choices {
 void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
                  lam_stage stage);
 
-// Returns whether an output is a value of the geometry, evaluated for each fragment without lighting for every shading
-// method.
+// Returns whether an output is a value of the geometry, which the fragment shader evaluates without lighting, whatever
+// the shading method.
 static inline bool glsl_output_is_geometry(lam_output output)
 {
     return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||
@@ -134,12 +134,13 @@ struct glsl_text {
 struct glsl_facts;
 struct text;
 struct glsl_style {
-    // Returns whether the style supports these choices. Otherwise fails with LAM_UNSUPPORTED and the unsupported
-    // option.
+    // Returns whether the style supports these choices. If not, fails with LAM_UNSUPPORTED, and the message names the
+    // unsupported option.
     bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
     // Appends a stage after its version and its uniforms.
     void (*add_stage)(struct text *text, const struct glsl_facts *stage);
-    // Makes the change choices->mistake in one of the texts, which are freed and replaced. Returns false on failure.
+    // Makes the change choices->mistake in one of the texts. On success, all texts are freed and replaced by copies.
+    // Returns false on failure.
     bool (*change)(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 };
 
@@ -190,7 +191,7 @@ size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);
 
-// Sets the choices about maps for a range.
+// Sets the choices for the maps of a range.
 void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
 
 // Returns whether a shader of these materials keeps the light that the diffuse map multiplies separate
@@ -213,8 +214,8 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
 // Returns the name of a field in the shader.
 const char *glsl_field_name(const struct material_field *field, bool products);
 
-// Returns the index in the frame of the shader's next light, or −1 past the end. Lights of a group keep the frame's
-// order. A zeroed cursor is before the first light.
+// Returns the frame's index of the next light in the shader's order, or −1 after the last light. Lights of a group keep
+// the frame's order. A zeroed cursor is before the first light.
 struct glsl_light_cursor {
     int group, light;
 };

@@ -27,7 +27,7 @@ void known_free(struct known_table *table);
 
 // Adds the facts of a stage, by name, and the keywords that declare its inputs and outputs. All styles use these rows.
 void known_facts(struct known_table *table, const struct glsl_facts *stage);
-// Adds conditions of the equations.
+// Adds the conditions in the equations.
 void known_conditions(struct known_table *table, const struct glsl_facts *stage);
 
 #endif

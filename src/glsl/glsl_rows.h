@@ -140,7 +140,7 @@ bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
 // Finds the maps that a shader uses; the other facts must be set.
 void glsl_find_maps(struct glsl_facts *facts);
-// Returns the map whose sampler another map uses: itself, or the first one of its side with the same texels.
+// Returns the map whose sampler another map uses: itself, or the first map of its side with the same texels.
 lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
 // Returns whether the reflection model lights physical materials.
 bool glsl_is_physical(const struct glsl_facts *facts);

@@ -1,5 +1,5 @@
-// specialize.h: reduces general sources to the shader for some choices. Branches that are never taken are removed, and
-// so are the parameters, variables and members that are then unread, so that a printed shader contains none of them.
+// specialize.h: reduces general sources to the shader for some choices. It removes branches that are never taken, and
+// the parameters, variables and members that are then unread.
 //
 // The text must have the layout that the formatter gives src/lighting: an `if` ends its line with the opening brace,
 // the closing brace is in the same column as the `if`, and a condition or a choice (?:) of known names is on one line.

@@ -65,7 +65,7 @@ struct contract_constant {
 };
 
 // The lighting of a contract's shaders with metalness and roughness. The defaults are glTF 2.0's, appendix B; other
-// forms are recognised, and accepted if they are as correct (fault_table.c).
+// forms are recognised, and are accepted if they are equally correct (fault_table.c).
 enum masking {
     MASKING_SMITH,  // Smith's masking for GGX, height-correlated
     MASKING_SCHLICK // Schlick's approximation, k = (roughness + 1)²/8
@@ -86,8 +86,8 @@ struct physical_convention {
 
 // The contents of a contract's maps.
 struct map_convention {
-    // If true, colour maps are encoded with pow(x, 1/2.2), and the shader decodes them. If false, they are linear, as
-    // textures with an sRGB format are for a shader.
+    // If true, colour maps are encoded with pow(x, 1/2.2), and the shader decodes them. If false, the shader reads
+    // linear colours, as from textures with an sRGB format.
     bool encoded;
     // v increases downwards in the picture, as in glTF files. On a patch whose u points right and whose normal points
     // to the eye, v points down.
@@ -120,7 +120,8 @@ struct contract {
     unsigned terms;        // bits of contract_term
     unsigned demands;      // bits of contract_demand
     lam_light_frame space; // the space of the lighting: CAMERA (eye space) or WORLD
-    // The space of the first light: OBJECT (the model-view matrix transforms it like the vertices), WORLD or CAMERA.
+    // The space of the first light: OBJECT (the model-view matrix transforms the light like the vertices), WORLD or
+    // CAMERA.
     lam_light_frame light_frame;
     lam_reflection reflection;
     struct contract_defaults defaults;
@@ -134,7 +135,7 @@ struct contract {
     bool has_attenuation;    // names or constants determine the attenuation
     bool material_strengths; // colours and their strengths are separate inputs
     bool any_strengths;      // shaders contain their own strengths and colours; the check fits them to the pictures
-    // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The texts are rewritten
+    // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The check rewrites such shaders
     // (fixed_state.h).
     bool fixed_state;
     const double *weights; // the points for each reference scene

@@ -1,4 +1,4 @@
-// contract_reader.h: shared by the readers of a contract's file.
+// contract_reader.h: declares the functions that read the sections of a contract's file.
 #ifndef CONTRACT_READER_H
 #define CONTRACT_READER_H
 

@@ -1,4 +1,4 @@
-// role.h: the meanings that a contract can give to a name, as contract files write them.
+// role.h: the roles (meanings) that a contract can give to a name.
 #ifndef ROLE_H
 #define ROLE_H
 
@@ -29,7 +29,7 @@ enum uniform_semantic {
     SEMANTIC_AMBIENT_PRODUCT,
     SEMANTIC_DIFFUSE_PRODUCT,
     SEMANTIC_SPECULAR_PRODUCT,
-    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // the product for one light, which its attenuation reduces
+    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // the product for one light, which the light's attenuation reduces
     // The strengths only.
     SEMANTIC_KA,
     SEMANTIC_KD,
@@ -52,8 +52,9 @@ enum uniform_semantic {
     SEMANTIC_EMISSION_MAP,
     // a row of the matrix from the mesh's texture coordinates to a map's coordinates; the texel is multiplied by w
     SEMANTIC_MAP_ROW_U,
-    SEMANTIC_MAP_ROW_V,      // the other row; w is added to the texel
-    SEMANTIC_LIGHT_POSITION, // the position with w = 1, or for a directional light the direction towards it with w = 0
+    SEMANTIC_MAP_ROW_V, // the other row; w is added to the texel
+    // the position with w = 1 or, for a directional light, the direction towards the light with w = 0
+    SEMANTIC_LIGHT_POSITION,
     SEMANTIC_LIGHT_X,
     SEMANTIC_LIGHT_Y,
     SEMANTIC_LIGHT_Z,

@@ -99,7 +99,8 @@ static bool is_es(const struct declarations *d)
     return strcmp(d->profile, "es") == 0 || d->version == 100 || (!d->version && declarations_uses(d, "precision"));
 }
 
-// Explains a function that is missing in the shader's version of GLSL. Returns false if it is not one of these.
+// Explains a function that is missing in the shader's version of GLSL. Returns false if the name is not such a
+// function.
 static bool hint_young_function(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                 int line, const char *name)
 {
@@ -163,7 +164,7 @@ static int first_on_line(const struct declarations *d, int line)
     return d->word_count;
 }
 
-// Explains a member that no struct of the shader has: lights[0].postion.
+// Explains a member that does not exist in any struct of the shader: lights[0].postion.
 static void hint_member(struct diagnostics *diagnostics, const struct declarations *d, const char *file, int line,
                         const char *name)
 {
@@ -327,7 +328,7 @@ static void hint_globals(struct diagnostics *diagnostics, const struct declarati
 {
     if (strcmp(d->profile, "es") != 0)
         return;
-    for (int i = 2; i + 1 < d->word_count; i++) // vec3 name = an expression with a uniform;
+    for (int i = 2; i + 1 < d->word_count; i++) // finds `vec3 name = expression;` with a uniform in the expression
         if (d->words[i].depth == 0 && strcmp(d->words[i].text, "=") == 0 &&
             in_list(d->words[i - 2].text, types, COUNT(types)))
             for (int k = i + 1; k < d->word_count && strcmp(d->words[k].text, ";") != 0; k++)

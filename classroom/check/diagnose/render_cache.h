@@ -23,7 +23,7 @@ struct render_key {
 // Returns the samples stored for a key, or NULL if there are none.
 const float *render_cache_find(lam_check_cache *cache, const struct render_key *key);
 
-// Stores a copy of `count` samples. Does nothing if the cache is full.
+// Stores a copy of `count` samples. A full cache stays unchanged.
 void render_cache_add(lam_check_cache *cache, const struct render_key *key, const float *samples, size_t count);
 
 // Returns an unused fault shader for such pictures and makes it current. If there is none, opens a new one. Returns

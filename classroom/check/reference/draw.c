@@ -284,7 +284,7 @@ static bool draw_scenes(struct shader_run *run, float *pixels, lam_error *error)
             struct reference_scene scene = shader_interface_scene(&run->interface, &reference_scenes[i]);
             double taken = 0;
             for (int turn = 0; turn == 0 || (turn == 1 && taken > limit);
-                 turn++) { // the driver may compile during the first turn
+                 turn++) { // a second turn if the first is too slow, because the driver may compile during it
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
                 if (!draw_scene(run, &scene, pixels + at, error))
                     return false;

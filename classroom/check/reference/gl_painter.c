@@ -61,7 +61,8 @@ static void delete_objects(struct gl_place *t)
     gl->DeleteRenderbuffers(1, &t->depth);
 }
 
-// Frees the context. If the context is at rest, another context may be current; its objects are freed with it.
+// Frees the context. If the context is at rest, another context may be current. The objects are then freed together
+// with the context.
 static void close(void *place)
 {
     struct gl_place *t = place;
@@ -139,7 +140,7 @@ static bool wake(void *place, lam_error *error)
 
 // --- programs
 
-// Compiles a shader. Returns 0 if it does not compile; `log` then contains the driver's messages.
+// Compiles a shader. Returns 0 if the text does not compile; `log` then contains the driver's messages.
 static GLuint compile_text(const struct gl *gl, GLenum kind, const char *text, char log[4096])
 {
     GLuint shader = gl->CreateShader(kind);

@@ -1,4 +1,4 @@
-// reference_scene.h: the reference scenes, each of which tests one feature. They are available as scenes for the CPU
+// reference_scene.h: the reference scenes, each of which tests one feature. Other code gets them as scenes for the CPU
 // device and as values for a shader's uniforms.
 #ifndef REFERENCE_SCENE_H
 #define REFERENCE_SCENE_H
@@ -36,7 +36,7 @@ enum reference_need {
     NEED_SHININESS = 512, // variable shininess
     NEED_VERTEX_LIT = 1024,
     NEED_NORMAL_MAP = 2048,
-    NEED_TANGENT_SIGN = 4096, // the sign of the bitangent is among the inputs
+    NEED_TANGENT_SIGN = 4096, // the sign of the bitangent is an input
     NEED_EMISSION_MAP = 8192,
 };
 
@@ -79,19 +79,20 @@ struct reference_scene {
     float ka, kd, ks;                   // the strengths of the terms
     float alpha;                        // the alpha of the diffuse colour
     float shininess;
-    // For shaders with metalness and roughness: `diffuse` is then the base colour, and kd and ks are 1.
+    // Used by shaders with metalness and roughness. For these, `diffuse` is the base colour, and kd and ks are 1.
     float metallic, roughness;
     bool physical;
-    bool is_radiance;          // the shader divides by pi, so its lights are pi times as bright
-    bool dims_ambient;         // as in OpenGL 1, the lights' own ambient light is attenuated, and there is no other
+    bool is_radiance; // the shader divides by pi, so its lights are pi times as bright
+    // as in OpenGL 1, each light has its own ambient light, which is attenuated; there is no other ambient light
+    bool dims_ambient;
     float roughness_angle_rad; // used by shaders of rough matt surfaces (Oren–Nayar)
     bool flat;
     // The normal in a normal map, with components along tangent, bitangent and normal. A zero vector means a flat
     // surface. As in filtered maps, the vector does not have exactly unit length.
     lam_vec3 bump;
     lam_rgb emission; // the colour of an emission map
-    // For shaders that read maps: the bits (map_bit) of the maps, and of the maps with a separate factor. The product
-    // of factor and texel is the corresponding number above.
+    // Used by shaders that read maps: the bits (map_bit) of the maps, and of the maps with a separate factor. The
+    // product of factor and texel is the corresponding number above.
     unsigned maps, factors;
     float occlusion;    // the value of an occlusion map
     bool encoded_maps;  // contract.maps

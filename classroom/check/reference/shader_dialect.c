@@ -98,7 +98,7 @@ char *shader_dialect_highp(const char *text)
     static const char of_samplers[] = " precision highp sampler2D;";
     size_t at = 0, length = 0;
     const char *place = reads_low(text) ? after_precision(text) : NULL;
-    char *out = malloc(2 * strlen(text) + sizeof of_samplers); // `lowp` becomes one letter longer
+    char *out = malloc(2 * strlen(text) + sizeof of_samplers); // `highp` is one letter longer than `lowp`
     for (const char *word; out && (word = find_qualifier(text, &length)); text = word + length) {
         if (place && place <= word) {
             at = copy(out, at, text, (size_t)(place - text));

@@ -4,7 +4,7 @@
 
 #include "shader_interface.h"
 
-// Returns the compiler for the shaders. Without a version line they are for WebGL, that is OpenGL ES, if they have a
+// Returns the compiler for the shaders. Shaders without a version line are for WebGL (OpenGL ES) if they contain a
 // precision statement or qualifier and use no built-in name of desktop OpenGL.
 lam_check_language shader_dialect_language(const struct shader_interface *interface);
 
@@ -17,7 +17,7 @@ bool shader_dialect_lowers_precision(const char *text);
 // picture even if the shader is correct. Returns NULL if memory runs out.
 char *shader_dialect_highp(const char *text);
 
-// Returns the text after a byte order mark, which some editors write and compilers reject.
+// Returns the text without a leading byte order mark, which some editors write and compilers reject.
 const char *shader_dialect_skip_mark(const char *text);
 
 // Returns a copy of a text in desktop GLSL, from malloc, converted to GLSL ES 3.00 on the same lines: with another

@@ -218,7 +218,7 @@ static bool read_statement(struct reader *r)
         r->at++;
         return read_names(r, item, false);
     }
-    // Other statements: a function, a constant, a precision statement.
+    // Skips other statements: a function, a constant, a precision statement.
     while (r->at < r->d->word_count && !next_is(r, ";") && !next_is(r, "{"))
         r->at++;
     if (take(r, "{"))

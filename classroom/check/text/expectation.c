@@ -1,4 +1,4 @@
-// expectation.c: the terms that shaders are expected to compute, read from their declarations.
+// expectation.c: derives the terms that shaders are expected to compute from their declarations.
 #include "expectation.h"
 
 #include <stdio.h>

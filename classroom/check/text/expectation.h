@@ -8,7 +8,7 @@
 
 #include "shader_interface.h"
 
-// The differences of the expected scene from the reference scene.
+// The differences between the expected scene and the reference scene.
 enum expectation {
     EXPECT_NO_AMBIENT = 1,
     EXPECT_NO_DIFFUSE = 2,

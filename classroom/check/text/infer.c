@@ -16,7 +16,8 @@ enum { MAX_WORDS = 30000, MAX_DECLARED = 500, MAX_STEPS = 100000 };
 
 struct inference {
     const struct declarations *vertex, *fragment;
-    const char *chain[MAX_CHAIN]; // matrices applied to the position on its way to gl_Position, the last one first
+    // the matrices that transform the position to gl_Position; the last applied matrix is first
+    const char *chain[MAX_CHAIN];
     int chain_count, steps;
     const char *position; // the attribute that determines gl_Position
     bool has_model, has_model_view, has_eye, has_light, has_normal_matrix;

@@ -83,7 +83,7 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
         s->ambient = color_of(&d->ambient_color, s->ambient, own_color, own_color);
     if (!own_specular)
         s->specular = color_of(&d->specular_color, s->specular, own_color, own_color);
-    // Black cannot replace a missing strength if another term has the same colour.
+    // A black colour cannot replace a missing strength if another term has the same colour.
     bool shared = (!ambient && d->ambient_color.source == COLOR_OF_DIFFUSE) ||
                   (!own_specular && d->specular_color.source == COLOR_OF_DIFFUSE);
     bool lit_diffuse = declares(r, SEMANTIC_LIGHT_COLOR) && lit_specular;
@@ -101,8 +101,8 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
                      LIGHT_SPECULAR);
 }
 
-// With metalness and roughness there is no separate strength: if a scene shows only the ambient term, its lights are
-// dark instead.
+// Adapts a scene to metalness and roughness, for which there is no separate strength. If a scene shows only the ambient
+// term, its lights are dark instead.
 static void adapt_physical(const struct shader_interface *r, struct reference_scene *s)
 {
     const struct contract_defaults *d = &r->defaults;
@@ -238,8 +238,8 @@ int shader_interface_light(const struct shader_interface *r, const struct refere
     return -1;
 }
 
-// Removes the lights for which there is no element, and adds a black light if an element is free, so that a shader that
-// reads only the last light draws black.
+// Removes the lights for which there is no array element. If an element is free, adds a black light, so that a shader
+// that reads only the last light draws black.
 static void place_lights(const struct shader_interface *r, struct reference_scene *s)
 {
     int taken[MAX_LIGHT_GROUPS] = {0}, kept = 0;

@@ -15,8 +15,8 @@ struct range {
     int first, end; // the lights that a condition on `i` selects: from `first` to before `end`
 };
 
-// Parses "i >= 1 && i < 3" or one half of it; without a condition all lights are selected. Returns the position after
-// it.
+// Parses "i >= 1 && i < 3" or one half of such a condition. Without a condition, all lights are selected. Returns the
+// position after it.
 static int read_condition(const struct declarations *d, int at, struct range *range)
 {
     *range = (struct range){0, MAX_SCENE_LIGHTS};

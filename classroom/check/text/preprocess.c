@@ -22,7 +22,7 @@ struct tokens {
 
 struct macro {
     char name[64];
-    bool function, disabled; // a macro is disabled during its own expansion
+    bool function, disabled; // `disabled` is set during the macro's own expansion
     int parameter_count;
     char parameters[MAX_PARAMETERS][64];
     const struct token *body;

@@ -11,7 +11,7 @@ static bool is(const struct declarations *d, int i, const char *text)
     return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
 }
 
-// Parses a number with its sign and moves past it. Returns false if there is none.
+// Parses a number with its sign, and advances *at past the number. Returns false if there is none.
 static bool read_number(const struct declarations *d, int *at, double *out)
 {
     bool minus = is(d, *at, "-");
@@ -26,7 +26,7 @@ static bool read_number(const struct declarations *d, int *at, double *out)
     return true;
 }
 
-// Parses vec3(a) or vec3(a, b, c) and moves past it.
+// Parses vec3(a) or vec3(a, b, c), and advances *at past it.
 static bool read_vector(const struct declarations *d, int *at, double out[3])
 {
     if (!is(d, *at, "vec3") || !is(d, *at + 1, "("))

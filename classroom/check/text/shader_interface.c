@@ -12,7 +12,8 @@
 #include "maps.h"
 #include "shader_constants.h"
 
-// Returns whether the shader reads a declared uniform. A struct member counts only after a dot, other names anywhere.
+// Returns whether the shader reads a declared uniform. A struct member counts as read only after a dot; other names
+// count anywhere.
 static bool is_used(const struct declarations *d, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -246,7 +247,8 @@ static void apply_lambent_rules(struct shader_interface *r)
         r->groups[g].kinds |= NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
 }
 
-// Returns the possible kinds of light of a shader with Lambent's names, by the members that it reads: lights[i].cone.
+// For a shader with Lambent's names, returns the possible kinds of light, which follow from the members that the shader
+// reads, such as lights[i].cone.
 static unsigned lambent_light_kinds(const struct shader_interface *r)
 {
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
@@ -332,13 +334,13 @@ static void find_lights(struct shader_interface *r)
             group->kinds = lambent_light_kinds(r);
         else if (!group->kinds && group->has_direction)
             group->kinds = NEED_DIRECTIONAL;
-        if (!group->kinds && group->count) { // colours without a position
+        if (!group->kinds && group->count) { // the group contains colours but no position
             placeless = placeless < 0 ? g : placeless;
             group->count = 0;
         }
         all |= group->count ? group->kinds : 0;
     }
-    if (!all) // the position is in the vertex shader, or is a constant
+    if (!all) // if none is found, the position is in the vertex shader or is a constant
         r->groups[placeless < 0 ? 0 : placeless] = (struct light_group){
             .count = 1, .kinds = r->contract->supports & (NEED_POINT | NEED_DIRECTIONAL), .list = false};
 }

@@ -17,7 +17,7 @@
 // Runs the drawing process, which reads a request from standard input and writes the result to standard output.
 void check_worker(const char *memory_limit_bytes) __attribute__((noreturn));
 
-// The value of lam_check_params.user for check_process.
+// The limits for check_process, which receives this struct as lam_check_params.user.
 struct check_process {
     double time_limit_s; // limits the processor time of all threads
     uint64_t memory_limit_bytes;
@@ -42,8 +42,8 @@ bool check_is_vertex(const char *path);   // decided by the extension: .vert, .v
 bool check_is_fragment(const char *path); // decided by the extension: .frag, .fs, .fsh or .fragment, also followed by
                                           // .glsl
 
-// Pairs the files of a command line. A vertex shader belongs to the fragment shader with the same folder and name;
-// fragment shaders without one use `vertex`. Returns the number of submissions, or −1 on failure.
+// Pairs the files of a command line. A vertex shader belongs to the fragment shader with the same folder and name.
+// Fragment shaders without such a vertex shader use `vertex`. Returns the number of submissions, or −1 on failure.
 int check_pair(int count, char **files, const char *vertex, struct check_submission **submissions, lam_error *error);
 
 // Finds the submissions of a class in alphabetical order. Returns their number, or −1 on failure.
@@ -92,7 +92,7 @@ struct check_points check_points_of(const lam_check_report *report);
 void check_print_no_finding(FILE *file, const lam_check_report *report);
 void check_report_text(FILE *file, const lam_check_report *report, const char *shader, double tolerance);
 void check_report_line(FILE *file, const struct check_result *result); // prints a line of text for a class
-// `name` is the name of a submission in a class, otherwise NULL.
+// In a class, `name` is the name of the submission; otherwise it is NULL.
 void check_report_json(FILE *file, const struct check_result *result, const char *name, double tolerance);
 // Prints the lists of contracts, scenes and mistakes.
 bool check_print_lists(FILE *file, lam_error *error);
@@ -101,8 +101,7 @@ bool check_print_lists(FILE *file, lam_error *error);
 // "" if the shader passes.
 const char *check_says(const lam_check_report *report);
 
-// Writes a CSV value, in quotes if necessary. Escapes names that start like a formula, which a spreadsheet would
-// evaluate.
+// Writes a CSV value, in quotes if necessary. Escapes names that a spreadsheet would evaluate as formulas.
 void check_csv_text(FILE *file, const char *text);
 
 // Write the rows of a CSV file and of Moodle's worksheet. They return 0, or the errno of a file that cannot be written.
@@ -150,7 +149,7 @@ struct check_batch {
     int count;
     bool in_class;
     struct check_table tables[CHECK_TABLES];
-    bool without_sheets;     // the folder for sheets cannot be created
+    bool without_sheets;     // set if the folder for sheets cannot be created
     struct check_page *page; // NULL if there is no page
 };
 

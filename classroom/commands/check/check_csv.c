@@ -1,4 +1,4 @@
-// check_csv.c: writes comma-separated values (RFC 4180) with one row for each shader.
+// check_csv.c: writes a file of comma-separated values (RFC 4180), with one row for each shader.
 #include "check.h"
 
 #include <errno.h>

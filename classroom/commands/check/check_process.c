@@ -157,7 +157,7 @@ struct child {
     int to, from; // −1 if closed
 };
 
-// Sets a limit that the system enforces in case the parent dies first.
+// Sets a limit of processor time that the system enforces even if the parent process dies.
 static void bound_time(double limit_s)
 {
     rlim_t seconds = (rlim_t)limit_s + 2;
@@ -184,7 +184,7 @@ static void become_worker(const char *memory, const char *path)
 static bool start(struct child *child, const struct check_process *how, lam_error *error)
 {
     const char *path = (const char *)getauxval(AT_EXECFN);
-    char memory[32]; // written before fork(), since other threads may hold locks
+    char memory[32]; // written before fork(), because other threads may hold locks during fork()
     snprintf(memory, sizeof memory, "%llu", (unsigned long long)how->memory_limit_bytes);
     int in[2] = {-1, -1}, out[2] = {-1, -1};
     *child = (struct child){-1, -1, -1};
@@ -192,7 +192,7 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     pid_t parent = getpid();
     child->pid = piped ? fork() : -1;
     if (child->pid == 0) {
-        interrupt_with_parent(parent); // the worker inherits it
+        interrupt_with_parent(parent); // the worker inherits this setting
         bound_time(how->time_limit_s);
         if (dup2(in[0], STDIN_FILENO) >= 0 && dup2(out[1], STDOUT_FILENO) >= 0)
             become_worker(memory, path ? path : "lambent");
@@ -213,8 +213,8 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     return true;
 }
 
-// Sends as much as the pipe accepts. If the process has closed its end of the pipe, it has died, and its exit status
-// will follow.
+// Sends as many bytes as the pipe accepts. If the process has closed its end of the pipe, it has died, and its exit
+// status will follow.
 static void send_some(struct child *child, const lam_bytes *request, size_t *sent)
 {
     ssize_t n = write(child->to, (const char *)request->data + *sent, request->size - *sent);

@@ -328,7 +328,7 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
         curve->below = find_below(curve, 1.0 / 255, kind->farthest);
     }
     plot->x_max = o->plot.to > 0 ? o->plot.to : kind->x_max > 0 ? kind->x_max : length_of(plot, kind->farthest);
-    // Attenuations may start above 1. Clips values above 2.
+    // Attenuations may start above 1. The plot clips values above 2.
     for (int i = 0; i < plot->count; i++)
         for (int k = 0; k <= TABLE_STEPS; k++)
             if (plot->curves[i].value(&plot->curves[i], plot->x_max * k / TABLE_STEPS) > 1)
@@ -342,7 +342,7 @@ static void print_text(FILE *file, const struct plot *plot)
 {
     for (int i = 0; i < plot->count; i++) {
         const struct curve *c = &plot->curves[i];
-        // Pads by characters, not bytes.
+        // Pads by the number of characters, not of bytes.
         int letters = 0;
         for (const char *s = c->label; *s; s++)
             letters += (*s & 0xC0) != 0x80;

@@ -159,7 +159,7 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
         taken[k] = -1e9;
     double last = -1;
     for (int n = 0; n < plot->count; n++) {
-        // The next mark to the right.
+        // Find the next mark to the right.
         const struct curve *curve = NULL;
         int at_once = 0;
         for (int i = 0; i < plot->count; i++) {
@@ -190,8 +190,8 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
     return true;
 }
 
-// Draws a curve's line in the legend. If the curve falls below 1/255 outside the axis, the plot has no dot for it, and
-// the legend gives the value.
+// Draws a curve's line in the legend. If the curve falls below 1/255 outside the axis, the plot contains no dot for
+// this value, and the legend states it.
 static const char *legend_of(const struct plot *plot, const struct curve *curve, char text[LEGEND_SIZE])
 {
     snprintf(text, LEGEND_SIZE, "%s", curve->label);

@@ -138,7 +138,7 @@ LIGHT_SHARE passed_surface(int at, bool back, vec3 w)
     int side = int(back ? head.y : head.x);
     vec4 texcoords = tree_texel(at + 1) * w.x + tree_texel(at + 2) * w.y + tree_texel(at + 3) * w.z;
     vec4 color = head.z > 0.5 ? tree_texel(at + 4) * w.x + tree_texel(at + 5) * w.y + tree_texel(at + 6) * w.z : vec4(1.0);
-    vec4 rule = tree_texel(side);     // alpha, its mode, the cutoff, and what it transmits: 0 nothing, 1 some, 2 all
+    vec4 rule = tree_texel(side);     // alpha, alpha mode, cutoff, and transmission: 0 none, 1 some, 2 all
     vec4 maps = tree_texel(side + 2); // positions of the maps of base colour, opacity, transmission and metallic, or 0
     vec4 base = maps.x > 0.0 ? surface_map(int(maps.x), texcoords) : vec4(1.0);
     float opacity = 1.0;

@@ -1,6 +1,6 @@
 // texture.glsl: texels of maps, and filters.
 
-// Texture coordinates, and their derivatives by the window's x and y.
+// Texture coordinates, and their derivatives with respect to the window's x and y.
 STRUCT(footprint)
 {
     vec2 at, dx, dy;

@@ -29,7 +29,7 @@ static bool hands_on_four(const struct declarations *fragment)
     return false;
 }
 
-// Returns the lighting of a contract with metalness and roughness, as bits of fault_where.
+// Returns the bits of fault_where for a contract with metalness and roughness.
 static unsigned physical_bits(const struct physical_convention *c)
 {
     return WHERE_PHYSICAL | (c->masking == MASKING_SCHLICK ? WHERE_SCHLICK : WHERE_SMITH) |

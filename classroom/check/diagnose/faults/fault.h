@@ -1,7 +1,7 @@
 // fault.h: the known mistakes. Each is a fault: a set of switches of the fault shader.
 //
-// The fault shader (fault_light.glsl) computes the lighting correctly or with faults switched on. It is independent of
-// the library's own equations, which have no such switches.
+// The fault shader (fault_light.glsl) computes the lighting correctly or with faults switched on. The fault shader does
+// not use the library's own equations, which contain no such switches.
 #ifndef FAULT_H
 #define FAULT_H
 
@@ -154,7 +154,7 @@ fault_set fault_set_add(const fault_set *set, const struct fault *fault);
 bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs);
 
-// Returns whether the fault is not a mistake in these shaders, but an accepted form: a style, or a form that their
+// Returns whether the fault is an accepted form in these shaders, and not a mistake: a style, or a form that their
 // contract does not forbid.
 bool fault_is_style(const struct fault *fault, const struct shader_interface *interface);
 

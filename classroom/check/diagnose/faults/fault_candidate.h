@@ -57,7 +57,7 @@ bool search_is_spent(struct state *t);
 // one of several faults may spoil the scene if it is applied alone.
 double candidate_score_of(const struct state *t, int index, const struct difference *d);
 
-// Measures a candidate in all scenes. It stops when the mean exceeds its limit.
+// Measures a candidate in all scenes. Stops when the mean exceeds its limit.
 bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_error *error);
 
 // Measures a set that consists of a parent and one more fault. `o` is the result of this fault alone. Sets `useful` if
@@ -68,7 +68,7 @@ bool candidate_try_child(struct state *t, const struct candidate *parent, const 
 // Recomputes the set from its members.
 void candidate_rebuild(struct candidate *c);
 
-// Completes a member to be added to a set. Returns false on error. Sets `possible` to whether it can be added.
+// Completes a member to be added to a set. Returns false on error. Sets `possible` to whether the member can be added.
 bool candidate_prepare(struct state *t, const fault_set *base, const struct fault *row, struct found_fault *out,
                        bool *possible, lam_error *error);
 

@@ -29,11 +29,11 @@ struct fault_search {
     unsigned expectation; // distinguishes the expected appearance of scenes (render_key)
     double tolerance;
     unsigned needs; // the needs of all scenes together
-    // Some names have no value, so only a single fault that explains everything is accepted.
+    // If some names have no value, only a single fault that explains everything is accepted.
     bool has_unset_names;
     uint64_t max_pictures; // after this many pictures, no further sets are tried
     double before;         // mean difference without faults, over the scenes that are not spoilt
-    // Results: the faults, the one that explains most first, and whether they explain everything.
+    // Results: the found faults (the fault that explains most is first), and whether they explain everything.
     struct found_fault found[MAX_FOUND_FAULTS];
     int count;
     bool certain;

@@ -1,4 +1,4 @@
-// fault_shader.h: draws a reference scene with faults switched on, with a painter.
+// fault_shader.h: uses a painter to draw a reference scene with faults switched on.
 #ifndef FAULT_SHADER_H
 #define FAULT_SHADER_H
 

@@ -347,8 +347,8 @@ struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum verte
 void meshes_evict(struct gl_frame *f);
 void meshes_free(struct gl_device *device);
 
-// Sets the attributes of a vertex array, by the locations of glsl.h. With `lit`, attributes that only lighting reads are
-// omitted.
+// Sets the attributes of a vertex array, by the locations of glsl.h. With `lit`, omits attributes that only lighting
+// reads.
 void mesh_describe(struct gl_frame *f, const struct gl_mesh *mesh, GLuint array, bool lit);
 // Returns the number of floats per vertex in the buffer.
 size_t mesh_vertex_floats(const lam_mesh *mesh);

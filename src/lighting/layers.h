@@ -2,9 +2,9 @@
 // clear coat, sheen, anisotropy, a thin film, transmission.
 //
 // The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). The formulas are from the Khronos
-// extensions KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set` has
-// a bit for each layer of the material (layer_kinds.h); without layers, lobes.h and sum.h are complete. Colours of the
-// base layer are multiplied by pi, like every lobe here.
+// extensions KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set`
+// contains a bit for each layer of the material (layer_kinds.h). For materials without layers, lobes.h and sum.h are
+// sufficient. Colours of the base layer are multiplied by pi, like every lobe here.
 
 // The numbers of a material at a point.
 STRUCT(layer_values)
@@ -49,7 +49,7 @@ STRUCT(layered)
     num iridescence_ior;
     num film;
     num opaque; // share of the light in the dielectric that is not transmitted
-    num matt;   // share of that light that leaves as matt light
+    num matt;   // share of that light that is reflected diffusely
     vec3 sheen_color;
     num sheen_largest; // the largest channel
     num sheen_roughness;
@@ -105,7 +105,8 @@ FN num cosine_of_turns(num x)
 // Belcour and Barla (2017), in the approximation of KHR_materials_iridescence: the reflectance of a thin film over a
 // surface of f0, for light at an angle to the film's normal with the cosine `c`. Light reflected by both sides of the
 // film interferes; the integral over the wavelengths is computed in Fourier space, with Gaussians for the sensitivities
-// of the eye. `path` is the optical path difference in nanometres times the order, `shift` the phase shifts in turns.
+// of the eye. `path` is the optical path difference in nanometres times the order, and `shift` contains the phase
+// shifts in turns.
 FN vec3 film_sensitivity(num path, vec3 shift)
 {
     num square = path * path;

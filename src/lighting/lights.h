@@ -29,9 +29,8 @@ STRUCT(light_sample)
     num spot;        // the cone's factor, 0...1
 };
 
-// Returns 1 / (a + b d + c d^2), or 0 if that sum is 0. With a range, times the window of glTF's KHR_lights_punctual:
-// max(min(1
-// - (d / range)^4, 1), 0).
+// Returns 1 / (a + b d + c d^2), or 0 if that sum is 0. With a range, the result is multiplied by the window of glTF's
+// KHR_lights_punctual: max(min(1 - (d / range)^4, 1), 0).
 FN num attenuation_at(num d, light_source light, int falloff)
 {
     num sum = light.constant + (light.linear + light.quadratic * d) * d;
@@ -48,8 +47,8 @@ FN num attenuation_at(num d, light_source light, int falloff)
 //    cutoff:    [c >= cos cutoff] max(c, 0)^exponent
 //    exponent:  max(c, 0)^exponent
 //    cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in KHR_lights_punctual
-// The edge itself is always lit, however c was rounded: 5e-7 is the largest error of c. The cones multiply that error
-// by 1 / (cos inner - cos outer), the power by its exponent.
+// The edge itself is always lit, whatever the rounding error of c, which is at most 5e-7. The cones multiply that error
+// by 1 / (cos inner - cos outer), and the power multiplies it by the exponent.
 FN num spot_at(num c, light_source light, int kind)
 {
     num spot = num_of(1.0f);

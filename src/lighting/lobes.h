@@ -44,14 +44,14 @@ FN mask present(vec3 w) { return dot3(w, w) > 0.0f; }
 
 // Returns the mirror image of w about n:
 //    2 (n.w) n - w
-// For l it is the r of textbooks; for v it is the direction in which an environment is looked up.
+// For l, the result is the r of textbooks. For v, it is the direction in which an environment is looked up.
 FN vec3 mirror3(vec3 w, vec3 n) { return sub3(scale3(n, 2.0f * dot3(n, w)), w); }
 
 // Returns the unit vector halfway between l and v, both of length 1.
 FN vec3 halfway3(vec3 l, vec3 v) { return unit3(add3(l, v)); }
 
-// Returns w made perpendicular to n and unit (Gram and Schmidt); 0 if w is parallel to n, |w x n| < 1e-4 |w|: the
-// remainder of w is then only rounding error.
+// Returns the component of w perpendicular to n, as a unit vector (Gram and Schmidt). Returns 0 if w is parallel to n,
+// that is, if |w x n| < 1e-4 |w|; the component would then be only rounding error.
 FN vec3 perpendicular3(vec3 w, vec3 n)
 {
     vec3 across = sub3(w, scale3(n, dot3(n, w)));
@@ -116,8 +116,8 @@ FN lobe_sample blinn_phong_lobe(surface s, vec3 l)
     return b;
 }
 
-// Kajiya and Kay (1989): a thread along t reflects light into a cone around t. With the angles between t and l, t and
-// v:
+// Kajiya and Kay (1989): a thread along t reflects light into a cone around t. With the angles between t and l, and
+// between t and v:
 //    D = sin(t,l)
 //    S = max(sin(t,l) sin(t,v) - cos(t,l) cos(t,v), 0)^shininess
 // On a solid surface (fibre = 0), D and S are 0 unless n.l > 0. A fibre (fibre = 1) has no inside and therefore no such
@@ -251,7 +251,7 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
 // ROUGHNESS_MIN to 1, times 32 roots of n.v (scripts/albedo_tables.py).
 STRUCT(albedo_cell)
 {
-    num first;  // the entry above and to the left
+    num first;  // index of the entry above and to the left
     num across; // fractions towards the next entries
     num down;
 };
@@ -280,7 +280,7 @@ FN num single_scattering(num n_dot_v, num roughness)
     return upper + (lower - upper) * p.down;
 }
 
-// Returns the same integral with Schlick's weight (1 - v.h)^5.
+// Returns the integral of single_scattering, weighted by Schlick's (1 - v.h)^5.
 FN num schlick_scattering(num n_dot_v, num roughness)
 {
     albedo_cell p = albedo_cell_of(n_dot_v, roughness);

@@ -10,8 +10,8 @@ FN vec3 field_tangent(vec3 n, vec3 y, vec3 x)
     return pick3(dot3(around, around) < 1.0e-8f, unit3(x), around);
 }
 
-// Returns the normal from a normal map, given along tangent, bitangent and normal, none of which is normalised after
-// interpolation (MikkTSpace).
+// Returns the normal from a normal map, whose components are along the tangent, the bitangent and the normal. None of
+// these three vectors is normalised after interpolation (MikkTSpace).
 FN vec3 mapped_normal(vec3 map, vec3 tangent, vec3 bitangent, vec3 normal)
 {
     return add3(add3(scale3(tangent, map.x), scale3(bitangent, map.y)), scale3(normal, map.z));
@@ -53,8 +53,8 @@ FN num map_variance(vec3 mean, num scale, num detail)
     return saturate(detail) * (scale * scale) * ((1.0f - length) / max_of(length, num_of(0.1f)));
 }
 
-// Blinn, "Simulation of wrinkled surfaces" (1978): the unit normal n, tilted by the slopes of a bump map along the
-// directions of increasing columns and rows of the picture, of any length.
+// Blinn, "Simulation of wrinkled surfaces" (1978): returns the unit normal n, tilted by the slopes of a bump map. The
+// directions of increasing columns and rows of the picture may have any length.
 FN vec3 bumped_normal(vec3 n, vec3 across, vec3 down, num slope_across, num slope_down)
 {
     return sub3(n, add3(scale3(perpendicular3(across, n), slope_across), scale3(perpendicular3(down, n), slope_down)));

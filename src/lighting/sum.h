@@ -136,7 +136,7 @@ STRUCT(surroundings)
 // The environment's light that a physical material reflects.
 STRUCT(returned_light)
 {
-    vec3 diffuse;  // from its matt part
+    vec3 diffuse;  // from its diffuse part
     vec3 specular; // from its microfacets
 };
 

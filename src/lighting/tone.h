@@ -77,7 +77,7 @@ FN vec3 saturate3(vec3 c) { return vec3_of(saturate(c.x), saturate(c.y), saturat
 
 // --- C only: the GLSL text ends here (src/glsl/embed.py).
 
-// The table of the curves: enumerator of lam_tone without LAM_TONE_, function, word, summary.
+// The table of the curves: enumerator of lam_tone without LAM_TONE_, function, keyword, summary.
 // clang-format off
 #define TONES(X) \
     X(REINHARD, reinhard_tone, "reinhard", "x / (1 + x), each channel by itself") \

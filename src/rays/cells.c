@@ -12,8 +12,8 @@
 #include <string.h>
 
 enum {
-    PART = 32, // a part of a node with at most this many triangles is no longer divided by cells
-    // a range up to this size is divided by one thread; the nodes of larger ones have all their children
+    PART = 32, // parts of a node with at most this many triangles are no longer divided by cells
+    // one thread divides a range of up to this size; nodes of larger ranges have the maximum number of children
     SMALL = NODE_CHILDREN * PART,
     CELL_BITS_MAX = 16,
     CHUNKS_MAX = 16,
@@ -214,7 +214,8 @@ static void add(struct large *l, const struct range *r, struct list *list)
     ranges_of(list)[list->count++] = *r;
 }
 
-// Divides a range by its cells. Returns false if it has only one cell, all its centres are equal, or it is too deep.
+// Divides a range by its cells. Returns false if the range contains only one cell, if all its centres are equal, or if
+// the range is too deep.
 static bool halve_cells(struct large *l, struct range *r, struct range *right)
 {
     struct split split;

@@ -68,8 +68,8 @@ static void share_at(const struct frame *frame, uint32_t number, bool back, floa
         passed[0] = passed[1] = passed[2] = 1 - ray_opacity(frame, number, back, b1, b2);
 }
 
-// Records the light that a translucent triangle lets through, and returns the rays that it blocks. It uses the side
-// that faces the light.
+// Records the light that a translucent triangle lets through, and returns the rays that it blocks. Uses the side of the
+// triangle that faces the light.
 static unsigned filter_ray(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                            const struct ray_view *view, unsigned lanes)
 {

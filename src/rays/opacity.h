@@ -5,7 +5,7 @@
 #include "frame.h"
 
 // Returns the opacity, 0…1, of a triangle of the frame at the point with the weights 1 − b1 − b2, b1 and b2; textures
-// are read at level 0. A masked surface has 0 or 1. With `back`, returns the opacity of its back side.
+// are read at level 0. The opacity of a masked surface is 0 or 1. With `back`, returns the opacity of its back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
 // Gets the light (red, green, blue) that passes such a point: 1 − opacity, plus the light that continues behind a
@@ -26,8 +26,8 @@ struct ray_layers {
     bool failed; // out of memory
 };
 
-// Get the linear colour with alpha of a corner of a mesh with colours, and its texture coordinates in a map's set; the
-// latter returns false if the mesh has none. Corners are counted over all triangles.
+// Get the linear colour with alpha of a corner of a mesh with colours, and a corner's texture coordinates in a map's
+// set. The second function returns false if the mesh has no such coordinates. Corners are counted over all triangles.
 void ray_corner_color(const lam_mesh *mesh, uint32_t corner, float out[4]);
 bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float out[2]);
 

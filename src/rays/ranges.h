@@ -201,10 +201,11 @@ static inline uint32_t partition(struct primitive *p, uint32_t count, const stru
 
 // --- the nodes of one range (splits.c)
 
-// Computes the box of a range's primitives, and of twice their centres.
+// Computes the box of a range's primitives, and the box of twice their centres.
 void range_measure(const struct primitive *p, uint32_t count, struct box *box, struct box *middles);
 
-// Divides a range into itself and *right. Returns false if it becomes a leaf, or memory runs out.
+// Divides a range: reduces `range` to the left half, and sets *right to the right half. Returns false if the range
+// becomes a leaf, or if memory runs out.
 bool range_halve(struct builder *builder, struct range *range, struct range *right);
 
 // Stores the node of a range that was divided into `parts`, and sets where the parts store their nodes.

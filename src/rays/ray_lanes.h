@@ -6,10 +6,10 @@
 //
 // The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013): seen along the ray, with
 // the origin at (0, 0), the signs of cross products of a triangle's corners decide on which side of each edge the ray
-// passes. Rounding is monotonic, so that such a sign is never wrong, only 0, and 0 belongs to both triangles at an
-// edge: no ray passes between them. A corner at the origin gives t = 0, so triangles around a point do not block its
-// rays. Nor does a triangle whose plane contains the start point of the ray (through_points), since t is then 0 except
-// for rounding.
+// passes. Rounding is monotonic, so that such a sign can be 0 but is never wrong. A sign of 0 counts as inside for both
+// triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles around a
+// point do not block its rays. A triangle whose plane contains the start point of the ray (through_points) does not
+// block the ray either, because t is then 0 except for rounding.
 //
 // Rays with nearly the same direction form a bundle and traverse the hierarchy together: at a node, the intervals of
 // their origins and directions are tested against the boxes of all its children at once (Boulos, Wald and Shirley,
@@ -22,8 +22,8 @@
 #include "eights.h"
 #include "hierarchy.h"
 
-// The rays of a bundle differ from one of them by at most this distance at their starts, and at their ends at full
-// length (at most 1), summed over coordinates.
+// The rays of a bundle differ from the first of them by at most this distance, summed over coordinates. This limit
+// applies at the starts of the rays, and at their ends at full length (at most 1).
 #define BUNDLE_SPREAD 0.2f
 
 struct ray_lanes {
@@ -31,7 +31,7 @@ struct ray_lanes {
     double end[LANES];                                         // may be infinite
     // The twin of the triangle on which the ray starts, which never blocks it; NO_TRIANGLE: none.
     int32_t own[LANES];
-    double point[3][LANES]; // the start point: the origin, unless that was moved off the surface
+    double point[3][LANES]; // the start point: the origin, unless the origin was moved off the surface
 };
 
 // Rays seen along their directions d, with k the largest component: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
@@ -83,8 +83,8 @@ LANE_FN dnum along(const double row[3][LANES], int at, const dnum p[3])
     return (dnum_load(row[0] + at) * p[0] + dnum_load(row[1] + at) * p[1]) + dnum_load(row[2] + at) * p[2];
 }
 
-// Returns the lanes of `active` whose rays a triangle blocks. `weights` (may be NULL) gets the weights of its corners,
-// each times their sum, and `t` the rays' t.
+// Returns the lanes of `active` whose rays a triangle blocks. `weights` (may be NULL) gets the weights of the
+// triangle's corners, each multiplied by the sum of the weights. `t` gets the rays' t.
 LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_lanes *ray, const struct ray_view *view,
                          unsigned active, double weights[3][LANES], double t[LANES])
 {
@@ -142,9 +142,9 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
 // The rays of `lanes` cross a triangle. Returns the lanes whose start point is in the triangle's plane, within the
 // rounding error:
 //    |N·(p_0 − point)| ≤ 2 Σ_i |N_i| rounding_i + 2⁻⁵⁰ Σ_i (|a_j b_k| + |a_k b_j|) |p_0 − point|_i    N = a × b
-// where a and b lead from corner p_0 to the others. Both triangle and point are rounded (hierarchy.rounding); the last
-// term is the error of this determinant (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
-// geometric predicates", 1997, has 7 · 2⁻⁵³ instead of 8 · 2⁻⁵³).
+// where a and b are the vectors from corner p_0 to the other corners. Both triangle and point are rounded
+// (hierarchy.rounding); the last term is the error of this determinant (Shewchuk, "Adaptive precision floating-point
+// arithmetic and fast robust geometric predicates", 1997, has 7 · 2⁻⁵³ instead of 8 · 2⁻⁵³).
 LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_triangle *triangle,
                                 const struct ray_lanes *ray, unsigned lanes)
 {
@@ -207,7 +207,8 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
         sum += (d + num_load(origin[i])) * 0.0f;
         num_store(b->low[i], num_load(origin[i]) + reach);
         num_store(b->high[i], num_load(origin[i]) - reach);
-        // The direction is parallel to the planes: the ray never reaches them, or too far away to matter.
+        // The direction is parallel to the planes: the ray never reaches the planes, or reaches them too far away to
+        // matter.
         num least = pick(d < 0.0f, num_of(-1e-30f), num_of(1e-30f));
         num_store(b->inverse[i], 1.0f / pick(absolute(d) < 1e-30f, least, d));
     }

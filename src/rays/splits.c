@@ -117,7 +117,7 @@ static void divide_at(struct builder *b, struct range *r, uint32_t left, struct 
     halves_of(r, left, boxes, middles, right);
 }
 
-// Compares by twice the centre along one axis, then by number.
+// Compares two primitives by twice the centre along one axis, then by number.
 static int compare_along(const void *a, const void *b, int axis)
 {
     const struct primitive *p = a, *q = b;
@@ -222,7 +222,7 @@ static bool sort_group(struct builder *b, const struct range *r)
 }
 
 // Divides a range of few triangles at the midpoint between the outermost centres, which is hardly worse than the best
-// of many boundaries, and much faster to find. Returns false if it becomes a leaf.
+// of many boundaries, and much faster to find. Returns false if the range becomes a leaf.
 static bool halve_few(struct primitive *p, struct range *r, int axis, struct range *right)
 {
     struct primitive sorted[MIDDLE_MAX];

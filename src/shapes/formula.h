@@ -80,7 +80,7 @@ int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b
 // derivatives[i] belongs to node i.
 void formula_differentiate(struct formula_graph *graph, int count, enum formula_op parameter, int *derivatives);
 
-// A surface. Only one thread at a time may use it, because its nodes store the values.
+// A surface. Only one thread at a time may use a surface, because its nodes store the values.
 struct formula {
     struct formula_node *nodes;
     int count;
@@ -98,7 +98,7 @@ struct formula {
 // Parses a text, which must outlive the formula. Errors: LAM_BAD_ARGUMENT with the column, LAM_LIMIT.
 bool formula_parse(const char *text, bool implicit, struct arena *arena, struct formula *formula, lam_error *error);
 
-// Parses a range, "0..2pi", whose ends may use the constants that the formula defines. `name` is for errors.
+// Parses a range, "0..2pi", whose ends may use the constants that the formula defines. Error messages use `name`.
 bool formula_range(struct formula *formula, const char *name, const char *text, double range[2], lam_error *error);
 
 // Makes the list of operations for evaluation; formula_range must not be called afterwards.

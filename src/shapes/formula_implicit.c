@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    CELLS = 96, // along the longest side, by default
+    CELLS = 96, // default number of cells along the longest side
     CELLS_MAX = 1024,
     SEARCH_CELLS = 64,
     SEARCH_POINTS = SEARCH_CELLS + 1,
@@ -81,7 +81,7 @@ static lam_vec3 gradient_at(void *user, lam_vec3 p)
 static double step_of(double from, double to, int i) { return from + (to - from) * ((double)i / SEARCH_CELLS); }
 
 // Finds the edges of a coarse lattice that the surface crosses, and gets the first and the last of their ends along
-// each axis. Returns false if there are none.
+// each axis. Returns false if the surface crosses no edge.
 static bool find_crossings(struct implicit *s, bool *inside, int first[3], int last[3])
 {
     static const int strides[3] = {1, SEARCH_POINTS, SEARCH_POINTS * SEARCH_POINTS};

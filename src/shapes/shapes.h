@@ -35,7 +35,8 @@ bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struc
                          lam_error *error);
 
 // Returns the point of the unit circle after `steps` of `around` steps per turn, from (1, 0) towards (0, 1). Quarter
-// turns are exact and mirrored steps give mirrored bits, so round shapes are closed and symmetric to the last bit.
+// turns are exact, and mirrored steps give bit-identical mirrored points, so round shapes are closed and symmetric to
+// the last bit.
 struct circle_point {
     double c, s;
 };

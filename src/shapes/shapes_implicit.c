@@ -7,12 +7,12 @@
 //
 // The table connects the vertices of a cell. Going around a face of the cell counter-clockwise, seen from outside the
 // cell, each run of inside corners begins after one crossed edge and ends before another. The surface intersects the
-// face in a line from the first of these edges to the second. A face with two opposite inside corners has two such
-// lines, each cutting off its corner. This rule depends only on the face, so both cells at the face agree and the mesh
-// has no holes. A crossed edge starts a line in one of its two faces and ends one in the other, so the lines form
-// closed loops, counter-clockwise seen from outside the surface. Loops are triangulated with diagonals that are not in
-// a face, because the neighbouring cell might have the same diagonal. Among these, the triangles that agree best with
-// the normals at their corners are chosen.
+// face in a line from the first of these edges to the second. A face with two opposite inside corners contains two such
+// lines, each of which cuts off one of these corners. This rule depends only on the face, so both cells at the face
+// agree and the mesh has no holes. A crossed edge starts a line in one of its two faces and ends a line in the other,
+// so the lines form closed loops. Seen from outside the surface, the loops are counter-clockwise. Loops are
+// triangulated with diagonals that are not in a face, because the neighbouring cell might have the same diagonal. Among
+// these triangulations, the one whose triangles agree best with the normals at their corners is chosen.
 #include "shapes.h"
 
 #include "fail.h"

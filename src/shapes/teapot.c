@@ -44,7 +44,8 @@ static void bernstein(double t, double b[4], double d[4])
     d[3] = 3 * t * t;
 }
 
-// Returns the index of the patch for a parameter, and the parameter within it. A joint belongs to the next patch.
+// Returns the index of the patch for a parameter, and the parameter within it. A parameter at a joint belongs to the
+// next patch.
 static int patch_of(double x, int steps, int count, double *within)
 {
     int patch = (int)(x / steps);

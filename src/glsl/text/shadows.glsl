@@ -303,9 +303,9 @@ LIGHT_SHARE passed_point(vec3 d, vec3 u, vec3 v, float distance, int i, float en
     return passed_ray(d + distance * (u * cos(angle) + v * sin(angle)), end);
 }
 
-// The light that passes along N rays to the points of a light's disc around p + d (light_pattern.h). The vector
-// across is as long as the disc's radius. If N exceeds LIGHT_PROBES, that many probes are traced first. If they agree, no other
-// rays are traced.
+// The light that passes along N rays to the points of a light's disc around p + d (light_pattern.h). The vector across
+// is as long as the disc's radius. If N exceeds LIGHT_PROBES, that many probes are traced first. If the probes agree, no
+// other rays are traced.
 LIGHT_SHARE passed_disc(vec3 d, vec3 across, float end, int count)
 {
     vec3 along = normalize(d);

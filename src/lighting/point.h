@@ -32,8 +32,8 @@ FN num widened_roughness(num roughness, num variance)
 }
 
 // Returns the variance of the unit normal over a pixel, from an interpolated normal of any length and its derivatives
-// with respect to the window's x and y. Positions within a pixel have the variance 1/12. (The paper uses 1 / (2 pi),
-// which blurs the reflections of small mirrors.) Only the part of a derivative that is perpendicular to the normal
+// with respect to the window's x and y. Positions within a pixel have the variance 1/12. The value 1 / (2 pi) of the
+// paper would blur the reflections of small mirrors. Only the part of a derivative that is perpendicular to the normal
 // turns it.
 FN num normal_variance(vec3 normal, vec3 by_x, vec3 by_y)
 {

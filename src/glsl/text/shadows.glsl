@@ -2,8 +2,8 @@
 
 uniform sampler2D shadow_tree; // nodes of the hierarchy, its triangles, and the position of each triangle by its number
 uniform mat4 shadow_matrix;    // eye space to the hierarchy's, where all triangles lie within -1...1
-uniform vec4 shadow_offsets;    // first texel of the triangles, and of their positions; 1 if the shadow terminator is corrected; number of rays to a light with a radius
-uniform vec4 shadow_rounding;  // hierarchy.rounding: the rounding error of a corner along each axis; w: hierarchy units per world unit
+uniform vec4 shadow_offsets;    // first texels of the triangles and of their positions; 1: the shadow terminator is corrected; rays per light with a radius
+uniform vec4 shadow_rounding;  // hierarchy.rounding: the rounding error of a corner, by axis; w: hierarchy units per world unit
 
 int lit_triangle = 0; // number in the frame of the triangle that the fragment or the vertex belongs to
 int lit_corner = 0; // the lit corner of that triangle
@@ -35,7 +35,7 @@ void start_rays(vec3 p, int number, float side)
 {
     int at = triangle_texel(number);
     if (from_vertices) {
-        bool apart = tree_texel(at + 1).w > 1.5; // a line or a point, which blocks no ray and is not among the triangles
+        bool apart = tree_texel(at + 1).w > 1.5; // a line or a point blocks no ray and is not among the triangles
         ray_origin = apart ? (shadow_matrix * vec4(p, 1.0)).xyz : tree_texel(at + lit_corner).xyz;
         ray_point = ray_origin;
         ray_twin = -1.0;
@@ -304,8 +304,8 @@ LIGHT_SHARE passed_point(vec3 d, vec3 u, vec3 v, float distance, int i, float en
 }
 
 // The light that passes along N rays to the points of a light's disc around p + d (light_pattern.h). The vector across
-// is as long as the disc's radius. If N exceeds LIGHT_PROBES, that many probes are traced first. If the probes agree, no
-// other rays are traced.
+// is as long as the disc's radius. If N exceeds LIGHT_PROBES, that many probes are traced first. If the probes agree,
+// no other rays are traced.
 LIGHT_SHARE passed_disc(vec3 d, vec3 across, float end, int count)
 {
     vec3 along = normalize(d);

@@ -12,7 +12,7 @@ bool is(int bit); // fault_light.glsl
 
 // The axes of the surface at a point, in the space of the lighting, and the texture coordinates.
 struct Frame {
-    vec4 tangent, bitangent; // axes of the mesh, as the vertex shader passes them; tangent.w is the sign of the bitangent
+    vec4 tangent, bitangent; // axes of the mesh, from the vertex shader; tangent.w is the sign of the bitangent
     vec2 texture_coordinate;
     vec3 point;
 };

@@ -11,7 +11,7 @@ out vec2 surface_texture_coordinate;
 #endif
 
 uniform mat4 normal_matrix4; // inverse transpose of to_lighting
-uniform vec4 window;         // scale and offset that map every second pixel of a picture to the pixels of a smaller picture
+uniform vec4 window;         // scale and offset that map every second pixel of a picture to the pixels of a smaller one
 
 #ifdef IN_VERTEX
 out vec4 vertex_color, vertex_color_back;

@@ -87,7 +87,7 @@ struct diagram {
 
 static struct point minus(struct point a, struct point b) { return (struct point){a.x - b.x, a.y - b.y}; }
 
-// Shorter arrows point towards the viewer.
+// Returns whether an arrow is so short that its vector points towards the viewer.
 static bool is_short(const struct diagram *g, int arrow)
 {
     return length_of(minus(g->tips[arrow], g->from)) < 9 * g->unit;

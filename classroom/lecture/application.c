@@ -14,7 +14,7 @@
 static const struct helper {
     const char *name, *text;
 } helpers[] = {
-    // Each function calls only earlier ones.
+    // Each function calls only functions above it.
     {"add", "static vec3 add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }\n"},
     {"subtract", "static vec3 subtract(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }\n"},
     {"times", "static vec3 times(vec3 a, vec3 b) { return (vec3){a.x * b.x, a.y * b.y, a.z * b.z}; }\n"},
@@ -104,7 +104,7 @@ static void add_hemispheres(struct text *text, const struct frame *frame)
     text_add(text, "};\n");
 }
 
-// Appends the lights, with the members that any of them needs.
+// Appends the lights, with the members that at least one of them needs.
 static void add_lights(struct text *text, const struct glsl_facts *f, const struct frame *frame, const int *order)
 {
     text_print(text, "\nstatic const struct {\n%s%s%s%s    vec3 diffuse%s;\n} lights[] = {\n",

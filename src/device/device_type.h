@@ -24,7 +24,7 @@ struct device_type {
 struct lam_device {
     const struct device_type *type;
     char name[96];
-    lam_isa isa; // LAM_ISA_AUTO and 0 threads if they do not apply to this device
+    lam_isa isa; // LAM_ISA_AUTO, and 0 threads, if instruction sets and threads do not apply to this device
     int threads;
     struct pool *pool; // NULL if only the calling thread runs tasks
     struct frame frame;

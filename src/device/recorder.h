@@ -25,7 +25,7 @@ struct recorder {
     float weight_1, weight_2;
     int lit_sample;
     float picture_x, picture_y;
-    float received, unobstructed; // set for a ground that catches shadows
+    float received, unobstructed; // set only for a ground that catches shadows
     lam_explained_map maps[LAM_MAP_COUNT];
     int map_count;
     lam_explained_values values;

@@ -107,7 +107,7 @@ static int drawn_style(const struct edge_task *task, uint32_t e)
         return plain_style(task, &task->edges[e]);
     if (weight != EDGE_UNWEIGHED)
         return EDGE_STYLE_FEATURE;
-    // Feature edges without a weight are outside the picture.
+    // A feature edge without a weight is outside the picture.
     return task->weights && !task->view->frame->settings.wireframe ? -1 : style_of(task, &task->edges[e], &kinds);
 }
 
@@ -157,7 +157,7 @@ static double height_over(const struct edge_task *task, uint32_t corner, const s
 }
 
 // If both triangles of a wireframe edge are narrower than FADE widths, the line is drawn thinner in proportion, down to
-// 1/FADE of its width. A fine mesh then looks evenly grey instead of black.
+// 1/FADE of its width. A fine mesh therefore looks evenly grey instead of black.
 enum { FADE = 5 };
 static double half_width(const struct edge_task *task, const struct mesh_edge *edge, const struct edge_line *line)
 {

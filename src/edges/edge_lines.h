@@ -1,4 +1,4 @@
-// edge_lines.h: data of edges between the mesh and the picture.
+// edge_lines.h: the data that describe edges on the way from the mesh to the picture.
 #ifndef EDGE_LINES_H
 #define EDGE_LINES_H
 
@@ -10,8 +10,8 @@
 struct edge_view {
     const struct frame *frame;
     const struct hierarchy *hierarchy;
-    double eye[3];    // in the hierarchy's space: the eye, or the direction to it with an orthographic camera
-    double near_[4];  // a p + b for p in that space is > 0 beyond the near plane
+    double eye[3];    // in the hierarchy's space: the eye or, with an orthographic camera, the direction to the eye
+    double near_[4];  // (a, b): for a point p in that space, a p + b is > 0 beyond the near plane
     bool every_hides; // every triangle hides edges: no triangle is culled or transparent
     double window[2]; // pixels
     struct loop_status *loop;

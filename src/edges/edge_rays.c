@@ -10,8 +10,8 @@
 #include "opacity.h"
 #include "ray_lanes.h"
 
-// A tolerance in the hierarchy's space, whose larger half side is ½ to 1: floats have a precision of 2⁻²⁴, coordinates
-// may be up to 16 times the size of the model (lam_mesh.origin), and text files have six digits.
+// A tolerance in the hierarchy's space, in which the model's larger half side is ½ to 1. Floats have a precision of
+// 2⁻²⁴, coordinates may be up to 16 times the size of the model (lam_mesh.origin), and text files have six digits.
 #define ROUNDING 0x1p-19
 
 #define JOIN_(a, b) a##_##b

@@ -99,8 +99,7 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
             largest = c > largest ? c : largest;
             largest_eye = e > largest_eye ? e : largest_eye;
         }
-    // The cofactor matrix is the inverse transpose times the determinant; only the sign of the determinant must be
-    // removed.
+    // The cofactor matrix is the inverse transpose times the determinant, of which only the sign must be removed.
     double scale = (draw->mirrored ? -1 : 1) / (largest > 0 ? largest : 1);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -418,7 +417,7 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
         settings->reflection = LAM_REFLECTION_AUTO;
 }
 
-// Sets the planes of the projection, and the distances that --show depth shows as black and white.
+// Sets the planes of the projection, and the distances for which --show depth draws black and white.
 static void set_planes(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, double near_plane,
                        double far_plane)
 {

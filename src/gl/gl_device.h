@@ -24,7 +24,7 @@
 #include "vertex_colors.h"
 
 enum {
-    PART_SIZE_MAX = 2048, // the largest width and height in pixels of a part that is drawn in one pass
+    PART_SIZE_MAX = 2048, // the largest width and height, in pixels, of a part of the picture that is drawn in one pass
 };
 
 enum texture_unit {
@@ -280,7 +280,7 @@ struct gl_frame {
     const struct screen_occlusion *occlusion;          // may be NULL
     lam_stage stage;
     size_t material_stride; // distance between the products of consecutive materials, in bytes or texels
-    // The current part of the picture, and the sample's offset from the pixel's centre (pixels, y down).
+    // The current part of the picture, and the sample's offset from the pixel's centre (in pixels, with y downwards).
     int left, top, width, height;
     float sample_x, sample_y;
 };

@@ -16,7 +16,7 @@ enum {
     SIDE = 4,    // texels of one side of a material
     MAP = 4,     // texels of a map
     MAPS = 4,    // number of maps that affect the transmitted light of a side
-    WIDE = -1,   // channel number for all four channels
+    WIDE = -1,   // channel number that means all four channels
 };
 
 // The packed pixels of a texture, or of one channel, and their position.
@@ -55,7 +55,7 @@ static void put(struct packer *p, size_t at, const float *numbers, size_t size)
         gl_key_add(&p->key, numbers, size);
 }
 
-// Packs the pixels at level 0: one texel each with all channels, or one channel of four pixels per texel.
+// Packs the pixels at level 0. A texel contains either all channels of one pixel, or one channel of four pixels.
 static size_t add_pixels(struct packer *p, const struct lam_texture *texture, int channel)
 {
     for (int i = 0; i < p->pixel_count; i++)
@@ -80,7 +80,7 @@ static size_t add_pixels(struct packer *p, const struct lam_texture *texture, in
     return at;
 }
 
-// Packs a map, for one channel or all channels. Returns 0 if there is none.
+// Packs a map, for one channel or all channels. Returns 0 if there is no map.
 static size_t add_map(struct packer *p, const lam_mesh *mesh, const lam_texture_map *map, int channel)
 {
     if (!map || !map->texture)

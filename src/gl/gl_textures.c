@@ -183,7 +183,7 @@ static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map)
         gl->SamplerParameteri(sampler->name, GL_TEXTURE_MIN_FILTER, minifying[map->mip][map->minify]);
         sampler->anisotropy = 1;
     }
-    // With filters that are not linear, drivers disagree about anisotropic probes.
+    // If filters are not linear, drivers use different anisotropic probes.
     bool linear = !map->magnify && !map->minify && !map->mip;
     int anisotropy = linear && f->device->anisotropy_max > 1 ? f->frame->settings.anisotropy : 1;
     if (sampler->anisotropy != anisotropy) {

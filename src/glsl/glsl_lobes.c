@@ -42,7 +42,7 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
     bool numbers = f->converts && !f->microfacet; // the classic model's numbers are computed from these
     if (strcmp(parameter, "shininess") == 0)
         return f->highlights && !f->microfacet;
-    if (strcmp(parameter, "metallic") == 0) // part of the Fresnel factor
+    if (strcmp(parameter, "metallic") == 0) // the Fresnel factor uses this parameter
         return f->microfacet || numbers;
     if (strcmp(parameter, "roughness") == 0 && numbers)
         return true;

@@ -1,8 +1,8 @@
 // hierarchy.h: a bounding volume hierarchy over all triangles of a frame, for rays.
 //
-// One test in double decides whether a ray meets a triangle (ray_lanes.h), so results do not depend on the hierarchy:
-// its boxes are merely conservative. It is built by fixed tasks and is identical for any number of threads; The OpenGL
-// device reads the same hierarchy.
+// One test in double precision decides whether a ray meets a triangle (ray_lanes.h), so results do not depend on the
+// hierarchy, whose boxes are merely conservative. It is built by fixed tasks and is identical for any number of
+// threads; The OpenGL device reads the same hierarchy.
 #ifndef HIERARCHY_H
 #define HIERARCHY_H
 

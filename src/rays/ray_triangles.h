@@ -1,4 +1,4 @@
-// ray_triangles.h: the corners of a frame's triangles, with two coordinates per register.
+// ray_triangles.h: computes the corners of a frame's triangles, with two coordinates per vector register.
 #ifndef RAY_TRIANGLES_H
 #define RAY_TRIANGLES_H
 

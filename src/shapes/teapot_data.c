@@ -1,10 +1,10 @@
 // teapot_data.c: Martin Newell's teapot (University of Utah, 1975), the control points of its 32 bicubic Bézier
 // patches.
 //
-// The published list has 306 points, most of them rotated or mirrored copies: body, rim, lid and bottom are four
-// quarters around the vertical axis, handle and spout are two mirrored halves. This file lists each point once, with
-// the published numbers: z is up, the spout points along +x, the pot touches z = 0. The bottom's four patches were
-// added to Newell's 28 later.
+// The published list has 306 points, most of which are rotated or mirrored copies: the body, the rim, the lid and the
+// bottom consist of four quarters around the vertical axis, and the handle and the spout consist of two mirrored
+// halves. This file lists each point once, with the published numbers: z is up, the spout points along +x, the pot
+// touches z = 0. The bottom's four patches were added to Newell's 28 later.
 #include "teapot_data.h"
 
 // A quarter around the axis from direction a to direction b has the control points ra, ra + kb, ka + rb, rb. k is 0.56

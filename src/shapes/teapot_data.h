@@ -8,7 +8,7 @@ struct teapot_ring {
     double radius, step, height;
 };
 
-// A planar ring of control points across handle or spout, from a to b in the plane of symmetry.
+// A planar ring of control points across the handle or the spout, from a to b in the plane of symmetry.
 struct teapot_section {
     double ax, az, bx, bz, width;
 };

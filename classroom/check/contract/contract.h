@@ -71,8 +71,8 @@ enum masking {
     MASKING_SCHLICK // Schlick's approximation, k = (roughness + 1)²/8
 };
 enum diffuse_share {
-    DIFFUSE_OF_DIELECTRIC, // (1 - metallic)(1 - F), F from 0.04
-    DIFFUSE_OF_MIX,        // (1 - metallic)(1 - F), F from mix(0.04, base colour, metallic)
+    DIFFUSE_OF_DIELECTRIC, // (1 - metallic)(1 - F), F with F0 = 0.04
+    DIFFUSE_OF_MIX,        // (1 - metallic)(1 - F), F with F0 = mix(0.04, base colour, metallic)
     DIFFUSE_WHOLE          // 1 - metallic
 };
 enum tone_curve { TONE_NONE, TONE_REINHARD };
@@ -97,7 +97,7 @@ struct map_convention {
 // Forms that a contract may require. If the contract does not require a form, its counterpart is accepted too
 // (fault.h).
 enum contract_demand {
-    DEMAND_GATE = 1,         // no highlight if n.l <= 0
+    DEMAND_GATE = 1,         // there is no highlight if n.l <= 0
     DEMAND_UNIT_NORMALS = 2, // normals are also normalized in the vertex shader
     DEMAND_BARE_AMBIENT = 4, // the ambient term is not attenuated
 };

@@ -22,7 +22,7 @@ struct scene_comparison {
 struct difference {
     double maximum, mean, share_over;
     uint64_t pixels;
-    bool fits; // within the tolerance: one pixel in 200 may exceed it, and the mean may be a quarter of it
+    bool fits; // within the tolerance: one pixel in 200 may exceed the tolerance, and the mean may be a quarter of it
 };
 
 // Finds the pixels to compare. The caller allocates `inside`, of size² elements.

@@ -110,7 +110,7 @@ static void report_unknown(struct diagnostics *diagnostics, const struct shader_
                         kind, name, r->contract->name);
 }
 
-// Reports a uniform that is a matrix or vector if the contract has the other type.
+// Reports a uniform whose type differs from the contract's type: a matrix instead of a vector, or the reverse.
 static void report_type_mismatch(struct diagnostics *diagnostics, const struct shader_interface *r,
                                  const struct declaration *d, const char *file)
 {

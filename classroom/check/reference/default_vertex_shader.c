@@ -1,4 +1,4 @@
-// default_vertex_shader.c: generates the vertex shader for a fragment shader without one.
+// default_vertex_shader.c: generates a vertex shader for a fragment shader that is checked alone.
 #include "default_vertex_shader.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// default_vertex_shader.h: generates a correct vertex shader for a fragment shader without one.
+// default_vertex_shader.h: generates a correct vertex shader for a fragment shader that is checked alone.
 #ifndef DEFAULT_VERTEX_SHADER_H
 #define DEFAULT_VERTEX_SHADER_H
 

@@ -259,7 +259,7 @@ static void forget(void *place, lam_check_program *program)
     struct gl_program *p = program->program;
     if (p && !t->rests) { // otherwise the objects are freed with the context
         t->context.gl.DeleteProgram(p->name);
-        t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // this call and the next one ignore 0
+        t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // this call and the next ignore the name 0
         t->context.gl.DeleteTextures(MAX_TEXTURES, p->textures);
     }
     if (p) {

@@ -8,8 +8,8 @@
 
 enum { MAX_SCENE_LIGHTS = 4, MESH_COUNT = 9 };
 
-// A patch is the plane with a rotated texture. There are four: unchanged, with u mirrored, with v downward, and with
-// both.
+// A patch is the plane with a rotated texture. There are four patches: unchanged, with u mirrored, with v downward, and
+// with both.
 enum reference_mesh {
     MESH_TEAPOT,
     MESH_SPHERE,

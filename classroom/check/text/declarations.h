@@ -15,7 +15,7 @@ struct declaration {
     enum declared kind;
     char type[32];
     char name[96];
-    int count; // the size of the outermost array; 0 if there is no array, −1 if the size is not a literal number
+    int count; // the size of the outermost array; 0 if the name is not an array, −1 if the size is not a literal number
     int line;
     bool flat;     // whether the interpolation qualifier is `flat`
     bool in_block; // member of an interface block

@@ -24,7 +24,7 @@ struct inference {
     json_t *attributes, *uniforms, *undeclared;
     const char *space, *light_space; // eye, world, object
     bool guessed;                    // a role was guessed by elimination
-    bool engine;                     // an engine sets the values of its names
+    bool engine;                     // whether an engine sets the values of its own names
     bool all;                        // inputs with unknown roles get the role `zero`
     char *reason;
     size_t capacity;

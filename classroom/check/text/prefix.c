@@ -16,7 +16,7 @@ static bool shares_a_name(const struct declarations *a, const struct declaration
     return false;
 }
 
-// Returns whether the engine completes this text.
+// Gets whether the contract's engine completes this text.
 static bool lacks_prefix(const char *prefix, const struct declarations *own, bool vertex, bool *lacks, lam_error *error)
 {
     struct declarations before = {0};

@@ -178,8 +178,8 @@ struct argument {
     int count;
 };
 
-// Parses the arguments after a function-like macro's name. Returns the number of tokens up to the closing bracket, or 0
-// if no opening bracket follows the name.
+// Parses the arguments after the name of a function-like macro. Returns the number of tokens up to the closing bracket,
+// or 0 if no opening bracket follows the name.
 static int read_arguments(const struct token *t, int count, struct argument arguments[MAX_PARAMETERS], int *found)
 {
     int depth = 0;
@@ -221,8 +221,8 @@ static void substitute(struct preprocessor *p, const struct macro *m, const stru
     }
 }
 
-// The name of a number, such as LIGHT_SPOT, is kept because it is more meaningful than the number, unless it is the
-// size of an array.
+// The name of a number, such as LIGHT_SPOT, is kept, because the name is more meaningful than the number. The size of
+// an array is replaced by its number.
 static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 {
     const struct declarations *d = p->d;

@@ -7,8 +7,8 @@
 
 #include "name_similarity.h"
 
-// Returns points for a declared name: a name of the contract scores more than an accepted synonym, and a different type
-// scores slightly less.
+// Returns points for a declared name: a name of the contract scores more than an accepted synonym, and a name with a
+// different type scores slightly less.
 static int points_of(const struct contract *contract, const struct declaration *item, bool attribute)
 {
     const struct contract_name *n = contract_find(contract, item->name, attribute, NULL);

@@ -34,7 +34,8 @@ struct check_submission {
 };
 void check_free_submissions(struct check_submission *submissions, int count);
 
-// Returns the length of a path without its extension: "a/phong" of "a/phong.frag" and "a/phong.frag.glsl".
+// Returns the length of a path without its extension: the length of "a/phong" for "a/phong.frag" and for
+// "a/phong.frag.glsl".
 size_t check_stem_length(const char *path);
 bool check_same_stem(const char *a, const char *b);
 bool check_is_vertex(const char *path);   // decided by the extension: .vert, .vs, .vsh or .vertex, also followed by
@@ -65,7 +66,7 @@ struct check_result {
     lam_error error;         // the reason why there is no verdict
     lam_error sheet_error;   // the reason why there is no sheet
     char *sheet;             // the sheet's path; NULL if none was requested or drawn
-    int code;                // the exit code for this shader
+    int code;                // the exit code that results from this shader
 };
 
 // Returns a scene's result in one or two words: "same", "differs", or "black" if it equals a black reference and earns
@@ -110,7 +111,7 @@ int check_csv_row(FILE *file, const struct check_result *result);
 int check_moodle_head(FILE *file);
 int check_moodle_row(FILE *file, const struct check_result *result);
 
-// Writes the result of one submission as a JSON file. Returns 0 or errno.
+// Writes the result of one submission as a JSON file. Returns 0, or the errno of a file that cannot be written.
 int check_gradescope(FILE *file, const struct check_result *result);
 int check_submitty(FILE *file, const struct check_result *result);
 

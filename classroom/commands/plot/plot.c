@@ -239,7 +239,7 @@ struct kind {
     const char *name, *title, *x_label, *y_label;
     bool (*add)(struct plot *plot, const char *word, lam_error *error);
     const char *standard[5]; // the default curves
-    double x_max, farthest;  // 0 means fitted to the curves
+    double x_max, farthest;  // 0 means that the axis is fitted to the curves
     int per_color;           // the number of curves with the same colour
 };
 

@@ -154,7 +154,7 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
 // overlap.
 static bool draw_marks(const struct plot *plot, const struct layout *at, struct drawing *d, lam_error *error)
 {
-    double u = at->unit, taken[CURVES_MAX] = {0}; // the right end of each row of numbers
+    double u = at->unit, taken[CURVES_MAX] = {0}; // the right end of the numbers in each row
     for (int k = 0; k < CURVES_MAX; k++)
         taken[k] = -1e9;
     double last = -1;

@@ -260,7 +260,7 @@ static void add_uniform(const struct build *m, struct uniform_list *t, const str
     t->failed |= !u->name;
 }
 
-// Lists the uniforms of a draw or, with NULL, of the frame. In a block, array elements begin at multiples of 16.
+// Lists the uniforms of a draw or, with NULL, of the frame. In a block, array elements begin at multiples of 16 bytes.
 static bool list_uniforms(const struct build *m, const struct frame_draw_range *range, const lam_shader_uniform **out,
                           int *count)
 {

@@ -137,8 +137,8 @@ struct fault {
     unsigned maps;                // bits of fault_maps
     float factor;                 // the factor of the exponent, or 0
     enum fault_fit fit;
-    bool rare;       // rarer than other faults with the same pictures; the report does not mention it beside them
-    bool style;      // not a mistake: a form that is as correct as the reference
+    bool rare;  // rarer than other faults with the same pictures; the report does not mention this fault beside them
+    bool style; // not a mistake: a form that is as correct as the reference
     bool whole_term; // one or more terms are missing completely
     unsigned demand; // bits of contract_demand: the fault is a mistake only if the contract requires one of these
                      // forms; otherwise it is a style

@@ -111,7 +111,7 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
     return true;
 }
 
-// Measures each fault alone in the remaining scenes, for sets.
+// Measures each fault alone in the remaining scenes, because the search for sets needs these results.
 static bool complete_each(struct state *t, lam_error *error)
 {
     for (int m = 0; m < fault_count && !search_is_spent(t); m++) {

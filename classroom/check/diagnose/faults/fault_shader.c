@@ -46,7 +46,7 @@ struct fault_shader {
     int value_count;
     float numbers[MAX_NUMBERS];
     int number_count;
-    bool full; // a value did not fit
+    bool full; // set if a value did not fit
 };
 
 static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
@@ -396,8 +396,8 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_color(m, "bare_ka", reference_scene->ambient, 1);
     set_color(m, "bare_kd", reference_scene->diffuse, 1);
     set_color(m, "bare_ks", reference_scene->specular, 1);
-    // In contracts with separate strengths and colours, the fault swaps one of the two; in the others, it swaps the
-    // products.
+    // In contracts with separate strengths and colours, the fault swaps the strengths or the colours. In other
+    // contracts, it swaps the products.
     bool apart = interface->contract->material_strengths;
     set_color(m, "kd_with_ks", apart ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);
     set_color(m, "ks_with_kd", apart ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);

@@ -9,7 +9,7 @@ struct fault_shader;
 // Opens a fault shader for every `stride`-th pixel of every `stride`-th row of pictures of size² pixels, starting at
 // the lower left pixel. These pictures have fault_shader_size(size, stride)² pixels.
 struct fault_shader *fault_shader_open(const lam_check_painter *painter, int size, int stride, lam_error *error);
-void fault_shader_close(struct fault_shader *shader); // NULL is allowed; it may be at rest
+void fault_shader_close(struct fault_shader *shader); // NULL is allowed; the shader may be at rest
 
 // Returns whether a fault shader draws pictures of this size and stride.
 bool fault_shader_draws(const struct fault_shader *shader, int size, int stride);

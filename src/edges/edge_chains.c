@@ -79,7 +79,7 @@ static void link_corner(struct edge_measure *measures, const struct end *ends, u
 }
 
 // Computes the positions of all edges in the chain of an edge, from the beginning of the chain. A closed chain begins
-// next to the edge.
+// at the edge that follows this edge.
 static void place_chain(struct edge_measure *measures, uint32_t edge)
 {
     uint32_t first = 2 * edge; // the end at which the chain is entered

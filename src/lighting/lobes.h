@@ -238,7 +238,7 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
     vec3 across = cross3(s.n, sum);
     num along = dot3(s.n, sum);
     num square = dot3(sum, sum);
-    // Everything is multiplied by |l + v|^2, so that h is not needed.
+    // All terms are multiplied by |l + v|^2, so that h is not needed.
     num bracket = dot3(across, across) + along * along * alpha_square;
     num spread = alpha * square / max_of(bracket, num_of(1.0e-30f));
     b.base = 0.5f * spread * spread * smith_visibility(positive(b.n_dot_l), eye_cosine(s), alpha_square);

@@ -179,7 +179,7 @@ static bool is_flat(const struct declarations *fragment)
 }
 
 // Finds the lighting of a shader printed by `lambent shader` from its functions. Lambert's lobe is ignored, because the
-// other lobes call it, and because without another lobe the contract's own model applies, without a highlight. If
+// other lobes call it. If Lambert's lobe is the only one, the contract's own model applies, without a highlight. If
 // several rows match, the last one is used, because a coat adds GGX's lobe to another base.
 static void find_printed(struct shader_interface *r)
 {

@@ -2,10 +2,14 @@
 // include this file.
 //
 // is(NAME) returns whether a fault is switched on; fault.h lists the names. Vectors have four components, because some
-// faults involve the fourth component; without these faults, w is 0. fault_shader.c writes the following constants
-// before this text: LAMPS, lamp_count, physical, phong_lobe; spots (a light may have a cone); products (the shader
-// receives the material's colours multiplied by the colours of the light); ambient_by_light (the shader adds the
-// ambient term of each light together with that light); and NAME for each fault, or -1 if the fault cannot be on.
+// faults involve the fourth component; without these faults, w is 0.
+//
+// fault_shader.c writes the following constants before this text:
+//    LAMPS, lamp_count, physical, phong_lobe
+//    spots: a light may have a cone
+//    products: the shader receives the material's colours multiplied by the colours of the light
+//    ambient_by_light: the shader adds the ambient term of each light together with that light
+//    NAME of each fault, or -1 if the fault cannot be on
 
 struct Lamp {
     vec4 position; // in the space of the lighting, which is eye or world space; if w is 0, the direction to the light

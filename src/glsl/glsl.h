@@ -184,9 +184,9 @@ size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
 // Do the same for the products of one material: the block Products or BackProducts, or the material's texels of
-// product_list: for each light, the diffuse, the specular and (with gl1) the ambient product, then for each hemisphere
-// the products of sky and ground. The uniforms first_product and back_first_product contain the index of the first
-// texel.
+// product_list. They contain, for each light, the diffuse, the specular and (with gl1) the ambient product, then, for
+// each hemisphere, the products of sky and ground. The uniforms first_product and back_first_product contain the index
+// of the first texel.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);

@@ -1,8 +1,8 @@
 // specialize.h: reduces general sources to the shader for some choices. It removes branches that are never taken, and
 // the parameters, variables and members that are then unread.
 //
-// The text must have the layout that the formatter gives src/lighting: an `if` ends its line with the opening brace,
-// the closing brace is in the same column as the `if`, and a condition or a choice (?:) of known names is on one line.
+// The text must have the layout that the formatter gives src/lighting. An `if` ends its line with the opening brace,
+// and the closing brace is in the same column as the `if`. A condition or a choice (?:) of known names is on one line.
 #ifndef SPECIALIZE_H
 #define SPECIALIZE_H
 

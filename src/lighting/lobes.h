@@ -7,9 +7,9 @@
 // positive there.
 //
 // `lambent shader` prints this text, and src/glsl/equations.c and specialize.c read it line by line. They rely on its
-// layout, here and in lights.h and sum.h: a definition begins in column 1, and so does its closing brace; an `if` ends
-// its line with a brace, and the closing brace is below the `if`; a struct has one member per line; a comment precedes
-// its definition without an empty line between them. clang-format preserves all of this.
+// layout, here and in lights.h and sum.h. A definition and its closing brace begin in column 1. An `if` ends its line
+// with a brace, and the closing brace is below the `if`. A struct has one member per line. A comment precedes its
+// definition without an empty line between them. clang-format preserves all of this.
 
 STRUCT(surface)
 {

@@ -1,7 +1,7 @@
 // screen_occlusion.h: ambient occlusion of every pixel from the depths of the surfaces around it.
 //
 // The visible surfaces are treated as a height field. Around a pixel, a plane through the view vector cuts the height
-// field; in this plane, the horizon on either side bounds the part of the hemisphere that surrounding light comes from
+// field. In this plane, the horizon on either side bounds the part of the hemisphere that surrounding light comes from
 // (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016). Sixteen neighbours rotate
 // their planes by different angles, and an edge-aware filter of that size averages them. docs/lighting/occlusion.md
 // lists the formulas.

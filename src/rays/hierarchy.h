@@ -2,7 +2,7 @@
 //
 // One test in double precision decides whether a ray meets a triangle (ray_lanes.h), so results do not depend on the
 // hierarchy, whose boxes are merely conservative. It is built by fixed tasks and is identical for any number of
-// threads; The OpenGL device reads the same hierarchy.
+// threads. The OpenGL device reads the same hierarchy.
 #ifndef HIERARCHY_H
 #define HIERARCHY_H
 

@@ -1,7 +1,7 @@
 // ranges.h: ranges of primitives that become a hierarchy's nodes, and the bins by which they are divided.
 //
 // The surface area heuristic (MacDonald and Booth, 1990) with the candidates of Wald, "On fast construction of
-// SAH-based bounding volume hierarchies", 2007: a range's primitives are sorted into bins by the centres of their
+// SAH-based bounding volume hierarchies", 2007. A range's primitives are sorted into bins by the centres of their
 // boxes, and the range is divided at the boundary between two bins with the smallest
 //    area(left) count(left) + area(right) count(right)
 #ifndef RANGES_H

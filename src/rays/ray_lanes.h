@@ -4,17 +4,17 @@
 // a triangle. It uses double and a fixed order of operations; boxes merely save work. The result therefore does not
 // depend on the hierarchy, on the number of lanes, or on which rays are traced together.
 //
-// The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013): seen along the ray, with
+// The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013). Seen along the ray, with
 // the origin at (0, 0), the signs of cross products of a triangle's corners decide on which side of each edge the ray
 // passes. Rounding is monotonic, so that such a sign can be 0 but is never wrong. A sign of 0 counts as inside for both
 // triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles around a
 // point do not block its rays. A triangle whose plane contains the start point of the ray (through_points) does not
 // block the ray either, because t is then 0 except for rounding.
 //
-// Rays with nearly the same direction form a bundle and traverse the hierarchy together: at a node, the intervals of
-// their origins and directions are tested against the boxes of all its children at once (Boulos, Wald and Shirley,
-// "Geometric and arithmetic culling methods for entire ray packets", 2006); only leaves test individual rays. A ray
-// with a different direction is a bundle of one.
+// Rays with nearly the same direction form a bundle and traverse the hierarchy together. At a node, the intervals of
+// their origins and directions are tested against the boxes of all children of the node at once (Boulos, Wald and
+// Shirley, "Geometric and arithmetic culling methods for entire ray packets", 2006); only leaves test individual rays.
+// A ray with a different direction is a bundle of one.
 #ifndef RAY_LANES_H
 #define RAY_LANES_H
 

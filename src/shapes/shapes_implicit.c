@@ -351,8 +351,8 @@ static void add_triangle(struct march *m, uint32_t a, uint32_t b, uint32_t c)
     m->count += 3;
 }
 
-// Triangulates a loop at minimum cost by dynamic programming: the cost of the polygon from i to j is the minimum over k
-// of the costs of triangle i–k–j and of the polygons from i to k and from k to j.
+// Triangulates a loop at minimum cost by dynamic programming. The cost of the polygon from i to j is the minimum, over
+// k, of the cost of triangle i–k–j plus the costs of the polygons from i to k and from k to j.
 static void triangulate_loop(struct march *m, const uint8_t *edges, const uint32_t *ids, int count)
 {
     const double in_a_face = 1000;

@@ -1,10 +1,10 @@
 // teapot.c: the Utah teapot from its Bézier patches.
 //
 // Adjacent patches form one parametric surface. u runs around: over 4 patches for the body and the lid, and over 2 for
-// the handle and the spout. v runs from the centre of the bottom over the body to the rim, from the edge of the lid to
-// its top, and along the handle and the spout away from the body. All joints are smooth in the data and share positions
-// and normals. As published, the pot is open: the lid is inside the rim without touching it, and the handle and the
-// spout end inside the body's wall.
+// the handle and the spout. On the body, v runs from the centre of the bottom to the rim. On the lid, it runs from the
+// edge to the top. On the handle and the spout, it runs away from the body. All joints are smooth in the data and share
+// positions and normals. As published, the pot is open: the lid is inside the rim without touching it, and the handle
+// and the spout end inside the body's wall.
 #include "shapes.h"
 
 #include "fail.h"

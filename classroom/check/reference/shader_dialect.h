@@ -20,9 +20,10 @@ char *shader_dialect_highp(const char *text);
 // Returns the text without a leading byte order mark, which some editors write and compilers reject.
 const char *shader_dialect_skip_mark(const char *text);
 
-// Returns a copy of a text in desktop GLSL, from malloc, converted to GLSL ES 3.00 on the same lines: with another
-// version line, a precision, the keywords of ES 3.00 instead of older keywords, and other names for OpenGL's built-in
-// inputs. The compiler reports remaining differences, such as implicit conversion to floats. Returns NULL and fills
+// Returns a copy of a text in desktop GLSL, from malloc, converted to GLSL ES 3.00. Line numbers do not change. The
+// copy has another version line, a precision, the keywords of ES 3.00 instead of older keywords, and other names for
+// OpenGL's built-in inputs. The compiler reports remaining differences, such as implicit conversion to floats. Returns
+// NULL and fills
 // `error` on failure.
 char *shader_dialect_es(const char *text, bool is_vertex, lam_error *error);
 

@@ -34,8 +34,8 @@ struct check_submission {
 };
 void check_free_submissions(struct check_submission *submissions, int count);
 
-// Returns the length of a path without its extension: the length of "a/phong" for "a/phong.frag" and for
-// "a/phong.frag.glsl".
+// Returns the length of a path without its extension. For "a/phong.frag" and "a/phong.frag.glsl", this is the length of
+// "a/phong".
 size_t check_stem_length(const char *path);
 bool check_same_stem(const char *a, const char *b);
 bool check_is_vertex(const char *path);   // decided by the extension: .vert, .vs, .vsh or .vertex, also followed by

@@ -1,9 +1,9 @@
 // fault_maps.glsl: the numbers of a material and the normal, which a shader may read from maps. They are correct unless
 // faults are switched on. A map has one texel, which the uniforms contain as the sampler reads it (../contract/maps.h).
 //
-// fault_shader.c writes the following constants before this text: MAPS if the shader under test reads maps; FRAGMENT in
-// the fragment shader; maps, the bits of the maps that the shader reads; encoded_maps; and tints_ambient (the ambient
-// term includes the base colour).
+// fault_shader.c writes constants before this text. MAPS is defined if the shader under test reads maps, and FRAGMENT
+// in the fragment shader. `maps` contains the bits of the maps that the shader reads. encoded_maps and tints_ambient
+// (the ambient term includes the base colour) are flags.
 
 uniform vec3 base_color;
 uniform float metallic, roughness;

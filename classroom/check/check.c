@@ -19,7 +19,7 @@
 
 // --- preparation
 
-// Returns a scene as the shaders can express it, without features that its terms do not show.
+// Returns the version of a scene that the shaders can express, without features that no term of the scene shows.
 static struct reference_scene visible_scene(const struct run *r, int index)
 {
     struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);
@@ -36,7 +36,7 @@ static struct reference_scene visible_scene(const struct run *r, int index)
     return s;
 }
 
-// Returns whether a scene looks the same to these shaders as one of `scenes`: shaders without a name for a strength
+// Returns whether a scene is the same for these shaders as one of `scenes`. Shaders that declare no name for a strength
 // draw every term in every scene.
 static bool is_repeated(const struct run *r, int index, unsigned scenes)
 {
@@ -78,8 +78,8 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
     return true;
 }
 
-// Gets the given contract, or the contract that has the shaders' names; `*out` is NULL if there is none. Returns false
-// and fills `error` on failure.
+// Gets the given contract or, if no contract is given, the one that contains the shaders' names. `*out` is NULL if
+// there is none. Returns false and fills `error` on failure.
 static bool choose_contract(struct run *r, const struct contract **out, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -88,7 +88,7 @@ static bool choose_contract(struct run *r, const struct contract **out, lam_erro
                            contract_recognise(r->shipped, r->shipped_count, p->vertex, p->fragment, out, error));
 }
 
-// Completes the shaders as the contract's engine does, and parses them.
+// Adds the lines that the contract's engine adds to shaders, and parses the shaders.
 static bool read_shaders(struct run *r, const struct contract *contract, lam_error *error)
 {
     shader_interface_free(&r->interface);
@@ -150,8 +150,8 @@ static bool draw_here(struct run *r, const lam_bytes *request, lam_error *error)
     return check_draw(request->data, request->size, &r->painter, &r->bytes, error);
 }
 
-// Draws the scenes. Returns false if no verdict is possible. A process that timed out or crashed sets the report's
-// verdict.
+// Draws the scenes. Returns false if no verdict is possible. If the drawing process timed out or crashed, sets the
+// report's verdict.
 static bool draw(struct run *r, unsigned scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -210,8 +210,9 @@ static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTI
                                           BIT(SEMANTIC_MODEL) | BIT(SEMANTIC_VIEW) | BIT(SEMANTIC_VIEW_PROJECTION) |
                                           BIT(SEMANTIC_ZERO) | BIT(SEMANTIC_ONE) | BIT(SEMANTIC_EYE_POSITION);
 
-// Returns whether the shaders use the names of the contract: a verdict needs a value for every input. Misspelt names
-// are mistakes, which the report names; names that differ only in case and underscores belong to another course.
+// Returns whether the shaders use the names of the contract, because a verdict needs a value for every input. Misspelt
+// names are mistakes, which the report lists. Names that differ from the contract's only in case and underscores belong
+// to another course.
 static bool suits_contract(const struct run *r)
 {
     bool drawn_here = !r->texts.vertex;
@@ -289,7 +290,7 @@ static bool try_inferred(struct run *r, const struct contract *contract, enum fi
         return false;
     r->report->scenes_wanted = count_bits(scenes);
     if (r->report->verdict != LAM_CHECK_PASSES)
-        *outcome = FIT_EXPLAINED; // the shaders do not compile, or loop forever
+        *outcome = FIT_EXPLAINED; // the reason is that the shaders do not compile, or loop forever
     else if (r->drawn.unknown_count || r->drawn.types_count)
         snprintf(reason, capacity, "the input '%.60s' has no value",
                  r->drawn.unknown_count ? r->drawn.unknown[0] : r->drawn.types[0]);
@@ -298,8 +299,8 @@ static bool try_inferred(struct run *r, const struct contract *contract, enum fi
     return true;
 }
 
-// Finds the errors of a fragment shader that fits no contract and has no vertex shader. Sets the verdict if it does not
-// compile.
+// Finds the errors of a fragment shader that fits no contract and has no vertex shader. Sets the verdict if the shader
+// does not compile.
 static bool compile_alone(struct run *r, lam_error *error)
 {
     static const char vertex[] = "#version 330\nvoid main() { gl_Position = vec4(0.0); }\n";
@@ -311,13 +312,13 @@ static bool compile_alone(struct run *r, lam_error *error)
         return false;
     if (r->drawn.state == DRAWN_REFUSED && r->drawn.refused_fragment)
         return true;
-    r->diagnostics.count = 0; // the errors of linking with an empty vertex shader
+    r->diagnostics.count = 0; // removes the errors of linking with an empty vertex shader
     forget_scenes(r);
     return true;
 }
 
-// Infers the roles of the inputs from their use, in each possible space. It accepts the first interpretation under
-// which the shaders are correct, or else one in which a single mistake explains the difference.
+// Infers the roles of the inputs from their use, in each possible space. Accepts the first interpretation under which
+// the shaders are correct or, if there is none, one in which a single mistake explains the difference.
 static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -402,7 +403,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (!check_reserved("lam_check_params", params, error) ||
         (params->painter && !check_reserved("lam_check_painter", params->painter, error)))
         return false;
-    lam_check_params own = *params; // uses the fixed state of GLSL 110 and 120 as inputs
+    lam_check_params own = *params; // a copy whose shaders read the fixed state of GLSL 110 and 120 from inputs
     struct run r = {.params = &own, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)

@@ -12,10 +12,10 @@
 #include "fault_search.h"
 #include "srgb.h"
 
-// The time limit of a search: some seconds with a software driver on one processor (docs/check.md).
+// Limits the time of a search to some seconds, with a software driver on one processor (docs/check.md).
 static const uint64_t default_max_pictures = 10000;
 static const double max_dark = 2.0 / 255; // the largest value in a picture that counts as black
-// the largest remainder, as a share of the difference, for which found mistakes are reported
+// the largest remaining share of the difference for which the report lists the found mistakes
 static const double max_left = 0.25;
 
 // --- the pictures
@@ -67,8 +67,8 @@ static uint64_t count_not_numbers(const float *pixels, size_t count)
 
 static float decode(float encoded) { return (float)srgb_linear((double)encoded); }
 
-// Returns whether the shader encodes its colours as sRGB, like shaders of `lambent shader`: the constant 12.92 of the
-// encoding occurs in its text. Its pictures are then decoded before they are compared.
+// Returns whether the shader encodes its colours as sRGB, like shaders of `lambent shader`: its text then contains the
+// constant 12.92 of the encoding. The pictures of such a shader are decoded before they are compared.
 static bool is_encoded(const struct run *r)
 {
     return r->interface.contract->printed && declarations_uses(&r->interface.fragment, "12.92");
@@ -159,8 +159,8 @@ static bool is_dark(const struct scene_comparison *scene, const float *picture)
     return true;
 }
 
-// A black picture of a black scene proves nothing: it scores no points if the shader fails elsewhere, and a shader with
-// only such scenes gets no verdict.
+// A black picture of a black scene proves nothing. It scores no points if the shader fails in another scene, and a
+// shader with only such scenes gets no verdict.
 static bool weigh_darkness(struct run *r, lam_error *error)
 {
     bool lit = false;
@@ -177,8 +177,8 @@ static bool weigh_darkness(struct run *r, lam_error *error)
                 r->interface.contract->name);
 }
 
-// Returns whether a search for faults is useful, which it is not for nearly empty pictures. Scenes with many NaN values
-// are excluded: NaN counts as black, and would look like faults that darken.
+// Returns whether a search for faults is useful. It is useless for nearly empty pictures. Scenes with many NaN values
+// are excluded, because NaN counts as black and would look like a fault that darkens.
 static bool is_searchable(struct run *r, bool writes)
 {
     double clear = 0;
@@ -205,8 +205,8 @@ static bool is_searchable(struct run *r, bool writes)
     return writes && known && clear < 0.9 && usable > 0;
 }
 
-// Finds styles of the shader that are as correct as the reference, and then compares with pictures drawn in these
-// styles.
+// Finds the accepted styles that the shader uses, which are as correct as the reference. Then compares the shader with
+// pictures drawn in these styles.
 static bool accept_styles(struct run *r, struct fault_search *s, bool writes, lam_error *error)
 {
     if (s->count == 0)
@@ -225,7 +225,7 @@ static bool accept_styles(struct run *r, struct fault_search *s, bool writes, la
     return true;
 }
 
-// Returns the ids of the faults with the same pictures, separated by blanks, or NULL if there are none.
+// Returns the ids of the other faults with the same pictures, separated by blanks, or NULL if there are none.
 static const char *also_text(struct run *r, const struct found_fault *found)
 {
     char text[200] = "";
@@ -238,7 +238,7 @@ static void report_findings(struct run *r, const struct fault_search *s)
 {
     lam_check_report *report = r->report;
     if (s->count && !s->certain && s->found[s->count - 1].after > max_left * s->before)
-        return; // the remaining difference is too large to report a name
+        return; // the remaining difference is too large to report mistakes
     report->findings = arena_alloc_zeroed(r->arena, MAX_FOUND_FAULTS * sizeof *report->findings);
     for (int i = 0; report->findings && i < s->count; i++) {
         char explanation[400], correction[400];
@@ -292,7 +292,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
         usable += !r->scenes[i].spoilt;
     }
     s.before /= usable;
-    for (int i = 0; i < r->scene_count; i++) // some scenes show more features than they test
+    for (int i = 0; i < r->scene_count; i++) // because some scenes show more features than they test
         s.needs |=
             (r->scenes[i].reference_scene.ka > 0 ? NEED_AMBIENT : 0) |
             (r->interface.contract->has_attenuation && (r->interface.supports & NEED_POINT) ? NEED_ATTENUATION : 0);

@@ -1,4 +1,4 @@
-// check_expect.c: draws the reference pictures, which show the result expected from the shaders.
+// check_expect.c: draws the reference pictures: the pictures that correct shaders would draw.
 #include "check_run.h"
 
 #include <stdio.h>
@@ -23,7 +23,7 @@ static double gamma_encoded(double x)
     return x > 0 ? y : 0;
 }
 
-// Converts the light of a point as shaders with metalness and roughness write it.
+// Converts the light of a point to the colour that shaders with metalness and roughness write.
 static void display(const struct physical_convention *c, float *pixels, size_t count)
 {
     for (size_t i = 0; i < 4 * count; i++)
@@ -34,7 +34,8 @@ static void display(const struct physical_convention *c, float *pixels, size_t c
         }
 }
 
-// The CPU device uses glTF's own equations; the fault shader draws all other forms.
+// Returns whether the CPU device can draw the references: it uses glTF's own equations. The fault shader draws all
+// other forms.
 static bool is_of_device(const struct run *r)
 {
     const struct physical_convention *c = &r->interface.contract->physical;
@@ -51,7 +52,7 @@ static bool draw_by_shader(struct run *r, struct scene_comparison *scene, lam_er
     return fault_shader_draw(r->shader, &scene->reference_scene, &model, &none, scene->reference, error);
 }
 
-// Makes a scene that contains only the surfaces and states whether both of their sides are drawn.
+// Makes a scene that contains only the surfaces. Sets whether both of their sides are drawn.
 static lam_scene *surfaces_of(const struct run *r, const struct reference_scene *s, lam_camera *camera,
                               lam_error *error)
 {
@@ -70,7 +71,7 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
     if (!is_of_device(r) || bump.x != 0 || bump.y != 0 || bump.z != 0) // only the fault shader draws such scenes
         return draw_by_shader(r, scene, error);
     lam_camera camera;
-    struct reference_scene opaque = scene->reference_scene; // the shader under test is drawn without blending
+    struct reference_scene opaque = scene->reference_scene; // because the shader under test is drawn without blending
     opaque.alpha = 1;
     lam_scene *world = surfaces_of(r, &opaque, &camera, error);
     lam_image image = {0};
@@ -101,9 +102,9 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
     return ok;
 }
 
-// A browser's GPU may round corners to 1/16 of a pixel (WebGL: SUBPIXEL_BITS is at least 4), the CPU device to 1/256.
-// If the surface normal changes within a pixel, for example at edges in front of other parts, colours differ without
-// proving anything.
+// Excludes pixels in which the surface normal changes, for example at edges in front of other surfaces. A browser's GPU
+// may round corners to 1/16 of a pixel (WebGL: SUBPIXEL_BITS is at least 4), and the CPU device rounds them to 1/256.
+// In such pixels, colours therefore differ without proving anything.
 static bool leave_out_turns(struct run *r, lam_device *device, struct scene_comparison *scene, lam_error *error)
 {
     if (!r->painter.es_only || !is_of_device(r))
@@ -160,11 +161,11 @@ static bool try_candidate(struct run *r, lam_device *device, int scene_count, st
     return true;
 }
 
-// If the exercise uses a number instead of a name, and the text does not show which of its numbers is meant, all
-// numbers are tried on the first scene, which shows every term. Stores in `best` the parameter values for which the
-// shader is correct. If no values are correct, the shader contains a mistake, and the closest values prove little. In
-// that case the contract's number is kept if the text contains it or contains no other number, and no number of the
-// text is used twice.
+// The exercise may use a number instead of a name. If the text does not show which of its numbers is meant, all numbers
+// are tried on the first scene, which shows every term. Stores in `best` the values for which the shader is correct. If
+// no values are correct, the shader contains a mistake, and the closest values prove little. In that case the
+// contract's number is kept if the text contains this number or contains no other number. No number of the text is used
+// twice.
 enum { MAX_OPEN = 4, MAX_TRIES = 512 };
 static const double same_pictures = 1e-5; // mean difference
 
@@ -174,7 +175,7 @@ struct open_number {
     int count, own; // 1 + the index of the contract's own value; 0 means the text does not contain it
 };
 
-// Finds the open numbers, and counts their combinations.
+// Finds the numbers with an open value, and counts the combinations of values.
 static int find_open(struct shader_interface *interface, struct open_number open[MAX_OPEN], int *count)
 {
     enum uniform_semantic semantics[SEMANTIC_COUNT];
@@ -186,7 +187,7 @@ static int find_open(struct shader_interface *interface, struct open_number open
         open[i].semantic = semantics[i];
         open[i].count = shader_constants_values(interface, semantics[i], open[i].values);
         open[i].own = 0;
-        tries *= open[i].count + 1; // the search also tries the contract's own value
+        tries *= open[i].count + 1; // plus one, because the search also tries the contract's own value
         for (int k = 0; k < open[i].count; k++) {
             shader_constants_set(interface, semantics[i], open[i].values[k]);
             if (shader_constants_hash(interface) == hash)
@@ -197,15 +198,16 @@ static int find_open(struct shader_interface *interface, struct open_number open
     return tries;
 }
 
-// Returns whether `b` uses a number of the text that `a` uses too. Both lists are the text's numbers, or its vectors,
-// in order.
+// Returns whether `b` uses the same number of the text as `a`. Both lists are the text's numbers, or its vectors, in
+// order.
 static bool is_taken(const struct open_number *a, int value_a, const struct open_number *b, int value_b)
 {
     return value_a && value_b && a->count == b->count && value_a == value_b &&
            memcmp(a->values[value_a - 1], b->values[value_b - 1], sizeof *a->values) == 0;
 }
 
-// Sets the numbers of a combination. Returns whether a shader with a mistake is likely to use this combination.
+// Sets the numbers of a combination. Returns whether a shader that contains a mistake is likely to use this
+// combination.
 static bool set_numbers(struct shader_interface *interface, const struct open_number *open, int count, int combination)
 {
     bool likely = true;
@@ -273,7 +275,7 @@ bool check_draw_references(struct run *r, lam_error *error)
         ok = fit_numbers(r, device, choices, count, &best, error);
         numbers = best.mean < before;
     }
-    if (ok && !best.fits) // the last combination need not be the best
+    if (ok && !best.fits) // because the last combination need not be the best one
         ok = try_candidate(r, device, r->scene_count, &best, error);
     lam_device_free(device);
     render_cache_keep_shader(r->params->cache, r->shader);

@@ -1,11 +1,11 @@
-// check_fit.c: compares a shader with its own strengths and colours to sums of an ambient, a diffuse and a specular
-// term.
+// check_fit.c: compares a shader that has its own strengths and colours with sums of an ambient, a diffuse and a
+// specular term.
 //
 // The fault shader draws each term of a scene in a separate channel (shader_interface_scene). An interpretation
-// consists of a highlight, an exponent, and forms or a fault. The factors of its terms, which are the same in every
-// scene, are found by least squares. The shader passes if an interpretation without a mistake explains every scene. It
-// differs if an interpretation with a single known mistake does. Otherwise there is no verdict: a shader that the check
-// does not understand may be correct.
+// consists of a highlight, an exponent, and accepted forms or a fault. The factors of its terms are the same in every
+// scene and are found by least squares. The shader passes if an interpretation without a mistake explains every scene.
+// The shader differs if an interpretation with a single known mistake explains every scene. Otherwise there is no
+// verdict, because a shader that the check does not understand may be correct.
 #include "interpretations.h"
 
 #include <stdio.h>
@@ -21,15 +21,15 @@
 enum { FIRST_SCENES = 1, MAX_BASES = 12, MAX_NEAREST = 3 };
 
 static const double min_diffuse = 0.02;  // a smaller factor of a diffuse term is no evidence of lighting
-static const double min_mean = 0.02;     // smaller differences need no explanation
-static const double max_negative = 0.01; // a factor below the negative of this is not a strength
+static const double min_mean = 0.02;     // smaller mean differences need no explanation
+static const double max_negative = 0.01; // a factor below the negative of this number is not a strength
 
 struct fit {
     struct run *r;
-    struct fault_shader *shader; // draws the strided pictures
+    struct fault_shader *shader; // draws the pictures with a stride
     int stride, size;
     uint32_t *from[MAX_SCENES],
-        *to[MAX_SCENES]; // pixel indices in the shader's pictures and in those drawn here
+        *to[MAX_SCENES]; // pixel indices in the shader's pictures and in the pictures of the fault shader
     size_t count[MAX_SCENES];
     float *basis[MAX_SCENES], *pixels;
 };
@@ -63,7 +63,7 @@ static void solve(const struct fit *f, int scene_count, struct interpretation *g
                     a[k][3] += (double)b[k] * y;
                 }
             }
-        for (int k = 0; k < 3; k++) { // Gaussian elimination, without terms that are zero everywhere
+        for (int k = 0; k < 3; k++) { // Gaussian elimination; terms that are zero everywhere are skipped
             if (a[k][k] < 1e-6 || (k == 2 && !g->has_highlight))
                 continue;
             for (int m = 0; m < 3; m++) {
@@ -99,7 +99,8 @@ static bool measure(struct fit *f, int scene_count, struct interpretation *g, la
             g->fits = g->fits && g->factors[c][k] > -max_negative;
     }
     g->fits = g->fits && diffuse > min_diffuse;
-    double tolerance = f->r->tolerance * (lit < 1 ? lit : 1); // products of small colours are dark
+    // reduced if the picture is dark, as with products of small colours
+    double tolerance = f->r->tolerance * (lit < 1 ? lit : 1);
     for (int s = 0; s < scene_count; s++) {
         double sum = 0;
         size_t over = 0;
@@ -140,7 +141,8 @@ static bool has_bit(const struct fault *row, enum fault_bit bit)
     return false;
 }
 
-// Adds each fault to each interpretation until one explains every scene. `nearest` receives the MAX_NEAREST best ones.
+// Adds each fault to each interpretation until one explains every scene. `nearest` receives the MAX_NEAREST best
+// combinations.
 static bool add_faults(struct fit *f, const struct interpretation *interpretations, int count,
                        struct interpretation nearest[MAX_NEAREST], struct interpretation *best, lam_error *error)
 {
@@ -172,8 +174,8 @@ static bool add_faults(struct fit *f, const struct interpretation *interpretatio
     return true;
 }
 
-// Finds the first fault, or else two faults, that explain every scene with one of the interpretations. If there are
-// any, `best` fits.
+// Finds the first fault that explains every scene with one of the interpretations or, if there is none, two faults. If
+// it finds any, `best` fits.
 static bool find_faults(struct fit *f, const struct interpretation *interpretations, int count,
                         struct interpretation *best, lam_error *error)
 {
@@ -246,8 +248,8 @@ static int by_mean(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Lists the interpretations to combine with faults: they differ from the closest one only in the highlight and its
-// forms. If the text contains reflect(), the highlight is Phong's.
+// Lists the interpretations to combine with faults: those that differ from the closest interpretation only in the
+// highlight and its forms. If the text contains reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct interpretation *interpretations, int count,
                         const struct interpretation *best)
 {
@@ -293,8 +295,8 @@ static bool open_fit(struct fit *f, struct run *r, lam_error *error)
     return ok;
 }
 
-// Finds the pixels to compare. Sets `missing` to the smallest share of a scene that the shader does not draw; a scene
-// that faces away may be black and transparent.
+// Finds the pixels to compare. For each scene, computes the share of the pixels that the shader does not draw, and sets
+// `missing` to the smallest share. A scene that faces away may be black and transparent.
 static bool find_inside(struct run *r, double *missing, lam_error *error)
 {
     const struct interpretation plain = {.reflection = LAM_REFLECTION_PHONG};
@@ -360,7 +362,7 @@ bool check_fit(struct run *r, bool writes, enum fit_outcome *outcome, char *reas
     if (r->report->verdict == LAM_CHECK_NOT_NUMBER)
         *outcome = FIT_EXPLAINED;
     else if ((explained || plain) == (r->report->verdict == LAM_CHECK_PASSES))
-        *outcome = FIT_UNKNOWN; // the full pictures do not confirm it
+        *outcome = FIT_UNKNOWN; // the full pictures do not confirm the interpretation
     if (*outcome == FIT_UNKNOWN)
         snprintf(reason, capacity, "its pictures resemble a correct shader's pictures, but are not equal to them");
     else if (explained)

@@ -15,16 +15,16 @@ struct run {
     struct arena *arena;
     struct diagnostics diagnostics;
     lam_check_painter painter;                  // the painter in use
-    lam_check_contract *shipped[MAX_CONTRACTS]; // read if no contract is given
+    lam_check_contract *shipped[MAX_CONTRACTS]; // the shipped contracts, read if no contract is given
     int shipped_count;
-    lam_check_contract *inferred; // used if no contract contains the shaders' names
+    lam_check_contract *inferred; // inferred from the shaders if no contract contains their names
     struct complete_texts texts;
     struct shader_interface interface;
     int size;
     double tolerance;
     lam_light_frame frame; // the space of the first light
     lam_reflection reflection;
-    char *vertex;    // generated if the caller gives none
+    char *vertex;    // the vertex shader, generated if the caller gives none
     lam_bytes bytes; // the drawing process's message; `drawn` points into it
     struct draw_result drawn;
     struct scene_comparison *scenes;
@@ -34,18 +34,19 @@ struct run {
     struct fault_shader *shader; // draws references that the CPU device cannot compute; NULL if not open
 };
 
-// Draws the references of `scenes` for the first possible expectation that the pictures meet, or else for the closest
-// one.
+// Draws the references of `scenes` for the first expectation that the pictures meet or, if they meet none, for the
+// closest expectation.
 bool check_draw_references(struct run *run, lam_error *error);
 
-// The steps of a comparison: make the scenes of `drawn`, get the share of compared pixels that are unwritten (or not
-// numbers), and measure the difference of each scene from its reference with the verdict.
+// The steps of a comparison. The first makes the scenes of `drawn`. The second gets the share of the compared pixels
+// that are unwritten (or not numbers). The third measures the difference between each scene and its reference, and sets
+// the verdict.
 bool check_make_scenes(struct run *run, unsigned scenes, lam_error *error);
 double check_missing_share(const struct scene_comparison *scene, bool not_numbers);
 void check_measure(struct run *run, bool writes);
 
-// Compares shaders of a contract that allows any strengths. FIT_UNKNOWN means no verdict; `reason` is the end of a
-// sentence.
+// Compares shaders of a contract that allows any strengths. FIT_UNKNOWN means that there is no verdict; `reason` then
+// explains why, as a clause of a message.
 enum fit_outcome { FIT_UNKNOWN, FIT_RIGHT, FIT_EXPLAINED, FIT_DIFFERS };
 bool check_fit(struct run *run, bool writes, enum fit_outcome *outcome, char *reason, size_t capacity,
                lam_error *error);

@@ -14,7 +14,7 @@
 #include "json_parse.h"
 #include "prefix.h"
 
-// The advice on correcting an entry, by its role. It is "" if only the role can be wrong.
+// The advice on correcting an entry of a role. It is "" if only the entry's role can be wrong.
 static const struct {
     const char *role, *correct;
 } corrections[] = {
@@ -56,7 +56,7 @@ static json_t *comment_of(const json_t *entry)
     return json_sprintf("%s%s%s", role ? meaning_of(role) : "", correct ? "; " : "", correct ? correct : "");
 }
 
-// Adds a comment to each entry without one, and restores names of the fixed state.
+// Adds a comment to each entry without a comment, and restores names of the fixed state.
 static json_t *comment_entries(const json_t *entries)
 {
     json_t *out = json_object();

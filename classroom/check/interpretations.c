@@ -35,7 +35,8 @@ static void add_exponent(float out[MAX_EXPONENTS], int *count, double x)
         out[(*count)++] = (float)x;
 }
 
-// Gets the second argument of pow, whose bracket is word `at`: a number, or a variable that is set to one.
+// Gets the second argument of the pow() whose opening parenthesis is word `at`: a number, or a variable that is set to
+// a number.
 static bool read_exponent(const struct declarations *d, int at, double *out)
 {
     int depth = 0;
@@ -178,8 +179,8 @@ int interpretations_list(const struct run *r, struct interpretation out[MAX_INTE
     return count;
 }
 
-// Returns whether a fault concerns neither colours and strengths, which the factors include, nor alpha, which does not
-// matter.
+// Returns whether a fault concerns only the geometry. Faults of colours and strengths are part of the fitted factors,
+// and alpha does not matter.
 static bool is_geometric(const struct fault *row)
 {
     static const enum fault_bit others[] = {BIT_KD_KS_SWAPPED,
@@ -246,7 +247,7 @@ bool interpretations_are_plain(const struct run *r)
             double x = 0;
             snprintf(padded, sizeof padded, " %s ", w->text);
             bool call = strcmp(next, "(") == 0 && (isalpha((unsigned char)w->text[0]) || w->text[0] == '_');
-            bool own = false; // a function that the text defines, because its name follows a type
+            bool own = false; // whether the text defines this function: its name then follows a type
             for (int k = 1; call && k < sides[s]->word_count && !own; k++)
                 own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&
                       isalpha((unsigned char)sides[s]->words[k - 1].text[0]);

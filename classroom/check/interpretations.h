@@ -1,5 +1,5 @@
-// interpretations.h: the interpretations of a shader that has its own strengths and colours: the calculations that its
-// source may contain.
+// interpretations.h: the interpretations of a shader that has its own strengths and colours. An interpretation is a
+// calculation that the source may contain.
 #ifndef INTERPRETATIONS_H
 #define INTERPRETATIONS_H
 
@@ -10,7 +10,7 @@ enum { MAX_EXPONENTS = 6, MAX_FORMS = 3, MAX_INTERPRETATIONS = 400, MAX_FAULTS =
 
 struct interpretation {
     lam_reflection reflection;
-    bool has_highlight, decoded; // pow(x, 1/2.2) is undone first
+    bool has_highlight, decoded; // whether pow(x, 1/2.2) is undone first
     fault_set set;
     const struct fault *forms[MAX_FORMS];
     int form_count;
@@ -24,16 +24,16 @@ struct interpretation {
 // Lists all interpretations of a correct shader that the text allows. Returns their number.
 int interpretations_list(const struct run *run, struct interpretation out[MAX_INTERPRETATIONS]);
 
-// Returns whether a fault of the table is visible in such a shader: faults of colours and strengths are part of the
-// factors.
+// Returns whether a fault of the table is visible in such a shader. Faults of colours and strengths are not visible,
+// because they are part of the factors.
 bool interpretations_allow_fault(const struct fault *row);
 
 // Returns whether a word occurs in one of the texts.
 bool interpretations_use(const struct run *run, const char *word);
 
-// Returns whether the texts use only words of an ambient, a diffuse and a specular term: if no interpretation explains
-// the pictures, the shader is then wrong. Steps, cones, distances, rims and similar features may be correct, but the
-// check does not understand them.
+// Returns whether the texts use only words of an ambient, a diffuse and a specular term: If so, and no interpretation
+// explains the pictures, the shader is wrong. Steps, cones, distances, rims and similar features may be correct, but
+// the check does not understand them.
 bool interpretations_are_plain(const struct run *run);
 
 #endif

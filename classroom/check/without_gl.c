@@ -1,5 +1,5 @@
-// without_gl.c: replaces the OpenGL painter in builds without the headers of EGL and OpenGL. The caller must then
-// provide a painter.
+// without_gl.c: replaces the OpenGL painter in builds without the headers of EGL and OpenGL. In such builds, the caller
+// must provide a painter.
 #include "gl_painter.h"
 
 #include <stddef.h>

@@ -1,6 +1,6 @@
-// explain_figure.c: draws the figure of `explain -o`: the vectors n, l, v, r and h as arrows on the surface (t instead
-// of r and h for threads), the same vectors from the side, and tables of the point's coordinates, the vectors, the
-// angles and the terms.
+// explain_figure.c: draws the figure of `explain -o`. It shows the vectors n, l, v, r and h as arrows on the surface (t
+// instead of r and h for threads), and the same vectors from the side. Tables list the point's coordinates, the
+// vectors, the angles and the terms.
 #include "explain_figure.h"
 
 #include <stdio.h>
@@ -9,7 +9,8 @@
 #include "console.h"
 
 enum { INK = 0x222222, GREY = 0x707070, RULE = 0xd8d8d8, WHITE = 0xffffff };
-enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 }; // the panel's measures, in units
+// the number of arrows, and the panel's size in units
+enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 };
 
 // Colours that remain distinct for colour-blind readers (Okabe and Ito, https://jfly.uni-koeln.de/color/).
 static const struct {
@@ -86,7 +87,7 @@ struct diagram {
 
 static struct point minus(struct point a, struct point b) { return (struct point){a.x - b.x, a.y - b.y}; }
 
-// Shorter arrows point towards the viewer.
+// Returns whether an arrow is so short that its vector points towards the viewer.
 static bool is_short(const struct diagram *g, int arrow)
 {
     return length_of(minus(g->tips[arrow], g->from)) < 9 * g->unit;
@@ -101,8 +102,8 @@ static double distance_of(struct point p, const struct diagram *g, int arrow)
     return length_of((struct point){to.x - along * way.x, to.y - along * way.y});
 }
 
-// Finds a position for an arrow's letter around its tip that does not overlap the arrows and earlier letters. If there
-// is none, returns the farthest position tried.
+// Finds a position for an arrow's letter around the arrow's tip, so that the letter does not overlap the arrows and
+// earlier letters. If every tried position overlaps, returns the last one, at the largest distance from the tip.
 static struct point find_place(const struct diagram *g, int arrow, const struct point *letters, int count)
 {
     struct point way = minus(g->tips[arrow], g->from), at = g->tips[arrow];
@@ -162,8 +163,9 @@ static bool draw_arrow(const struct diagram *g, int arrow, struct drawing *d, la
            draw_line(d, line, 2, 2.6 * unit, color, 0, error) && draw_line(d, wings, 3, 2.6 * unit, color, 0, error);
 }
 
-// In the picture, h covers l and is shorter, because v points towards the viewer. So h is drawn after l, then n, and
-// vectors towards the viewer last.
+// Draws the arrows in an order that keeps all of them visible. In the picture, h lies on l and is shorter, because v
+// points towards the viewer. Therefore h is drawn after l. Then n is drawn, and vectors towards the viewer are drawn
+// last.
 static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *error)
 {
     static const int order[ARROWS] = {2, 3, 5, 1, 4, 0};
@@ -195,7 +197,7 @@ static bool find_tips(const struct explain_figure *f, const struct subject *s, d
     return inside;
 }
 
-// Draws the arrows on the picture, as long as they all fit, with a dot at the point.
+// Draws the arrows on the picture, with a dot at the point. The arrows are shortened until all of them fit.
 static bool draw_vectors(const struct explain_figure *f, const struct subject *s, struct point corner, double unit,
                          struct drawing *d, lam_error *error)
 {
@@ -219,9 +221,9 @@ static bool draw_vectors(const struct explain_figure *f, const struct subject *s
     return draw_diagram(&g, d, error);
 }
 
-// Draws the vectors in the plane of the normal and the light (n and v without a light), with the surface as a
-// horizontal line. For a thread it draws the plane of t and l, with the thread as the horizontal line, because only the
-// angle between t and l matters. In the picture, v points towards the viewer.
+// Draws the vectors in the plane of the normal and the light (or of n and v, if there is no light), with the surface as
+// a horizontal line. For a thread, draws the plane of t and l, with the thread as the horizontal line, because only the
+// angle between t and l matters.
 static bool draw_from_the_side(const struct subject *s, const struct sheet_layout *at, struct drawing *d,
                                lam_error *error)
 {
@@ -239,7 +241,7 @@ static bool draw_from_the_side(const struct subject *s, const struct sheet_layou
     double up = dot(other, n);
     lam_vec3 level = {other.x - up * n.x, other.y - up * n.y, other.z - up * n.z};
     double size = __builtin_sqrt(dot(level, level));
-    if (!(size > 1e-4)) { // parallel to the normal, so any direction of the surface will do
+    if (!(size > 1e-4)) { // the vector is parallel to the normal, so any direction along the surface is suitable
         level = n.x * n.x < 0.5 ? (lam_vec3){0, n.z, -n.y} : (lam_vec3){-n.z, 0, n.x};
         size = __builtin_sqrt(dot(level, level));
     }
@@ -390,7 +392,7 @@ static bool put_terms(const lam_explanation *e, const struct subject *s, struct 
     return true;
 }
 
-// Prints the heading of the panel: the surface, the methods, and the light of the arrows.
+// Prints the heading of the panel: the surface, the methods, and the light that the arrows belong to.
 static void put_words(const struct explain_figure *f, const struct subject *s, struct drawing *d,
                       struct sheet_layout *at)
 {

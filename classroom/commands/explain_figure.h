@@ -6,10 +6,10 @@
 
 struct explain_figure {
     const lam_explanation *explanation;
-    const lam_camera *camera; // the camera of the picture
+    const lam_camera *camera; // the camera that rendered the picture
     const lam_image *picture; // same size as the explanation
     const char *model;
-    const char *title; // NULL means the model and the pixel
+    const char *title; // NULL means the names of the model and of the pixel
 };
 
 // Returns the size of the page in pixels.

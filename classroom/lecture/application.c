@@ -1,5 +1,5 @@
-// application.c: makes the application stage in the lecture style: a C function that lights a vertex, from
-// application.c.in, with the scene's own lights, materials and matrices.
+// application.c: makes the application stage in the lecture style: a C function that lights a vertex. The text comes
+// from application.c.in, with the scene's own lights, materials and matrices.
 #include "lecture.h"
 
 #include "application.inc"
@@ -14,7 +14,7 @@
 static const struct helper {
     const char *name, *text;
 } helpers[] = {
-    // Each function calls only earlier ones.
+    // Each function calls only functions above it.
     {"add", "static vec3 add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }\n"},
     {"subtract", "static vec3 subtract(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }\n"},
     {"times", "static vec3 times(vec3 a, vec3 b) { return (vec3){a.x * b.x, a.y * b.y, a.z * b.z}; }\n"},
@@ -64,7 +64,7 @@ static void add_helpers(struct text *text, const char *body)
 
 // --- numbers of the scene
 
-// Appends a number with the fewest digits that read back as the same float.
+// Appends a number with the fewest digits from which a program reads the same float.
 static void add_number(struct text *text, float value)
 {
     char number[32];
@@ -104,7 +104,7 @@ static void add_hemispheres(struct text *text, const struct frame *frame)
     text_add(text, "};\n");
 }
 
-// Appends the lights, with the members that any of them needs.
+// Appends the lights, with the members that at least one of them needs.
 static void add_lights(struct text *text, const struct glsl_facts *f, const struct frame *frame, const int *order)
 {
     text_print(text, "\nstatic const struct {\n%s%s%s%s    vec3 diffuse%s;\n} lights[] = {\n",
@@ -247,7 +247,7 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
                           const struct frame_draw_range *const *ranges, int count, lam_error *error)
 {
     struct glsl_choices lit = *choices;
-    lit.stage = LAM_STAGE_VERTEX; // the vertex stage has all facts about the light
+    lit.stage = LAM_STAGE_VERTEX; // because the facts of the vertex stage include all facts about the lighting
     const struct glsl_facts f = glsl_facts_of(&lit);
     if (!lecture_check(&lit, &f, error))
         return NULL;

@@ -45,8 +45,8 @@ bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam
     return true;
 }
 
-// Lights of a kind are consecutive. Writes the condition on a loop's index that selects them: "i >= 1 && i < 3", or ""
-// if it selects all lights. Returns their number.
+// Lights of one kind are consecutive. Writes the condition on a loop's index that selects the lights of a kind: "i >= 1
+// && i < 3", or "" if all lights are of this kind. Returns their number.
 static int lights_of(const struct glsl_choices *c, int kind, char condition[48])
 {
     int first = 0, count = 0, at = 0;

@@ -23,7 +23,7 @@ if (fragment && !glsl_120) {
 }
 if (lights_here) {
 
-    // The light that a point P with the unit normal N sends to the eye. All of it is in eye space: the eye is at the origin.
+    // The light that a point P with the unit normal N sends to the eye. All vectors are in eye space: the eye is at the origin.
     vec3 lit(PARAMETERS)
     {
         if (!products) {
@@ -35,7 +35,7 @@ if (lights_here) {
         }
         if (highlights || has_environment) {
             if (distant_viewer) {
-                const vec3 V = vec3(0.0, 0.0, 1.0); // towards an eye that is infinitely far away
+                const vec3 V = vec3(0.0, 0.0, 1.0); // towards an infinitely distant eye
             } else {
                 vec3 V = normalize(-P);         // from the point to the eye
             }
@@ -44,9 +44,9 @@ if (lights_here) {
             if (!tangents) {
                 vec3 T = cross(normalize(model_view[1].xyz), N); // around the mesh's y axis, like the marks of a lathe
                 if (dot(T, T) < 1.0e-8)
-                    T = model_view[0].xyz;      // along x where N is along y
+                    T = model_view[0].xyz;      // along x if N is parallel to y
             }
-            T = normalize(T - dot(T, N) * N); // the way that the threads run, along the surface
+            T = normalize(T - dot(T, N) * N); // the direction of the threads, along the surface
         }
         if (products) {
             vec3 ambient = vertex_colors ? tint.rgb * ambient_product.rgb : ambient_product.rgb; // ka La
@@ -73,7 +73,7 @@ if (lights_here) {
                     vec4 a = lights[i].attenuation;
                     float attenuation = 1.0 / (a.x + a.y * d + a.z * d * d);
                     if (has_range) {
-                        attenuation *= clamp(1.0 - pow(d * a.w, 4.0), 0.0, 1.0); // nothing beyond the range
+                        attenuation *= clamp(1.0 - pow(d * a.w, 4.0), 0.0, 1.0); // 0 beyond the range
                     }
                 }
                 if (has_cone) {
@@ -101,7 +101,7 @@ if (lights_here) {
                     float S = dot(N, L) > 0.0 ? pow(max(dot(R, V), 0.0), SHININESS) : 0.0; // Phong
                 }
                 if (blinn_phong) {
-                    vec3 H = normalize(L + V);  // halfway between light and eye
+                    vec3 H = normalize(L + V);  // halfway between L and V
                     float S = dot(N, L) > 0.0 ? pow(max(dot(N, H), 0.0), SHININESS) : 0.0; // Blinn and Phong
                 }
                 if (highlights) {
@@ -121,7 +121,7 @@ if (lights_here) {
 }
 if (fragment && encodes) {
 
-    // From linear light to the numbers of a screen (sRGB).
+    // Converts linear light to the sRGB values of a screen.
     vec3 encode(vec3 light)
     {
         vec3 x = clamp(light, 0.0, 1.0);

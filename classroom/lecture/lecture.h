@@ -1,6 +1,6 @@
-// lecture.h: shaders in the lecture style: simple code, at most about forty lines per stage, with the names that
-// lectures use (N, L, V, R, H, T, ka, kd, ks), the same uniforms as the full style and the same picture; the
-// application stage as a C function; and the known mistakes, as edits of these shaders.
+// lecture.h: makes shaders in the lecture style. Their code is simple, with at most about forty lines per stage, and
+// uses the names of lectures (N, L, V, R, H, T, ka, kd, ks). Uniforms and pictures are the same as in the full style.
+// The application stage is a C function. Known mistakes are edits of these shaders.
 #ifndef LECTURE_H
 #define LECTURE_H
 
@@ -9,20 +9,21 @@
 // The style, for glsl_choices.style.
 extern const struct glsl_style lecture_style;
 
-// Returns whether the style supports these choices. Otherwise fails with LAM_UNSUPPORTED and the unsupported option.
+// Returns whether the style supports these choices. If not, fails with LAM_UNSUPPORTED, and the message names the
+// unsupported option.
 bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
 
 // Makes the C source of the application stage: a function `light_vertex` that computes the colours of a vertex of one
-// of the draws `ranges`. order[i] is the index in the frame of the shader's light i; it contains the mistake
-// choices->mistake. The caller frees the result. Returns NULL on failure: LAM_UNSUPPORTED, naming the option
-// that the style does not support, or the errors of mistake_apply; LAM_LIMIT.
+// of the draws `ranges`. order[i] is the index in the frame of the shader's light i. The function contains the mistake
+// choices->mistake. The caller frees the result. Returns NULL on failure: LAM_UNSUPPORTED with the option that the
+// style does not support, LAM_LIMIT, or an error of mistake_apply.
 char *lecture_application(const struct glsl_choices *choices, const struct frame *frame, const int *order,
                           const struct frame_draw_range *const *ranges, int count, lam_error *error);
 
 // --- parts of the text that GLSL and C share (lecture.c)
 
-// Adds the flags of both texts: the flags of every shader (known_facts), and the conditions of the lecture style's
-// lines.
+// Adds the flags that both texts use: the flags of every shader (known_facts), and the conditions on lines of the
+// lecture style.
 void lecture_add_flags(struct known_table *table, const struct glsl_facts *facts);
 // Appends the vector from the point to light i: `against` for directional lights, `towards` for the others.
 void lecture_add_way(struct text *text, const struct glsl_choices *choices, const char *against, const char *towards);
@@ -31,8 +32,9 @@ void lecture_add_spots(struct text *text, const struct glsl_choices *choices, co
 
 // --- mistakes
 
-// Introduces the mistake choices->mistake into one of the texts, which are freed and replaced. Returns false on
-// failure: LAM_UNSUPPORTED if they lack the requirement of the mistake, LAM_LIMIT.
+// Introduces the mistake choices->mistake into one of the texts. On success, all texts are freed and replaced by
+// copies. Returns false on failure: LAM_UNSUPPORTED if the mistake requires a feature that the texts lack, or
+// LAM_LIMIT.
 bool mistake_apply(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 
 // Returns the value of glsl_choices.mistake for an id, or 0 if there is no such mistake.

@@ -1,5 +1,5 @@
-// mistakes.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most occur in lectures and
-// tutorials (docs/mistakes.md). `lambent check` explains each under the same id
+// mistakes.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most of these mistakes occur
+// in lectures and tutorials (docs/mistakes.md). `lambent check` explains each mistake under the same id
 // (classroom/check/diagnose/faults/fault_table.c).
 #include <lambent/shader.h>
 
@@ -7,7 +7,7 @@
 #include "lecture.h"
 #include "text_builder.h"
 
-// Most rows have no text.
+// Most rows omit some members.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 #include <stdio.h>
@@ -22,8 +22,8 @@ struct edit {
     const char *before, *after;
 };
 
-// Adjacent rows with the same id are forms of one mistake; the first applicable form is used. The first row contains
-// the sentences. Forms for the C function of the application stage are last.
+// Adjacent rows with the same id are forms of one mistake, and the first applicable form is used. Only the first of
+// these rows contains the sentences. Forms for the C function of the application stage come last.
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];
@@ -355,7 +355,7 @@ bool lam_shader_mistake_row(int row, lam_shader_mistake *mistake)
 
 // --- edits
 
-// Copies `text` with the number of lights for "@lights@"; at most 127 bytes.
+// Copies `text`, with "@lights@" replaced by the number of lights. The copy has at most 127 bytes.
 static void expand(char out[128], const char *text, int lights)
 {
     const char *at = strstr(text, "@lights@");

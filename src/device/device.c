@@ -17,8 +17,8 @@ static uint64_t own_memory(const lam_device *device)
 // Finds the edges that are drawn over the picture.
 static bool find_edges(lam_device *device, struct call_control *call, lam_error *error)
 {
-    // The largest number of rays traced at once, for each instruction set. The entry LAM_ISA_AUTO is for devices
-    // without an instruction set of their own.
+    // The largest number of rays traced at once, for each instruction set. The entry LAM_ISA_AUTO is for devices to
+    // which instruction sets do not apply.
     static const int lanes[LAM_ISA_COUNT] = {
         [LAM_ISA_AUTO] = 16,   [LAM_ISA_SCALAR] = 1, [LAM_ISA_SSE4] = 4, [LAM_ISA_AVX2] = 8,
         [LAM_ISA_AVX512] = 16, [LAM_ISA_NEON] = 4,   [LAM_ISA_WASM] = 4};
@@ -39,8 +39,8 @@ static bool find_edges(lam_device *device, struct call_control *call, lam_error 
     return true;
 }
 
-// Draws the frame, then the edges over it. Surfaces that are not drawn still hide edges, so the frame is built once
-// with them and once without.
+// Draws the frame, then the edges over it. Surfaces that are not drawn still hide edges, so the frame is built twice:
+// with these surfaces and without them.
 static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                        const lam_draw_params *params, lam_image *target, struct call_control *call, lam_error *error)
 {

@@ -12,7 +12,8 @@ static float clamped(float x, float low, float high) { return x > high ? high : 
 
 static uint8_t code_byte(float x) { return (uint8_t)(clamped(x, 0, 1) * 255.0f + 0.5f); }
 
-// Returns a colour that distinguishes neighbouring triangles. Each channel is at least 48, unlike black.
+// Returns a colour that distinguishes neighbouring triangles. Each channel is at least 48, so that the colour differs
+// from black.
 static void color_of_ids(const float v[3], uint8_t out[4])
 {
     uint64_t h = ((uint64_t)v[1] << 40 | (uint64_t)v[2] << 24 | (uint64_t)v[0]) + 1;
@@ -22,8 +23,8 @@ static void color_of_ids(const float v[3], uint8_t out[4])
         out[c] = (uint8_t)(48 + (h >> (40 + 8 * c) & 0xff) * 207 / 255);
 }
 
-// Returns 1 at the scene's nearest vertex and 0 at its farthest. If the depths differ by less than their rounding
-// error, the whole scene counts as nearest.
+// Returns 1 for the depth of the scene's nearest vertex, and 0 for its farthest vertex. If the depths differ by less
+// than their rounding error, the whole scene counts as nearest.
 static float depth_code(const struct frame *frame, float depth)
 {
     float far = frame->depth_far, range = far - frame->depth_near;
@@ -90,7 +91,7 @@ void encode_empty(const struct frame *frame, lam_pixel_format format, void *to)
         write_pixels(frame, (struct pixel_lanes){zero, zero, zero, zero}, format, to, 1);
 }
 
-// Writes how far the picture's pixel is outside 0…1; an 8-bit format gets a marker colour instead.
+// Writes by how much the picture's pixel is outside 0…1. In an 8-bit format, writes a marker colour instead.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to)
 {
     float out[4] = {0}, straight[3];

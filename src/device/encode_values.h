@@ -7,11 +7,12 @@
 // Writes a pixel with the values v: a surface property, coverage or overdraw.
 void encode_values(const struct frame *frame, lam_pixel_format format, const float v[4], void *to);
 
-// Writes a pixel that no triangle covers: the background in 8-bit formats, 0 in float formats, or its coverage,
-// overdraw or excess.
+// Writes a pixel that no triangle covers: the background in 8-bit formats, 0 in float formats, or the value of an
+// output for coverage, overdraw or clipping.
 void encode_empty(const struct frame *frame, lam_pixel_format format, void *to);
 
-// Writes how far the picture's pixel p (premultiplied) is outside 0…1; an 8-bit format gets a marker colour instead.
+// Writes by how much the picture's pixel p (premultiplied) is outside 0…1. In an 8-bit format, writes a marker colour
+// instead.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to);
 
 // Returns whether 8-bit pixels of this frame store numbers without the sRGB encoding.

@@ -58,7 +58,7 @@ void *recorder_alloc(struct recorder *recorder, size_t count, size_t size)
     return memory;
 }
 
-// Returns the angle from cross and dot product, which is accurate for small angles too.
+// Computes the angle from the cross and the dot product, which is accurate for small angles too.
 static double angle_between(lam_vec3 a, lam_vec3 b)
 {
     if (v3_dot(a, a) == 0 || v3_dot(b, b) == 0)
@@ -66,8 +66,8 @@ static double angle_between(lam_vec3 a, lam_vec3 b)
     return math_atan2(v3_length(v3_cross(a, b)), v3_dot(a, b));
 }
 
-// Transforms a point from eye space to world space and to the object's mesh; the rectangles of lines and points are in
-// eye space.
+// Transforms a point from eye space to world space and to the space of the object's mesh. The rectangles of lines and
+// points are already in eye space.
 static void leave_eye_space(const lam_camera *camera, const lam_object *object, lam_explained_point *point)
 {
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up), to_world, to_mesh;
@@ -105,7 +105,7 @@ static void complete_map(lam_explained_map *map, const lam_texture_map *given)
     map->row = (float)(wrapped(at_t, given->wrap_t) * map->height);
 }
 
-// Compute values that follow from the recorded ones.
+// The following functions compute values from the recorded values.
 static const lam_mat4 identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
 static void complete_angles(lam_explained_point *point)
@@ -133,7 +133,7 @@ static lam_explained_place place_of(const struct frame_draw *draw, lam_vec3 orig
     }
     const double w = pixel[3];
     out.eye_position = v3(eye[0], eye[1], eye[2]);
-    out.clip[0] = 2 * pixel[0] / width - w; // the frame's matrix maps to pixels, with y downwards
+    out.clip[0] = 2 * pixel[0] / width - w; // the frame's matrix maps positions to pixels, with y downwards
     out.clip[1] = w - 2 * pixel[1] / height;
     out.clip[2] = pixel[2];
     out.clip[3] = w;
@@ -234,7 +234,7 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
 
 // An explanation and the arena that owns its memory.
 struct explanation {
-    lam_explanation values; // first
+    lam_explanation values; // the first member, because its pointer is cast to the struct
     struct arena arena;
 };
 

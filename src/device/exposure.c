@@ -19,8 +19,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Replaces a picture of premultiplied floats by the luminances (BT.709) of its covered pixels, and returns their
-// number.
+// Replaces a picture of premultiplied floats by the luminances (BT.709) of its covered pixels. Returns the number of
+// these pixels.
 static size_t luminances(lam_image *image)
 {
     float *pixels = image->pixels;
@@ -61,7 +61,7 @@ bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_came
     drawn.output = LAM_OUTPUT_PICTURE;
     drawn.light_cutoff = -1;
     drawn.ground = LAM_GROUND_NONE;
-    drawn.shadows |= params && params->ground; // a ground receives shadows
+    drawn.shadows |= params && params->ground; // because a ground receives shadows
     drawn.wireframe = drawn.no_surfaces = false;
     drawn.edges = 0;
     int longer = width > height ? width : height;

@@ -1,5 +1,5 @@
-// picture_pixels.h: converts linear light to the pixels of a picture, LANES at a time: it composites over the
-// background and encodes. All devices use this code. Define LANES before including it (lanes.h).
+// picture_pixels.h: converts linear light to the pixels of a picture, LANES at a time: composites them over the
+// background and encodes them. All devices use this code. Define LANES before including it (lanes.h).
 #ifndef PICTURE_PIXELS_H
 #define PICTURE_PIXELS_H
 
@@ -43,7 +43,7 @@ LANE_FN struct pixel_lanes over_background(const struct frame *frame, struct pix
 LANE_FN num straight_channel(num x, num a) { return pick(a > 0.0f, x / a, num_of(0.0f)); }
 LANE_FN num encoded_channel(num straight, int raw) { return raw ? saturate(straight) : srgb_encode(straight); }
 
-// Returns a premultiplied channel as a byte: divided by alpha, encoded, rounded.
+// Converts a premultiplied channel to a byte: divides it by alpha, encodes and rounds it.
 LANE_FN inum to_byte(num x, num a, int raw)
 {
     return int_of(encoded_channel(straight_channel(x, a), raw) * 255.0f + 0.5f);
@@ -57,7 +57,8 @@ LANE_FN inum to_rgba8(const struct frame *frame, struct pixel_lanes p)
     return r | shift_left(g, 8) | shift_left(b, 16) | shift_left(a, 24);
 }
 
-// Does the same as to_rgba8 for opaque pixels, which hide the background. Dividing by an alpha of 1 is exact.
+// Does the same as to_rgba8 for opaque pixels, which hide the background. The results are equal, because dividing by an
+// alpha of 1 is exact.
 LANE_FN inum opaque_to_rgba8(const struct frame *frame, struct pixel_lanes p)
 {
     int raw = frame->settings.color == LAM_COLOR_RAW;

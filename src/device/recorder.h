@@ -10,7 +10,7 @@ enum { RECORDER_POINTS = 3 }; // the maximum number of points of one fragment
 
 struct recorder {
     struct arena arena;   // owns the explanation
-    lam_explanation *out; // the caller sets the pixel's coordinates before drawing
+    lam_explanation *out; // the explanation; the caller sets the pixel's coordinates before drawing
     lam_explained_fragment *fragments;
     int capacity;
     bool failed; // out of memory
@@ -25,7 +25,7 @@ struct recorder {
     float weight_1, weight_2;
     int lit_sample;
     float picture_x, picture_y;
-    float received, unobstructed; // set for a ground that catches shadows
+    float received, unobstructed; // set only for a ground that catches shadows
     lam_explained_map maps[LAM_MAP_COUNT];
     int map_count;
     lam_explained_values values;
@@ -34,12 +34,13 @@ struct recorder {
 // Adds a zeroed fragment and returns it. Returns NULL if memory runs out.
 lam_explained_fragment *recorder_add(struct recorder *recorder);
 
-// Records that a translucent fragment is blended into a sample. `transmittance` belongs to the layers before it.
+// Records that a translucent fragment is blended into a sample. `transmittance` is the transmittance of the layers in
+// front of the fragment.
 void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float transmittance,
                     float share);
 
 // Records the light behind a sample's translucent layers, which comes from the picture behind them or from the
-// background. It has the units of the sum.
+// background. The light has the units of the sum.
 void recorder_behind(struct recorder *recorder, int pixel, const float light[3]);
 
 // Allocates zeroed memory for the explanation. Returns NULL if memory runs out.

@@ -10,7 +10,7 @@ enum { SAMPLES_MAX = 16 };
 struct sample_pattern {
     int count;
     int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];
-    int8_t min, max; // the range of all x and y
+    int8_t min, max; // the smallest and the largest of all x and y
     uint8_t by_distance[SAMPLES_MAX];
 };
 const struct sample_pattern *sample_pattern(int samples);

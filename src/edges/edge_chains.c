@@ -1,7 +1,7 @@
 // edge_chains.c: links edges to chains, so that dashes run along a curve of many short edges instead of restarting at
 // each edge.
 //
-// One thread links them, in the order of the edges, so the dashes do not depend on the number of threads.
+// One thread links the edges in their order, so the dashes do not depend on the number of threads.
 #include "edge_tasks.h"
 
 #include "linear.h"
@@ -45,7 +45,7 @@ static double straightness(const struct edge_measure *measures, uint32_t a, uint
     double ax = m->x[a & 1] - m->x[~a & 1], ay = m->y[a & 1] - m->y[~a & 1];
     double bx = n->x[~b & 1] - n->x[b & 1], by = n->y[~b & 1] - n->y[b & 1];
     double size = m->length * n->length;
-    // A line seen end-on has no direction: it continues any other line.
+    // A line seen end-on has no direction in the picture, so it continues any other line.
     return size > 1e-6 ? (ax * bx + ay * by) / size : 1;
 }
 
@@ -79,7 +79,7 @@ static void link_corner(struct edge_measure *measures, const struct end *ends, u
 }
 
 // Computes the positions of all edges in the chain of an edge, from the beginning of the chain. A closed chain begins
-// next to the edge.
+// at the edge that follows this edge.
 static void place_chain(struct edge_measure *measures, uint32_t edge)
 {
     uint32_t first = 2 * edge; // the end at which the chain is entered

@@ -11,7 +11,7 @@
 enum {
     POINTS_PER_LINE = 32768,
     POINTS = 2 * POINTS_PER_LINE,
-    HALVINGS = 4, // the end of a visible part is found to 1/32 of a pixel
+    HALVINGS = 4, // number of bisections: the end of a visible part is found to 1/32 of a pixel
 };
 
 // The scratch memory of one thread.
@@ -42,8 +42,8 @@ static void position(const struct edge_task *task, uint32_t corner, double p[3])
     ray_point(task->view->hierarchy, p, p);
 }
 
-// Computes a triangle's normal, not normalized, in the hierarchy's space. It points to the side that the winding
-// determines. Returns whether it faces the eye.
+// Computes a triangle's normal, not normalized, in the hierarchy's space. The normal points to the side that the
+// winding determines. Returns whether the triangle faces the eye.
 static bool faces_eye(const struct edge_task *task, uint32_t triangle, double n[3])
 {
     const struct edge_view *view = task->view;
@@ -98,7 +98,7 @@ static int style_of(const struct edge_task *task, const struct mesh_edge *edge, 
     return *kinds_of ? EDGE_STYLE_FEATURE : plain;
 }
 
-// Returns the style of an edge whose weight is known, without specks.
+// Returns the style of an edge whose weight is known. A speck gets the style of an edge that is not a feature edge.
 static int drawn_style(const struct edge_task *task, uint32_t e)
 {
     unsigned kinds;
@@ -107,13 +107,13 @@ static int drawn_style(const struct edge_task *task, uint32_t e)
         return plain_style(task, &task->edges[e]);
     if (weight != EDGE_UNWEIGHED)
         return EDGE_STYLE_FEATURE;
-    // Feature edges without a weight are outside the picture.
+    // A feature edge without a weight is outside the picture.
     return task->weights && !task->view->frame->settings.wireframe ? -1 : style_of(task, &task->edges[e], &kinds);
 }
 
 // --- clipping to the picture
 
-// Removes the part of a line in which a·q is below 0. `at_0` and `at_1` are a·q at the two ends. Returns false if
+// Cuts off the part of a line in which a·q is below 0. `at_0` and `at_1` are a·q at the two ends. Returns false if
 // nothing of the line remains.
 static bool cut(double at_0, double at_1, double range[2])
 {
@@ -142,8 +142,8 @@ static void to_window(const struct edge_view *view, const double p[3], double q[
     }
 }
 
-// Returns the height of a triangle over one of its edges in pixels, from the corner that is not on the edge. If that
-// corner is not in front of the eye, the result is large.
+// Returns the height of a triangle over one of its edges, in pixels: the distance of the third corner from the edge. If
+// that corner is not in front of the eye, the result is large.
 static double height_over(const struct edge_task *task, uint32_t corner, const struct edge_line *line)
 {
     double p[3], q[4];
@@ -157,7 +157,7 @@ static double height_over(const struct edge_task *task, uint32_t corner, const s
 }
 
 // If both triangles of a wireframe edge are narrower than FADE widths, the line is drawn thinner in proportion, down to
-// 1/FADE of its width. A fine mesh then looks evenly grey instead of black.
+// 1/FADE of its width. A fine mesh therefore looks evenly grey instead of black.
 enum { FADE = 5 };
 static double half_width(const struct edge_task *task, const struct mesh_edge *edge, const struct edge_line *line)
 {
@@ -220,7 +220,8 @@ static bool add_part(struct edge_task *task, const struct edge_line *line, doubl
     return edge_stroke_add(task->strokes, stroke, task->view->loop->call);
 }
 
-// Adds dashes of 5 widths and gaps of 3, measured along the chain of the line; widths below a pixel count as one.
+// Adds dashes of 5 widths and gaps of 3, measured along the chain of the line. A width below one pixel counts as one
+// pixel.
 static bool add_dashes(struct edge_task *task, const struct edge_line *line, double from, double to)
 {
     if (line->reversed) {
@@ -317,7 +318,7 @@ bool edge_task_draw(struct edge_task *task, void *memory)
         line->first = s->point_count;
         line->count = 0;
         if (!shows_all) {
-            // The line gets one point per pixel of its length, in the middle of the pixel's interval.
+            // The line is divided into one interval per pixel of its length, with a point in the middle of each.
             line->count = line->length < 1                 ? 1
                           : line->length < POINTS_PER_LINE ? (uint32_t)(line->length + 0.5)
                                                            : POINTS_PER_LINE;

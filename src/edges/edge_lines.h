@@ -1,4 +1,4 @@
-// edge_lines.h: data of edges between the mesh and the picture.
+// edge_lines.h: the data that describe edges on the way from the mesh to the picture.
 #ifndef EDGE_LINES_H
 #define EDGE_LINES_H
 
@@ -10,20 +10,20 @@
 struct edge_view {
     const struct frame *frame;
     const struct hierarchy *hierarchy;
-    double eye[3];    // in the hierarchy's space: the eye, or the direction to it with an orthographic camera
-    double near_[4];  // a p + b for p in that space is > 0 beyond the near plane
-    bool every_hides; // no triangle is culled or transparent
+    double eye[3];    // in the hierarchy's space: the eye or, with an orthographic camera, the direction to the eye
+    double near_[4];  // (a, b): for a point p in that space, a p + b is > 0 beyond the near plane
+    bool every_hides; // every triangle hides edges: no triangle is culled or transparent
     double window[2]; // pixels
     struct loop_status *loop;
 };
 
 // The part of an edge that is inside the picture, or close to it.
 struct edge_line {
-    // p/w and 1/w of its ends p, where p is in the hierarchy's space and w is the clip coordinate
+    // p/w and 1/w of the line's ends p, where p is in the hierarchy's space and w is the clip coordinate
     double over_w[2][3], inverse_w[2];
     double x[2], y[2], length; // in the window, pixels
-    double half;               // half of its width, pixels
-    double start;              // length of the chain before it, pixels
+    double half;               // half of the line's width, pixels
+    double start;              // length of the chain before the line, pixels
     bool reversed;             // the chain runs from its second end to its first
     int style;
     bool whole[2];         // whether the end is an end of the edge itself

@@ -1,10 +1,10 @@
 // edge_pixels.c: converts strokes to coverage, and blends their colour over the picture.
 //
-// The coverage of a pixel is the area that a strip of the stroke's width shares with the square of the pixel. Projected
-// across the strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin|
-// of the strip's angle. The sum of a line's coverage along any row or column that crosses it is therefore its width
-// there, at any position. At a crossing the largest coverage is used, so that edges shared by two triangles, and
-// corners, are not darker than the rest.
+// The coverage of a pixel is the area of its square that a strip of the stroke's width covers. Projected across the
+// strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
+// strip's angle. Along any row or column that crosses a line, the sum of the line's coverage is therefore its width in
+// that direction, at any position. At a crossing the largest coverage is used, so that edges shared by two triangles,
+// and corners, are not darker than the rest.
 #define LANES 1
 #include "edge_lines.h"
 
@@ -61,7 +61,7 @@ static double coverage_at(const struct edge_stroke *s, double x, double y, doubl
 
 static int clamped(double x, int limit) { return x <= 0 ? 0 : x >= limit ? limit : (int)x; }
 
-// Finds the columns of a row that a stroke may touch: those within `reach` of its line, inside its box.
+// Finds the columns of a row that a stroke may touch: those within `reach` of the stroke's line, and inside its box.
 static void columns(const struct edge_stroke *s, double y, double ux, double uy, double reach, int width, int *first,
                     int *last)
 {
@@ -136,7 +136,7 @@ static bool list_strokes(struct cover_job *job, int bands, struct call_control *
             for (int b = first; b <= last; b++)
                 job->ends[b]++;
         }
-    for (int b = 0; b < bands; b++) { // the start of each band; the next loop makes it the end
+    for (int b = 0; b < bands; b++) { // sets ends[b] to the start of band b; the next loop advances it to the end
         size_t count = job->ends[b];
         job->ends[b] = sum;
         sum += count;
@@ -181,7 +181,7 @@ struct blend_job {
     float decoded[256]; // linear light of a byte
 };
 
-// Blends a colour over a pixel, both linear and premultiplied.
+// Blends a colour over a pixel. Both are linear, and the pixel is premultiplied.
 static void over(float pixel[4], const lam_rgba *color, float coverage)
 {
     float a = color->a * coverage, left = 1 - a;

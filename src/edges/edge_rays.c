@@ -1,17 +1,17 @@
-// edge_rays.c: finds the hidden points of edges by tracing LANES rays to the eye at a time. Compiled for several
-// instruction sets.
+// edge_rays.c: finds the hidden points of edges by tracing LANES rays to the eye at a time. This file is compiled for
+// several instruction sets.
 //
-// An edge lies in the planes of its own triangles and of touching faces, so these must not hide it. Therefore a
-// triangle hides a point only if its plane is farther from the point than the rounding of positions in files. Lines
-// along a surface then have no gaps, and no line is visible through a surface.
+// An edge lies in the planes of its own triangles and of touching faces, so these faces must not hide the edge.
+// Therefore a triangle hides a point only if its plane is farther from the point than the rounding of positions in
+// files. Lines along a surface then have no gaps, and no line is visible through a surface.
 #include "edge_lines.h"
 
 #include "layer_kinds.h"
 #include "opacity.h"
 #include "ray_lanes.h"
 
-// A tolerance in the hierarchy's space, whose larger half side is ½ to 1: floats have a precision of 2⁻²⁴, coordinates
-// may be up to 16 times the size of the model (lam_mesh.origin), and text files have six digits.
+// A tolerance in the hierarchy's space, in which the model's larger half side is ½ to 1. Floats have a precision of
+// 2⁻²⁴, coordinates may be up to 16 times the size of the model (lam_mesh.origin), and text files have six digits.
 #define ROUNDING 0x1p-19
 
 #define JOIN_(a, b) a##_##b

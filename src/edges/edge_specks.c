@@ -1,5 +1,5 @@
-// edge_specks.c: leaves out feature edges that form only specks in the picture. Scans and slivers of CAD programs
-// contain many short creases, which look like dirt instead of lines.
+// edge_specks.c: removes feature edges that form only specks in the picture. Scans and slivers of CAD programs contain
+// many short creases, which look like dirt instead of lines.
 //
 // Edges with common ends form a group. The group's size is the sum of the weights of its edges, in whole numbers, so
 // that it does not depend on the order.
@@ -12,11 +12,11 @@
 
 enum { CHECK_INTERVAL = 1 << 14, SPECK_MAX = 8 * EDGE_WEIGHT_PIXEL };
 
-// A vertex of a hash table: the end of edges, and the group that it belongs to.
+// An entry of the hash table: a vertex at which edges end, and the group that the vertex belongs to.
 struct vertex {
     double p[3];
     uint32_t parent; // another vertex of its group, or itself
-    uint32_t size;   // of the group, at the vertex that is its own parent
+    uint32_t size;   // at a vertex that is its own parent, the size of the group
 };
 
 struct groups {

@@ -9,24 +9,25 @@ struct edge_measure {
     double x[2], y[2], length; // in the window, clipped to the picture; pixels
     int style;                 // −1 if it is not drawn
     bool whole[2];             // whether the end is not clipped
-    // For each end, the edge end that it is linked to: twice the index of that edge, plus 0 or 1. NO_LINK if none.
+    // For each end of this edge, the edge end to which it is linked: twice the index of the other edge, plus 0 or 1.
+    // NO_LINK if none.
     uint32_t link[2];
     bool placed;
     double start;  // length of the chain before it
-    bool reversed; // the chain runs from its end 1 to its end 0
+    bool reversed; // the chain runs from end 1 of this edge to end 0
 };
 #define NO_LINK 0xffffffffu
 
 enum { EDGES_PER_TASK = 2048 };
 
-// The weight of a feature edge (edge_specks.c): its length in the picture, in parts of a pixel. A crease beside a face
-// that is narrower than a pixel, or beside a sliver, counts less, in proportion. An edge that continues outside the
-// picture has the largest weight.
+// The weight of a feature edge (edge_specks.c): its length in the picture, in fractions of a pixel. A crease beside a
+// face that is narrower than a pixel, or beside a sliver, counts less, in proportion. An edge that continues outside
+// the picture has the largest weight.
 enum {
     EDGE_WEIGHT_PIXEL = 1024, // the unit
     EDGE_WEIGHT_MAX = 0xfffd,
-    EDGE_SPECK = 0xfffe,     // too small a group to be drawn
-    EDGE_UNWEIGHED = 0xffff, // no feature edge, or outside the picture
+    EDGE_SPECK = 0xfffe,     // the edge's group is too small to be drawn
+    EDGE_UNWEIGHED = 0xffff, // not a feature edge, or outside the picture
 };
 
 struct edge_task {
@@ -38,13 +39,13 @@ struct edge_task {
     uint16_t *weights;             // one per edge; NULL if there are no feature edges
     edge_rays *rays_of;
     struct edge_strokes *strokes; // output: the strokes of the thread
-    uint64_t drawn, rays;         // output: sums to which the task adds
+    uint64_t drawn, rays;         // output: sums to which the task adds its numbers
 };
 
-// Bytes of scratch memory that a thread needs.
+// Returns the number of bytes of scratch memory that a thread needs.
 size_t edge_scratch_bytes(void);
 
-// Returns false if memory runs out or the call must stop.
+// Returns false if memory runs out or the call is stopped.
 bool edge_task_draw(struct edge_task *task, void *scratch);
 
 // Fills the measures of a task, except their chains.
@@ -57,12 +58,12 @@ void edge_task_weigh(struct edge_task *task);
 void edge_task_ends(const struct edge_task *task, uint32_t edge, double ends[2][3]);
 
 // Marks the edges of groups with a total weight of less than eight pixels as specks, in tasks that contain all edges of
-// a draw. Returns false if memory runs out or the call must stop.
+// a draw. Returns false if memory runs out or the call is stopped.
 bool edge_specks_drop(const struct edge_task *draws, int draw_count, struct loop_status *loop);
 
-// Links the measured edges of a draw to chains, and places them there. At each corner it connects two lines of one
-// style if they are the only ones, or else the straightest pairs that turn by less than 60 degrees. Returns false if
-// memory runs out or the call must stop.
+// Links the measured edges of a draw to chains, and computes their positions in the chains. If only two lines meet at a
+// corner, and both have the same style, the function connects them. Otherwise it connects the straightest pairs of one
+// style that turn by less than 60 degrees. Returns false if memory runs out or the call is stopped.
 bool edge_chains_link(const struct frame_draw *draw, const struct mesh_edge *edges, struct edge_measure *measures,
                       uint32_t count, struct loop_status *loop);
 

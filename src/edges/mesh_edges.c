@@ -1,11 +1,11 @@
 // mesh_edges.c: finds the edges of a mesh. Corners are welded into vertices by position. For each vertex, the edges to
-// higher vertices, in both directions, are sorted by their other end, so that equal edges are adjacent.
+// vertices with higher numbers are sorted by their other end, so that equal edges are adjacent.
 #include "mesh_edges.h"
 
 #include "corner_weld.h"
 #include "edge_keys.h"
 
-enum { CHECK_INTERVAL = 1 << 14 }; // ends of edges between two checks for cancellation
+enum { CHECK_INTERVAL = 1 << 14 }; // number of edge ends between two checks for cancellation
 
 static bool is_inner(const lam_mesh *mesh, uint32_t corner)
 {
@@ -18,9 +18,9 @@ static uint32_t apex_of(const struct corner_weld *weld, uint32_t corner)
     return weld->of[corner - corner % 3 + (corner % 3 + 2) % 3];
 }
 
-// Returns the edges that begin at `count` corners. Triangles with the same three vertices are one face, because files
-// may contain each face twice, once for each side. If a face occurs twice, the corner whose direction is opposite to
-// the first face's is used.
+// Returns the edge that begins at each of these `count` corners. Triangles with the same three vertices are one face,
+// because files may contain each face twice, once for each side. If a face occurs twice, the copy that traverses the
+// edge in the direction opposite to the first face is used.
 static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *weld, const uint64_t *keys,
                                 uint32_t count)
 {

@@ -7,10 +7,10 @@
 #include <lambent/mesh.h>
 
 enum {
-    EDGE_INNER = 1,  // inside a polygon according to all of its triangles (lam_mesh.inner_edges)
-    EDGE_OPEN = 2,   // has one face; triangles with the same three vertices are one face
-    EDGE_SHARED = 4, // has more than two faces
-    EDGE_ALIKE = 8,  // both faces have the same direction along it, so they are wound differently
+    EDGE_INNER = 1,  // lies inside a polygon, according to all triangles at the edge (lam_mesh.inner_edges)
+    EDGE_OPEN = 2,   // belongs to one face; triangles with the same three vertices are one face
+    EDGE_SHARED = 4, // belongs to more than two faces
+    EDGE_ALIKE = 8,  // both faces traverse the edge in the same direction, so their windings are inconsistent
 };
 
 // An edge from a corner of a triangle to the triangle's next corner, and its corner in another triangle.
@@ -23,8 +23,8 @@ struct mesh_edge {
 static inline uint32_t edge_end(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
 // Lists the edges of a mesh in `edges`, which has space for three per triangle, and returns their number. Corners at
-// the same position are the same corner, regardless of their indices. Triangles with two equal corners have no edges.
-// Sets *failed and fills `error` if memory runs out or the call must stop.
+// the same position are treated as the same corner, regardless of their indices. Triangles with two equal corners have
+// no edges. Sets *failed and fills `error` if memory runs out or the call is stopped.
 uint32_t mesh_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct call_control *call, bool *failed,
                     lam_error *error);
 

@@ -31,8 +31,8 @@ int lam_default_samples(int width, int height)
                                                : LARGE_SAMPLES;
 }
 
-// Sets the planes to enclose all objects with a margin. In perspective, the near distance is at least 1/10000 of the
-// far distance.
+// Sets the near and the far plane so that they enclose all objects with a margin. In perspective, the near distance is
+// at least 1/10000 of the far distance.
 static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthographic, double *near_plane,
                        double *far_plane)
 {
@@ -99,8 +99,7 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
             largest = c > largest ? c : largest;
             largest_eye = e > largest_eye ? e : largest_eye;
         }
-    // The cofactor matrix is the inverse transpose times the determinant; only the sign of the determinant must be
-    // removed.
+    // The cofactor matrix is the inverse transpose times the determinant, of which only the sign must be removed.
     double scale = (draw->mirrored ? -1 : 1) / (largest > 0 ? largest : 1);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -114,7 +113,8 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
 
 static int material_index(int scene_index) { return scene_index < 0 ? 0 : scene_index + 1; }
 
-// Returns whether a material has translucent or masked points. `varies` means that the mesh's colours have alphas.
+// Returns whether a material has translucent or masked points. `varies` means that the mesh's colours contain alpha
+// values.
 static bool sees_through(const lam_material *material, bool varies)
 {
     varies |= material->maps[LAM_MAP_OPACITY] || texture_map_translucent(material->maps[LAM_MAP_DIFFUSE]);
@@ -208,8 +208,8 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
     }
 }
 
-// Adds the ground as the frame's last triangles. It is lit like the scene: as a physical material under an environment
-// that lights such materials, otherwise as a matt classic one.
+// Adds the ground as the frame's last triangles. The ground is lit like the scene. If an environment lights physical
+// materials, the ground is a physical material, otherwise a matt classic one.
 static bool add_ground(struct frame *frame, uint64_t next, bool physical, const lam_mat4 *view, const lam_mat4 *pixel,
                        struct call_control *call, lam_error *error)
 {
@@ -305,8 +305,9 @@ static bool uses_physical(const struct frame *frame)
     return frame->settings.reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->settings.reflection);
 }
 
-// Sets the environment and the matrix from directions in eye space to the environment's axes: eye space to world space,
-// the scene's up axis to +Y (as the fitted camera), then the inverse of the environment's rotation.
+// Sets the environment, and the matrix from directions in eye space to the environment's axes. This matrix transforms
+// eye space to world space, then the scene's up axis to +Y (as the fitted camera does), then applies the inverse of the
+// environment's rotation.
 static bool build_environment(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, lam_error *error)
 {
     bool lamp = wants_shadows(&frame->settings);
@@ -328,7 +329,8 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     return true;
 }
 
-// Facet normals need no computation before lighting if each is used only for points of its own triangle.
+// Decides whether facet normals can be computed at each point: they need no computation before lighting if each normal
+// is used only for points of its own triangle.
 static void leave_facets(struct frame *frame)
 {
     if (!frame->makes_normals || frame->settings.shading != LAM_SHADING_PHONG || frame_has_rays(frame))
@@ -354,7 +356,7 @@ static bool has_color_maps(const struct frame *frame)
     return false;
 }
 
-// Selects the method of ambient occlusion. The lights must be known.
+// Selects the method of ambient occlusion. Call this function after the lights are set.
 static void set_occlusion(struct frame *frame, const lam_scene *scene, bool physical)
 {
     lam_draw_params *settings = &frame->settings;
@@ -394,7 +396,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     if (frame->cavity_radius > 0 && settings->occlusion == LAM_OCCLUSION_OFF)
         settings->occlusion = LAM_OCCLUSION_SCREEN;
     if (!(half > 0))
-        settings->occlusion = LAM_OCCLUSION_OFF; // the scene has no extent
+        settings->occlusion = LAM_OCCLUSION_OFF; // because the scene has no extent
 }
 
 static void resolve_settings(struct frame *frame, const lam_draw_params *params, int width, int height)
@@ -415,7 +417,7 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
         settings->reflection = LAM_REFLECTION_AUTO;
 }
 
-// Sets the planes of the projection, and the distances that --show depth shows as black and white.
+// Sets the planes of the projection, and the distances for which --show depth draws black and white.
 static void set_planes(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, double near_plane,
                        double far_plane)
 {
@@ -483,7 +485,7 @@ static void set_glass(struct frame *frame, const lam_mat4 *pixel)
 {
     static const lam_rgba white = {1, 1, 1, 1};
     bool clear =
-        // a single term excludes the background
+        // a picture of a single term excludes the background
         frame->settings.background.a <= 0 && output_is_picture(frame->settings.output);
     const lam_rgba *back = clear ? &white : &frame->settings.background;
     for (int c = 0; c < 3; c++)

@@ -21,22 +21,24 @@ struct frame_draw {
     float eye[3][4];     // mesh positions to eye space
     float normal[3][3];  // mesh normals to eye space, up to a positive factor
     float tangent[3][3]; // mesh directions to eye space, up to a positive factor
-    // With rays only: transforms of mesh positions and normals to world space; the normals up to a positive factor.
+    // Set only if rays are traced: transforms of mesh positions and normals to world space; the normals up to a
+    // positive factor.
     double world[3][4], world_normal[3][3];
-    // With rays only: the largest error of a vertex along each world axis, if the numbers in its file are exact to one
-    // unit in the last place of a float: 2⁻²³ Σ_j |world_ij| max |x_j|.
+    // Set only if rays are traced: the largest error of a vertex along each world axis. The numbers in the file are
+    // assumed to be exact to one unit in the last place of a float: 2⁻²³ Σ_j |world_ij| max |x_j|.
     double rounding[3];
     bool mirrored; // the transform reverses the winding
     bool one_sided;
-    // The mesh consists of rectangles for lines or points (frame_strokes.h), built for this frame in eye space. They
-    // are not surfaces: flat shading uses their vertex normals, and they cast no shadows.
+    // The mesh consists of rectangles for lines or points (frame_strokes.h), built for this frame in eye space. These
+    // rectangles are not surfaces: flat shading uses their vertex normals, and they cast no shadows.
     bool strokes;
     // The mesh is the ground, built for this frame in world space (frame_ground.h); its object is −1. It casts no
     // shadows.
     bool ground;
-    bool clear; // light passes all triangles unchanged, such as colourless glass: rays omit them
+    bool clear; // light passes all triangles unchanged (colourless glass, for example), so rays ignore them
     lam_cull cull;
-    // If above 0, the mesh has no normals, and the device computes the visible ones with this crease angle.
+    // If above 0, the mesh has no normals, and the device computes the normals of visible triangles with this crease
+    // angle.
     double crease_rad;
     // Like crease_rad, but with a crease at every edge: each point uses its facet's normal, which nothing else reads.
     bool facets;
@@ -46,10 +48,11 @@ struct frame_draw {
 struct frame_draw_range {
     uint32_t first_id, count;
     int draw;
-    int front, back;           // indices into materials
-    bool translucent;          // an opacity may be below 1, or it transmits: the triangles are blended or masked
+    int front, back; // indices into materials
+    // the opacity may be below 1, or the material transmits light: the triangles are blended or masked
+    bool translucent;
     lam_reflection reflection; // the model for both sides, never AUTO
-    bool passes_rays;          // translucent for rays, for every output
+    bool passes_rays;          // the triangles are translucent for rays, for every output
     bool transmits;            // the material transmits light (LAYER_TRANSMISSION), and the output shows that
 };
 
@@ -75,7 +78,8 @@ struct frame_light {
     double radius;
 };
 
-// Returns by how many stops a dark model is brightened (lam_brighten), once the frame's draws are built.
+// Returns by how many stops a dark model is brightened (lam_brighten). Call this function after the frame's draws are
+// built.
 struct frame;
 double frame_brighten_stops(const struct frame *frame, const lam_scene *scene);
 
@@ -144,12 +148,12 @@ struct frame {
     bool refracts;
     bool makes_normals; // whether a draw has a crease_rad, and the output needs its normals
     // The background of transmitting layers without a surface behind them: colour times alpha divided by the exposure,
-    // and alpha. It is white if the background is transparent and the output is the picture: glass then has its colour
-    // over white, and the alpha 1 − its smallest channel.
+    // and alpha. If the background is transparent and the output is the picture, this background is white. Glass then
+    // has its colour over white, and its alpha is 1 − its smallest channel.
     float glass_background[4];
     float eye_pixel[3][4]; // eye space to pixels: rows X·w, Y·w, w
-    // The depth key of a point: 1/w in perspective; (1 − z/w)/2 if orthographic. Larger is nearer; it is affine in the
-    // window.
+    // The depth key of a point: 1/w in perspective; (1 − z/w)/2 if orthographic. Larger keys are nearer. The key is an
+    // affine function of the window coordinates.
     float near_plane, far_plane;
     // LAM_OUTPUT_DEPTH: the range of distances for 8 bits: the scene's vertices, clipped to the planes.
     float depth_near, depth_far;
@@ -159,9 +163,9 @@ struct frame {
     struct frame_draw_range *ranges; // sorted by first_id, without gaps
     int range_count;
     uint32_t triangle_count;
-    // The default material, then material i of the scene at 1 + i. All materials are repeated if a front is lit by one
-    // kind of model and its back by the other, and once more if unlit lines or points have emission. Each copy has the
-    // kind that its model lights.
+    // The default material, then material i of the scene at 1 + i. The list repeats all materials if one kind of model
+    // lights a front and the other kind lights its back, and once more if unlit lines or points have emission. Each
+    // copy is of the kind that its model lights.
     const lam_material **materials;
     int material_count, scene_material_count; // number of all materials, and without the materials of backs
     lam_material *converted;                  // materials converted to the other kind
@@ -175,8 +179,8 @@ struct frame {
     float ambient[3]; // La_global + Σ La of all lights (gl1: of lights without a position only)
 
     const lam_environment *environment; // may be NULL
-    bool environment_lights;            // whether it lights a range with a physical model (environment_light.h)
-    float to_environment[3][3];         // from eye space to the environment's axes
+    bool environment_lights;    // whether the environment lights a range with a physical model (environment_light.h)
+    float to_environment[3][3]; // from eye space to the environment's axes
 
     // The environment's brightest lamp is a separate light that casts shadows: rig[rig_count]. The environment's
     // diffuse light excludes it.
@@ -237,9 +241,9 @@ int frame_layers(const struct frame *frame, const lam_material *material);
 // Returns the index of the material for backs with this front.
 int frame_back_material(struct frame *frame, int front, int back);
 
-// Returns the index of the material for unlit lines and points, whose emission is added to the diffuse colour. If
-// neither the material nor the vertices (`colored`) have a chosen colour, it is a visible grey, or the material itself
-// on a dark background.
+// Returns the index of the material for unlit lines and points, whose emission is added to the diffuse colour. If the
+// file sets a colour for neither the material nor the vertices (`colored`), the result is a visible grey or, on a dark
+// background, the material itself.
 int frame_stroke_material(struct frame *frame, int front, bool colored);
 
 // Returns the maps that shading uses: a bit 1 << LAM_MAP_… for each. If colours of vertices or triangles are
@@ -249,9 +253,9 @@ unsigned frame_maps(const struct frame *frame, const lam_material *material);
 // Returns whether each point computes a classic material from a metallic-roughness one and its maps.
 bool frame_converts_at_points(const struct frame *frame, const lam_material *material);
 
-// Gets the colours that lights are multiplied by: kd and ks. For a physical material they are base (1 − metallic), and
-// 1, since the Fresnel factor is applied later (fresnel_of). Factors that maps change are left out; each point applies
-// them.
+// Gets the colours by which lights are multiplied: kd and ks. For a physical material, kd is base (1 − metallic), and
+// ks is 1, because the Fresnel factor is applied later (fresnel_of). Factors that maps change are not included, because
+// each point applies them.
 void frame_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3]);
 
 // Returns whether a classic material mirrors the frame's environment.
@@ -264,7 +268,7 @@ static inline bool frame_has_texcoords(const lam_mesh *mesh, const lam_texture_m
     return map->texcoords ? mesh->second_texcoords != NULL : mesh->texcoords != NULL;
 }
 
-// Returns the largest S of a material's lobe, including the Fresnel factor.
+// Returns the largest strength S of a material's highlight, including the Fresnel factor.
 float frame_lobe_max(const lam_material *material);
 
 // Returns the highlight exponent of a material, after match_highlights and gl1.
@@ -276,8 +280,8 @@ static inline bool output_is_one_light(lam_output output)
     return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;
 }
 
-// Returns whether each pixel of an output shows a property of its nearest surface, regardless of its opacity; masked
-// surfaces keep their holes.
+// Returns whether each pixel of an output shows a property of the nearest surface, regardless of the surface's opacity.
+// Masked surfaces keep their holes.
 static inline bool output_is_value(lam_output output)
 {
     return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED;
@@ -299,8 +303,8 @@ static inline bool output_is_material(lam_output output)
 enum { LOD_MAPS = 9 };
 extern const lam_map frame_lod_maps[LOD_MAPS];
 
-// Returns whether an output is a vector or a cosine, evaluated where the lighting is: the shading method determines
-// interpolation.
+// Returns whether an output is a vector or a cosine. Such outputs are evaluated at the same points as lighting, and
+// interpolated according to the shading method.
 static inline bool output_is_vector(lam_output output)
 {
     return output == LAM_OUTPUT_NORMALS || output == LAM_OUTPUT_TANGENTS || output == LAM_OUTPUT_N_L ||

@@ -1,4 +1,4 @@
-// frame_brighten.c: computes by how much the studio is brighter for a dark model. Photographers light a black product
+// frame_brighten.c: computes by how much the studio is brightened for a dark model. Photographers light a black product
 // more strongly than a white one, because otherwise only its outline would be visible. The amount depends only on the
 // colours of the surfaces, not on the view: all pictures of a model have the same exposure.
 #include "frame.h"
@@ -9,9 +9,9 @@
 
 #include <string.h>
 
-// A model is dark if three quarters of its surface have a base colour with a luminance below BRIGHT. If m stops are
-// missing, the exposure increases by root(RATE m) stops, at most by MOST, and only so far that 5 % of the surface does
-// not exceed WHITE.
+// A model is dark if three quarters of its surface have a base colour with a luminance below BRIGHT. If the 75th
+// percentile of the luminance is m stops below BRIGHT, the exposure increases by root(RATE m) stops. It increases by at
+// most MOST stops, and only as long as at most 5 % of the surface exceeds WHITE.
 #define BRIGHT 0.35
 #define RATE   0.8
 #define MOST   2.5
@@ -98,7 +98,7 @@ static void add(struct luminances *sum, double bright, double area)
     sum->all += area;
 }
 
-// Returns the luminance that this share of the surface does not exceed.
+// Returns the luminance that the given share of the surface does not exceed.
 static double percentile(const struct luminances *sum, double share)
 {
     double below = 0;
@@ -160,7 +160,7 @@ double frame_brighten_stops(const struct frame *frame, const lam_scene *scene)
     double bright = percentile(&sum, 0.75), white = percentile(&sum, 0.95);
     bool more = sum.all > 0;
     while (more && steps < (int)(MOST * STEPS)) {
-        double half = (steps + 0.5) / STEPS; // half a step more
+        double half = (steps + 0.5) / STEPS; // half a step above the current one
         more = bright * math_exp2(half * half / RATE) < BRIGHT && white * math_exp2((steps + 1.0) / STEPS) < WHITE;
         steps += more;
     }

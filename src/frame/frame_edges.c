@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// If the background's Rec. 709 luminance is lower and no surfaces are drawn, lines are white.
+// If the background's luminance (Rec. 709) is below this value, and no surfaces are drawn, lines are white.
 #define DARK 0.18f
 
 static lam_rgba color_of(const lam_rgba *given, const lam_draw_params *params)

@@ -6,13 +6,13 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// In radii of the scene's sphere: the distances at which the ground begins and ends to fade. A catcher only shows its
-// shadow.
+// The distances at which the ground begins to fade and has faded out, in radii of the scene's sphere. A catcher only
+// shows its shadow.
 #define WHOLE       3.0
 #define END         6.0
 #define CATCHER_END 4.0
-// As a fraction of half the picture's size from its centre: a catcher fades between these values, so that no shadow is
-// cut off at the border. The model of a fitted camera is inside (FILL_ON_GROUND in camera_fit.c).
+// A catcher fades between these distances from the picture's centre, as fractions of half the picture's size, so that
+// no shadow is cut off at the border. The model of a fitted camera is inside (FILL_ON_GROUND in camera_fit.c).
 #define BORDER_FIRST 0.8
 #define BORDER_LAST  0.95
 // The distance below the lowest point, in radii. Without it, a flat underside would have the same depth as the ground.
@@ -62,8 +62,8 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
     ground->front = from_y_up(scene->up, v3(0, 0, 1));
     double height = lowest(scene, ground->right, ground->front, ground->up, centre) - DROP * radius;
     ground->middle = v3_add(centre, v3_scale(ground->up, height));
-    // The eye is above or below the plane, and an orthographic view has a single direction, so the upper side is
-    // visible everywhere or nowhere.
+    // The upper side is visible everywhere or nowhere, because the eye is either above or below the plane, and an
+    // orthographic view has a single direction.
     bool above = camera->ortho_half_height > 0
                      ? v3_dot(v3_sub(camera->target, camera->eye), ground->up) < 0
                      : v3_dot(v3_sub(camera->eye, ground->middle), ground->up) > 1e-6 * radius;
@@ -88,8 +88,8 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane)
 {
-    // The range of distances of the circle: the distance of its centre, plus or minus the radius times the sine of the
-    // view's angle to `up`.
+    // The range of the circle's distances from the eye plane: the distance of its centre, plus or minus the radius
+    // times the sine of the angle between the view direction and `up`.
     lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
     double reach = 1.01 * (ground->end + 2 * ground->square) * math_sqrt(up.z * up.z < 1 ? 1 - up.z * up.z : 0);
     double nearest = -middle.z - reach, farthest = -middle.z + reach;
@@ -135,8 +135,8 @@ bool frame_ground_make(struct frame *frame, const lam_mat4 *view, const lam_mat4
              to_pixel = mat4_mul(view, &place);
     to_pixel = mat4_mul(pixel, &to_pixel);
     bool catcher = ground->kind == LAM_GROUND_SHADOW;
-    // The squares of a checker begin at multiples of their side in world space, so that a rotating model keeps the same
-    // ground.
+    // The squares of a checker pattern begin at multiples of their side in world space, so that the ground stays the
+    // same while a model rotates.
     bool checker = ground->kind == LAM_GROUND_CHECKER;
     double at_x = v3_dot(ground->middle, ground->right), at_y = v3_dot(ground->middle, ground->front);
     int64_t first_x = checker ? whole_number(at_x / ground->square) : 0;

@@ -4,8 +4,8 @@
 
 #include "frame.h"
 
-// Places the ground of a frame, or sets none if the camera sees its underside or the scene has no extent. It sets all
-// of frame->ground except its mesh and material.
+// Places the ground of a frame. There is no ground if the camera sees its underside, or if the scene has no extent.
+// Sets all members of frame->ground except its mesh and material.
 void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_mat4 *view);
 
 // Adjusts near and far planes that were fitted to the scene, so that they include the ground.

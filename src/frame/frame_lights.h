@@ -8,11 +8,11 @@
 bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view,
                         lam_error *error);
 
-// Returns whether shadows are enabled, explicitly or by a ground. It can be called before frame_build.
+// Returns whether shadows are enabled, explicitly or by a ground. This function can be called before frame_build.
 static inline bool wants_shadows(const lam_draw_params *params) { return params->shadows || params->ground; }
 
 // Makes the environment's brightest lamp a separate light, if the environment lights all lit surfaces and the picture
-// has shadows. It does nothing for a picture of one light.
+// has shadows. For a picture of one light, nothing changes.
 bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, struct call_control *call,
                            lam_error *error);
 

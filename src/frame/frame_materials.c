@@ -32,7 +32,8 @@ static lam_material converted(const lam_material *material, lam_reflection model
     if (frame_is_physical(model))
         return lam_material_as_physical(material);
     lam_material classic = lam_material_as_classic(material);
-    if (lobe_properties((int)model) & LOBE_MIRRORED) // its highlight at α/4 looks like the Blinn–Phong highlight at α
+    // a Phong highlight with the exponent α/4 looks like a Blinn–Phong highlight with α
+    if (lobe_properties((int)model) & LOBE_MIRRORED)
         classic.shininess /= 4;
     return classic;
 }
@@ -46,7 +47,7 @@ size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *sc
         count += !fits(material, frame_reflection(frame, material));
         mixed |= material->physical != physical;
     }
-    // Each may be the material of unlit lines, or the back of an object whose front has the other kind.
+    // Each material may be used for unlit lines, or for the back of an object whose front has the other kind.
     for (int i = 0; i < scene->meshes.count; i++)
         if (mesh_is_strokes(scene_mesh(scene, i)) && !scene_mesh(scene, i)->normals) {
             count += 2 * ((size_t)scene->materials.count + 1);
@@ -72,7 +73,7 @@ void frame_materials_build(struct frame *frame, const lam_scene *scene)
     }
 }
 
-// Repeats the list of materials until it contains all of them `times` times.
+// Repeats the list of materials, so that it contains each material `times` times.
 static void repeat_materials(struct frame *frame, int times)
 {
     for (; frame->material_count < times * frame->scene_material_count; frame->material_count++)

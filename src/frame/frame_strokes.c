@@ -26,10 +26,10 @@ static size_t corners_of(const lam_mesh *mesh, size_t point_corners)
 
 size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners) { return corners_of(mesh, point_corners) - 2; }
 
-// As a fraction of the picture's smaller side: the size of a single point, which shrinks with the square root of their
-// number.
+// The size of a single point, as a fraction of the picture's smaller side. It shrinks with the square root of the
+// number of points.
 #define POINT_SHARE 0.16
-// Sizes in pixels: the minimum, the minimum for few points, and the maximum for few points as a fraction of the
+// The minimum size in pixels, the minimum for few points in pixels, and the maximum for few points as a fraction of the
 // picture's smaller side.
 #define POINT_LEAST 3.0
 #define FEW_LEAST   8.0
@@ -93,7 +93,8 @@ bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, c
     return !bytes || buffer_reserve(&frame->strokes, bytes, call, error);
 }
 
-// Returns the depth offset of a stroke with this width: a fraction of its distance, or a distance if orthographic.
+// Returns the depth offset of a stroke with this width: a fraction of the stroke's distance or, if orthographic, a
+// distance.
 // `pixel` is a pixel's height in eye space at w = 1.
 static double nearer_by(const struct stroke_view *view, double width, double pixel)
 {
@@ -193,8 +194,8 @@ struct builder {
     lam_mat4 eye;                        // mesh to eye space
     double normal[3][3];                 // normals to eye space
     double scale[2];                     // width and height of a pixel in eye space at w = 1
-    double nearer;                       // the fraction by which a stroke is nearer; orthographic: the distance
-    double near_plane;                   // the depth that the offset moves to the near plane
+    double nearer;                       // the fraction by which a stroke is nearer or, if orthographic, the distance
+    double near_plane;                   // the depth at which the offset moves a point to the near plane
     double half;                         // half the width, pixels
     size_t corners;                      // corners per polygon
     double corner[POINT_CORNERS_MAX][2]; // the corners of a point's polygon, in pixels from its centre
@@ -365,8 +366,8 @@ static lam_mesh mesh_of(const struct builder *b)
     size_t items = mesh_items(from);
     size_t triangles = b->corners - 2;
     uint32_t vertices = (uint32_t)(b->corners * items), *to = b->to.indices;
-    // The triangles form a fan around the last corner. Both triangles of a line end at its second end, whose attributes
-    // flat shading uses, as OpenGL does for lines.
+    // The triangles form a fan around the last corner. Both triangles of a line have their last corner at the line's
+    // second end, so that flat shading uses the attributes of this end, as OpenGL does for lines.
     for (size_t i = 0; i < items; i++)
         for (size_t k = 0; k < triangles; k++) {
             uint32_t first = (uint32_t)(b->corners * i);

@@ -1,10 +1,11 @@
 // frame_strokes.h: converts lines and points to polygons that face the eye, so that devices draw only triangles.
 //
-// A line becomes the rectangle around its projection: its ends are moved to both sides, at right angles to it in the
-// window, each at its own depth. A point becomes a square or, if the difference is visible, a regular polygon of 8 or
-// 16 corners. Both are planar in space and in the window, so depth and attributes are interpolated along a line as
-// along the edge of a triangle. Each is drawn nearer to the eye than its vertices, by its own width; otherwise a
-// slanted surface would hide half of a line on it. Line ends have no caps, also where lines meet.
+// A line becomes the rectangle around its projection: its ends are moved to both sides, at right angles to the line in
+// the window, each at its own depth. A point becomes a square or, if the difference is visible, a regular polygon of 8
+// or 16 corners. These polygons are planar in space and in the window, so depth and attributes are interpolated along a
+// line as along the edge of a triangle. Each polygon is drawn nearer to the eye than its vertices, by its own width;
+// otherwise a slanted surface would hide half of a line on the surface. Line ends have no caps, not even where lines
+// meet.
 #ifndef FRAME_STROKES_H
 #define FRAME_STROKES_H
 
@@ -23,7 +24,7 @@ struct stroke_view {
 // pictures and if there are fewer of them: at least 3 pixels, and at least 8 for fewer than 100 points.
 void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene, const struct frame *frame);
 
-// Returns the triangles per item of a mesh of lines or points.
+// Returns the number of triangles per line or point of a mesh.
 size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners);
 
 // Moves a near plane that was fitted to the scene forward, so that it does not cut lines and points, which are nearer
@@ -31,11 +32,11 @@ size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners);
 void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera, const struct stroke_view *view,
                         int height, double *near_plane);
 
-// Reserves memory for all lines and points of a scene, and starts without any.
+// Reserves memory for all lines and points of a scene. The memory is empty at first.
 bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, const struct stroke_view *view,
                            struct call_control *call, lam_error *error);
 
-// Replaces the mesh of a draw, of lines or points, by polygons: stroke_triangles for each item, in order. Items in
+// Replaces the lines or points of a draw's mesh by polygons, in order, each of stroke_triangles triangles. Polygons in
 // front of the near plane have no area.
 void frame_strokes_build(struct frame *frame, struct frame_draw *draw, const lam_mat4 *transform,
                          const struct stroke_view *view);

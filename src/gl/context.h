@@ -39,7 +39,7 @@ struct gl_context {
     EGLSurface surface; // EGL_NO_SURFACE if the driver needs none
     bool es, software;
     int major, minor;
-    bool debug; // messages are collected
+    bool debug; // whether debug messages are collected
     struct gl_messages messages;
     char renderer[128], driver[128]; // "llvmpipe (…)"; maker and version
 };
@@ -52,13 +52,13 @@ struct gl_previous_context {
     EGLenum api;
 };
 
-// Makes a context on one display; the context is not current afterwards. Fails with LAM_UNSUPPORTED and names the
-// missing feature.
+// Makes a context on one display; the context is not current afterwards. Fails with LAM_UNSUPPORTED, and the message
+// names the missing feature.
 bool gl_context_open(struct gl_context *context, const struct egl *egl, const struct gl_platform *platform,
                      enum gl_profile profile, bool debug, lam_error *error);
 
-// Makes a context on the device that `device` names (lam_gl_params.device), or with NULL on the first usable device.
-// The struct must not move while the context collects messages.
+// Makes a context on the device that `device` names (lam_gl_params.device) or, if `device` is NULL, on the first usable
+// device. The struct must not move while the context collects messages.
 bool gl_context_make(struct gl_context *context, const char *library, const char *device, enum gl_profile profile,
                      bool debug, lam_error *error);
 

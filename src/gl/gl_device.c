@@ -13,7 +13,8 @@
 
 // --- a frame
 
-// Resets the choices about lighting, for a program that does not depend on them; without `maps`, also those about maps.
+// Resets the choices about lighting, for a program that does not depend on lighting. If `maps` is false, also resets
+// the choices about maps.
 static void forget_lighting(struct glsl_choices *c, bool maps)
 {
     const struct glsl_choices wanted = *c;
@@ -34,7 +35,7 @@ static void forget_lighting(struct glsl_choices *c, bool maps)
     c->colors = masks && output_is_value(c->output) && wanted.colors;
 }
 
-// Sets the choices for a range's program. A choice that the program does not depend on keeps its default, so that equal
+// Sets the choices for a range's program. A choice that does not affect the program keeps its default, so that equal
 // programs have equal choices, byte for byte (program_for).
 static void choices_of(const struct gl_frame *f, const struct frame_draw_range *range, struct glsl_choices *c)
 {
@@ -117,8 +118,9 @@ static bool same_materials(const struct frame_draw_range *a, const struct frame_
     return a->front == b->front && a->back == b->back && a->translucent == b->translucent;
 }
 
-// Appends the draw calls of one draw to f->draw_calls: one for all ranges with the same materials. If the ranges of a
-// call are not consecutive, fills device->runs and returns the number of runs, otherwise 0; −1 on failure.
+// Appends the draw calls of one draw to f->draw_calls: one call for all ranges with the same materials. Returns 0 if
+// the ranges of every call are consecutive. Otherwise fills device->runs and returns the number of runs. Returns −1 on
+// failure.
 static int add_draw_calls(struct gl_frame *f, const struct frame_draw_range *list, int count, lam_error *error)
 {
     const struct frame_draw *draw = &f->frame->draws[list->draw];
@@ -230,7 +232,7 @@ static bool check_errors(struct gl_frame *f, lam_error *error)
     return !f->device->context.debug || gl_messages_clean(&f->device->context, "drawing", error);
 }
 
-// Draws the picture in parts no larger than the driver's largest targets.
+// Draws the picture in rectangular parts that are not larger than the driver's largest targets.
 static bool draw_parts(struct gl_frame *f, lam_error *error)
 {
     lam_frame_report *report = &f->device->base.report;
@@ -260,7 +262,7 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
 {
     struct gl_device *device = f->device;
     uint64_t clock = now_ns();
-    while (f->gl->GetError() != GL_NO_ERROR) // discards earlier errors of the caller
+    while (f->gl->GetError() != GL_NO_ERROR) // discards earlier OpenGL errors of the caller
         ;
     if (device->external_context)
         gl_state_invalidate(device);
@@ -279,7 +281,7 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
 // Draws the distances of the frame's opaque surfaces, and computes its ambient occlusion from them.
 static bool draw_occlusion(struct gl_frame *f, struct screen_occlusion *occlusion, lam_error *error)
 {
-    struct frame distances = *f->frame; // shares the arrays
+    struct frame distances = *f->frame; // a copy that shares the frame's arrays
     distances.settings.output = LAM_OUTPUT_DEPTH;
     distances.settings.samples = 1;
     distances.settings.occlusion = LAM_OCCLUSION_OFF;
@@ -365,7 +367,8 @@ static uint64_t gl_memory(const struct lam_device *base)
 static void APIENTRY keep_names(GLsizei count, const GLuint *names) { (void)count, (void)names; }
 static void APIENTRY keep_program(GLuint name) { (void)name; }
 
-// Disables the deletion of OpenGL objects, for a context that cannot be made current: its objects are deleted with it.
+// Disables the deletion of OpenGL objects, for a context that cannot be made current. The objects are deleted together
+// with the context.
 static void keep_objects(struct gl *gl)
 {
     gl->DeleteBuffers = keep_names;

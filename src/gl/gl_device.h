@@ -1,4 +1,4 @@
-// gl_device.h: the parts of the OpenGL device: their shared data and their functions.
+// gl_device.h: the modules of the OpenGL device, with their shared data and their functions.
 //
 //   meshes           arrays of a mesh -> vertex buffers, once                    gl_meshes.c
 //   programs         choices -> compiled shaders, once (glsl.h makes the text)   gl_programs.c
@@ -24,7 +24,7 @@
 #include "vertex_colors.h"
 
 enum {
-    PART_SIZE_MAX = 2048, // the largest width and height in pixels of a part that is drawn in one pass
+    PART_SIZE_MAX = 2048, // the largest width and height, in pixels, of a part of the picture that is drawn in one pass
 };
 
 enum texture_unit {
@@ -34,13 +34,15 @@ enum texture_unit {
     UNIT_NEARER_DEPTH_IDS, // depth and number of the previous layer
     UNIT_OPAQUE_DEPTH_IDS, // depth and number of the opaque surfaces
     UNIT_OCCLUSION =
-        UNIT_NEARER_DEPTH_IDS, // only translucent surfaces read these, and occlusion dims only the ground among them
+        // only translucent surfaces read depth ids; the ground is the only one of them that occlusion dims
+    UNIT_NEARER_DEPTH_IDS,
     UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
     UNIT_COPY,
     UNIT_SHADOW_TREE = UNIT_COPY,           // no program reads both
     UNIT_FIRST_MAP,                         // the maps of materials
     UNIT_GROUND_OCCLUSION = UNIT_FIRST_MAP, // a ground has no maps
-    UNIT_COUNT = 48 // the maximum; every driver has 16 (OpenGL 3.3 and ES 3.0), most 32: gl_device.unit_count
+    // the maximum; every driver supports 16 (OpenGL 3.3 and ES 3.0), most support 32 (gl_device.unit_count)
+    UNIT_COUNT = 48
 };
 enum block_point { POINT_LIGHTS, POINT_PRODUCTS, POINT_BACK_PRODUCTS, POINT_COUNT };
 
@@ -111,7 +113,7 @@ struct gl_vertex_lighting {
 
 // --- programs
 
-// Uniforms that are no rows of glsl_rows.h; a program's rows follow.
+// Uniforms that are not rows of glsl_rows.h. The program's rows follow.
 enum { UNIFORM_SHADOW_MATRIX, UNIFORM_SHADOW_OFFSETS, UNIFORM_SHADOW_ROUNDING, UNIFORM_FIRST_TRIANGLE, UNIFORM_ROWS };
 
 struct gl_uniform {
@@ -142,7 +144,7 @@ struct gl_targets {
     int width, height; // the size of all textures, at least the part's size
     bool layered, tinted;
     struct gl_target tint;      // with `tinted`, the transmittance of all layers so far
-    struct gl_target sample;    // one sample of each pixel: the opaque surfaces
+    struct gl_target sample;    // the opaque surfaces at one sample of each pixel
     struct gl_target layers[2]; // the current layer of translucent surfaces, and the previous one
     struct gl_target sum;       // the layers composited
     struct gl_target picture;   // the average of the samples
@@ -169,8 +171,8 @@ enum gl_blending {
     BLENDING_MULTIPLY,
 };
 
-// The current state of the context, so that no state is set twice. It is unknown at the start of a frame in the
-// caller's context.
+// A copy of the context's current state, so that a state is set only if it changes. In the caller's context, the state
+// is unknown at the start of a frame.
 struct gl_current_state {
     GLuint program, array, framebuffer;
     int unit; // active texture unit; −1 if unknown
@@ -189,7 +191,8 @@ struct gl_current_state {
 
 // The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
 struct gl_surfaces {
-    uint64_t key, next_key; // hashes of all inputs of the texels: of those in the texture, and for this frame; 0: none
+    // hashes of all inputs of the texels: for the texels in the texture, and for this frame; 0: none
+    uint64_t key, next_key;
     // for the current frame: the first record of each range, and the positions of the textures
     struct buffer records, pixels;
 };
@@ -202,9 +205,10 @@ struct gl_device {
     int mistake;
     bool hardware_filter; // lam_gl_params
     GLint block_size_max, block_alignment, texture_size_max;
-    GLint unit_count;    // number of texture units of the fragment shader that are used, up to UNIT_COUNT
-    bool has_norm16;     // textures with 16-bit numbers for 0…1
-    GLenum float_format; // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver supports no more
+    GLint unit_count; // number of texture units that fragment shaders may use, up to UNIT_COUNT
+    bool has_norm16;  // the driver supports textures with 16-bit numbers for 0…1
+    // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver does not support the former
+    GLenum float_format;
 
     struct gl_mesh *meshes;
     int mesh_count, mesh_capacity;
@@ -216,11 +220,11 @@ struct gl_device {
     struct gl_vertex_lighting *vertex_lighting; // one for each draw
     int vertex_lighting_capacity;
     struct vertex_colors vertex_colors;
-    uint64_t vertex_colors_frame; // number of the frame for which it was set up
+    uint64_t vertex_colors_frame; // number of the frame for which vertex_lighting was set up
     struct gl_program *programs;
     int program_count, program_capacity;
     GLuint copy_program, empty_array;
-    GLuint tint_program; // multiplies a layer, or the opaque surfaces, by the tint of the layers before
+    GLuint tint_program; // multiplies a layer, or the opaque surfaces, by the tint of the layers in front
     GLint tint_last, tint_background;
     GLint copy_factor; // location of the copy program's uniform `factor`
     float copy_factor_value;
@@ -236,7 +240,7 @@ struct gl_device {
     struct hierarchy_memory hierarchy;
     GLuint shadow_texture;   // contains the hierarchy
     float shadow_offsets[2]; // first texel of the triangles, and of their positions
-    bool shadows_sent;       // whether the texture contains the hierarchy, and the surfaces of surfaces.key
+    bool shadows_sent;       // whether the texture contains the current hierarchy, and the surfaces of surfaces.key
     struct gl_surfaces surfaces;
     uint64_t environment_bytes, target_bytes, shadow_bytes;
     struct gl_current_state current;
@@ -276,7 +280,7 @@ struct gl_frame {
     const struct screen_occlusion *occlusion;          // may be NULL
     lam_stage stage;
     size_t material_stride; // distance between the products of consecutive materials, in bytes or texels
-    // The current part of the picture, and the sample's offset from the pixel's centre (pixels, y down).
+    // The current part of the picture, and the sample's offset from the pixel's centre (in pixels, with y downwards).
     int left, top, width, height;
     float sample_x, sample_y;
 };
@@ -305,7 +309,8 @@ void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum 
 // Sets an attribute of the vertex array: `size` floats from float `at` of each vertex of the bound buffer.
 void gl_point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at);
 
-// Adds bytes to a key: a hash of 64 bits of the inputs of uploaded data, which are sent again if the key differs.
+// Adds bytes to a key, a 64-bit hash of the inputs of uploaded data. The data are uploaded again if the key has
+// changed.
 void gl_key_add(uint64_t *key, const void *bytes, size_t count);
 
 // Returns the list with space for another row, or NULL on failure.
@@ -334,22 +339,22 @@ bool mesh_can_share(const lam_mesh *mesh);
 void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
                    uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
-// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. With runs (may be
-// NULL) the elements are ordered by call. The pointer is valid until the next call. Returns NULL on failure.
+// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. If `runs` is not NULL,
+// the elements are ordered by call. The pointer is valid until the next call. Returns NULL on failure.
 struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form, bool passing,
                             const struct mesh_run *runs, int run_count, lam_error *error);
 // Frees the meshes of scenes that no longer exist, and meshes that the frame's scene no longer draws.
 void meshes_evict(struct gl_frame *f);
 void meshes_free(struct gl_device *device);
 
-// Sets the attributes of a vertex array by the locations of glsl.h; `lit`: without those that only lighting reads.
+// Sets the attributes of a vertex array, by the locations of glsl.h. With `lit`, omits attributes that only lighting
+// reads.
 void mesh_describe(struct gl_frame *f, const struct gl_mesh *mesh, GLuint array, bool lit);
 // Returns the number of floats per vertex in the buffer.
 size_t mesh_vertex_floats(const lam_mesh *mesh);
 
 // --- gl_textures.c
-// Uploads the textures that a program reads for a range. Until the frame ends, textures_use finds
-// them there.
+// Uploads the textures that a program reads for a range. textures_use can bind these textures until the frame ends.
 bool textures_upload(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range,
                      lam_error *error);
 // Binds the textures of the maps.
@@ -373,13 +378,13 @@ static inline enum texture_unit gl_occlusion_unit(const struct gl_program *progr
 // (LAM_OUTPUT_DEPTH). The device owns the rows.
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
                     lam_error *error);
-// Uploads the current part.
+// Uploads the occlusion of the current part of the picture.
 bool occlusion_send(struct gl_frame *f, lam_error *error);
 
 // --- gl_programs.c
 // Returns the program of the choices, compiled on first use. Returns NULL on failure.
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
-// Set a uniform of a program unless it has this value already: an int, or 16, 9, 4 or one float.
+// Set a uniform of a program, unless the uniform already has this value: an int, or 16, 9, 4 or one float.
 void program_set_int(struct gl_frame *f, struct gl_program *program, int uniform, GLint value);
 void program_set(struct gl_frame *f, struct gl_program *program, int uniform, const float *values, int count);
 bool program_copy_make(struct gl_device *device, lam_error *error);

@@ -116,8 +116,8 @@
     X(VertexAttribPointer)                                                                                             \
     X(Viewport)
 
-// Part of some versions only; NULL if the driver does not have the name. Call such a function only after a check of the
-// context's version and extensions: a pointer alone does not mean support.
+// Part of some versions only; NULL if the driver does not provide the function. Call such a function only after a check
+// of the context's version and extensions: a pointer alone does not mean support.
 #define GL_OPTIONAL_FUNCTIONS(X)                                                                                       \
     X(DebugMessageCallback) /* KHR_debug */                                                                            \
     X(DebugMessageControl)                                                                                             \

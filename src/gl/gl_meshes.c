@@ -8,7 +8,7 @@
 
 enum { CHUNK = 4096 }; // vertices packed at once
 
-// Returns whether one index serves all attributes, so that the mesh's own vertices can be uploaded.
+// Returns whether a vertex has the same index for all attributes, so that the mesh's own vertices can be uploaded.
 bool mesh_can_share(const lam_mesh *mesh)
 {
     return mesh->indices && mesh->normals && !mesh->normal_indices && mesh->normal_count >= mesh->vertex_count &&

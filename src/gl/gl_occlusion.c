@@ -1,5 +1,6 @@
 // gl_occlusion.c: ambient occlusion. The distances of the surfaces are drawn and read back. The processor computes the
-// occlusion, with the code of the CPU device and therefore with the same bits, and the shaders read it as a texture.
+// occlusion with the code of the CPU device, so that the results are bit-identical. The shaders read the occlusion from
+// a texture.
 #include "gl_device.h"
 
 #include "fail.h"

@@ -2,7 +2,7 @@
 // sample's offset. A pass draws the opaque surfaces, then peels the translucent ones layer by layer, nearest first.
 //
 // A depth id is the depth and the triangle number of a fragment. Layers are ordered by depth id, so that surfaces of
-// equal depth are in the CPU device's order, the lower triangle number in front, and none is lost.
+// equal depth have the same order as on the CPU device, with the lower triangle number in front, and none is lost.
 //
 // The target's rows are top-down, like the picture: the projection flips y, which reverses the winding.
 #include "gl_device.h"
@@ -103,7 +103,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
     if (call->program->choices.occlusion) {
         enum texture_unit unit = gl_occlusion_unit(call->program);
         gl_use_texture(f->device, unit, GL_TEXTURE_2D, f->device->occlusion_texture);
-        if (f->device->hardware_filter) // a map may have been read through this unit
+        if (f->device->hardware_filter) // because a map may have set a sampler for this unit
             gl_use_sampler(f->device, unit, 0);
     }
     program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (GLint)draw->first_id);
@@ -122,8 +122,8 @@ static bool is_layer(const struct gl_frame *f, const struct gl_draw_call *call)
     return f->layered && range_blends(f->frame, call->range);
 }
 
-// Issues the draw calls of the translucent layers, or of everything else. BLENDING_ADD counts every triangle over a
-// pixel, regardless of depth.
+// Issues the draw calls of the translucent layers or, if `layers` is false, of all other surfaces. With BLENDING_ADD,
+// every triangle over a pixel counts, regardless of depth.
 static void draw_all(struct gl_frame *f, bool layers, enum gl_blending blending)
 {
     gl_use_blending(f->device, blending);
@@ -134,7 +134,7 @@ static void draw_all(struct gl_frame *f, bool layers, enum gl_blending blending)
 
 // --- targets
 
-// Depth ids of empty pixels: in front of everything, and behind everything.
+// The depth ids of empty pixels: a value in front of everything, and a value behind everything.
 enum { DEPTH_ID_NEAREST = 0, DEPTH_ID_FARTHEST = -1 };
 
 static void clear_target(struct gl_frame *f, const struct gl_target *t, int depth_id)
@@ -202,7 +202,7 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     struct gl_device *device = f->device;
     struct gl_targets *t = &device->targets;
     clear_target(f, &t->sum, DEPTH_ID_NEAREST);
-    clear_target(f, &t->layers[1], DEPTH_ID_NEAREST); // precedes the first layer
+    clear_target(f, &t->layers[1], DEPTH_ID_NEAREST); // the depth id before the first layer
     bool tinted = f->frame->transmits;
     if (tinted) {
         static const GLfloat white[4] = {1, 1, 1, 1};
@@ -235,7 +235,7 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     return true;
 }
 
-// Returns whether a pixel is the value at the covered sample nearest to its centre instead of an average.
+// Returns whether a pixel gets the value of the covered sample nearest to its centre, instead of an average.
 static bool is_value(lam_output output)
 {
     return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED && output != LAM_OUTPUT_COVERAGE &&

@@ -144,7 +144,7 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
         return NULL;
     struct gl_program *program = &device->programs[device->program_count++];
     *program = (struct gl_program){.name = name};
-    memcpy(&program->choices, choices, sizeof *choices); // including the padding, for memcmp
+    memcpy(&program->choices, choices, sizeof *choices); // includes the padding, because memcmp compares it
     if (find_uniforms(f, program, error))
         return program;
     f->gl->DeleteProgram(name);
@@ -156,7 +156,7 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
 
 // --- uniforms, set only if the value has changed
 
-// Returns whether a uniform needs a new value, which it then keeps; the program is in use.
+// Returns whether a uniform of the current program needs a new value, and stores the value if it does.
 static bool changes(struct gl_frame *f, struct gl_program *program, int uniform, const void *value, size_t bytes)
 {
     struct gl_uniform *u = &program->uniforms[uniform];

@@ -1,5 +1,5 @@
 // gl_readback.c: reads a part of the picture back into the image: composites linear light over the background and
-// encodes the pixels, by the CPU device's code.
+// encodes the pixels, with the code of the CPU device.
 #include "gl_device.h"
 
 #include "fail.h"

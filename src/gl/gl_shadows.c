@@ -1,10 +1,13 @@
 // gl_shadows.c: stores the hierarchy of a frame in a float texture, which the shaders traverse (shadows.glsl).
 //
-// Texels: two for each child of a node (the low corner of its box with its number; the high corner with twice its count
-// of triangles, plus one if no further child follows), six for each triangle in the order of the leaves (corners, with
-// the twin, a kind and the position of the record of a triangle that transmits light, or 0; unit normals of the
-// corners, with the corners' elements), and a number for each triangle of the frame: its position in that order. The
-// data of surfaces that transmit light follow (gl_surfaces.c).
+// The texture contains, in this order:
+//    - Two texels for each child of a node: the low corner of its box, with the child's number; the high corner, with
+//      twice its count of triangles, plus one if no further child follows.
+//    - Six texels for each triangle, in the order of the leaves. Three contain the corners, with the twin, a kind, and
+//      the position of the record of a triangle that transmits light, or 0. Three contain the unit normals of the
+//      corners, with the corners' elements.
+//    - A number for each triangle of the frame: its position in that order.
+//    - The data of surfaces that transmit light (gl_surfaces.c).
 #include "gl_device.h"
 
 #include "fail.h"
@@ -47,8 +50,8 @@ static int depth_of(const struct hierarchy *h)
 
 static void pack_node(float *out, const struct ray_node *node)
 {
-    int count = children_of(node) ? children_of(node) : 1; // if nothing casts shadows, the node is a box that no ray
-                                                           // meets
+    // If nothing casts shadows, the node contains one box, which no ray meets.
+    int count = children_of(node) ? children_of(node) : 1;
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {
             out[8 * i + k] = node->planes[0][k][i];

@@ -1,6 +1,6 @@
-// gl_surfaces.c: stores the data with which a shader computes the light that a masked, translucent or transmitting
-// triangle lets through (passed_surface of shadows.glsl): its record, and the records of its materials and their maps
-// at level 0. They follow the hierarchy in its texture.
+// gl_surfaces.c: stores the data with which a shader computes the light that passes a masked, translucent or
+// transmitting triangle (passed_surface in shadows.glsl). These data are the triangle's record, and the records of its
+// materials and their maps at level 0. They follow the hierarchy in the same texture.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -13,10 +13,10 @@
 enum {
     RECORD = 4,  // texels of a triangle: its sides, and the texture coordinates of its corners
     COLORED = 7, // the same with the colours of its corners
-    SIDE = 4,    // of a material
-    MAP = 4,     // of a map
-    MAPS = 4,    // maps that affect the transmitted light of a side
-    WIDE = -1,   // channel number for all four channels
+    SIDE = 4,    // texels of one side of a material
+    MAP = 4,     // texels of a map
+    MAPS = 4,    // number of maps that affect the transmitted light of a side
+    WIDE = -1,   // channel number that means all four channels
 };
 
 // The packed pixels of a texture, or of one channel, and their position.
@@ -55,7 +55,7 @@ static void put(struct packer *p, size_t at, const float *numbers, size_t size)
         gl_key_add(&p->key, numbers, size);
 }
 
-// Packs the pixels at level 0: one texel each with all channels, or one channel of four pixels per texel.
+// Packs the pixels at level 0. A texel contains either all channels of one pixel, or one channel of four pixels.
 static size_t add_pixels(struct packer *p, const struct lam_texture *texture, int channel)
 {
     for (int i = 0; i < p->pixel_count; i++)
@@ -80,7 +80,7 @@ static size_t add_pixels(struct packer *p, const struct lam_texture *texture, in
     return at;
 }
 
-// Packs a map, for one channel or all channels. Returns 0 if there is none.
+// Packs a map, for one channel or all channels. Returns 0 if there is no map.
 static size_t add_map(struct packer *p, const lam_mesh *mesh, const lam_texture_map *map, int channel)
 {
     if (!map || !map->texture)

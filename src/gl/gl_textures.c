@@ -1,9 +1,9 @@
 // gl_textures.c: uploads the textures of materials with all their levels, once, and binds the textures of a draw call.
 //
 // Shaders read single texels and filter them (texture.glsl). Numbers in 0…1 are stored in 16 bits, with an error of
-// 2⁻¹⁷; others are stored as floats, and so are all numbers if an OpenGL ES driver lacks such a format. With
-// lam_gl_params.hardware_filter, 8-bit texels are not converted (colours remain sRGB-encoded), and sampler objects set
-// wrapping and filtering.
+// 2⁻¹⁷; other numbers are stored as floats, and so are all numbers if an OpenGL ES driver does not support the 16-bit
+// format. With lam_gl_params.hardware_filter, 8-bit texels are not converted (colours remain sRGB-encoded), and sampler
+// objects set wrapping and filtering.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -19,7 +19,7 @@
 // The format of an uploaded texture.
 struct format {
     GLenum stored, type; // the formats of the stored texels and of the uploaded numbers
-    size_t bytes;        // per uploaded texel, and approximately per stored one
+    size_t bytes;        // per uploaded texel, and approximately per stored texel
 };
 
 static uint8_t encoded_byte(float linear) { return (uint8_t)byte_of(srgb_encode(linear)); }
@@ -54,7 +54,7 @@ static void pack_level(const struct lam_texture *texture, int level, const struc
         }
 }
 
-// Returns whether a number is outside 0…1. Bytes are always inside, and so are averages of numbers that are.
+// Returns whether a number is outside 0…1. Bytes represent numbers in 0…1, and averages of such numbers are in 0…1 too.
 static bool needs_floats(const struct lam_texture *texture)
 {
     const struct texture_level *l = &texture->levels[0];
@@ -183,7 +183,7 @@ static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map)
         gl->SamplerParameteri(sampler->name, GL_TEXTURE_MIN_FILTER, minifying[map->mip][map->minify]);
         sampler->anisotropy = 1;
     }
-    // With filters that are not linear, drivers disagree about anisotropic probes.
+    // If filters are not linear, drivers use different anisotropic probes.
     bool linear = !map->magnify && !map->minify && !map->mip;
     int anisotropy = linear && f->device->anisotropy_max > 1 ? f->frame->settings.anisotropy : 1;
     if (sampler->anisotropy != anisotropy) {

@@ -45,7 +45,8 @@ static uint64_t key_of(const struct gl_frame *f, const struct gl_mesh *mesh, int
                            frame->settings.flat_normal,
                            (int)mesh->form,
                            frame->translucent};
-    // Contents that belong to this frame, and shadows, which depend on all meshes.
+    // The key contains the frame's number if the mesh belongs to this frame only, or if shadows, which depend on all
+    // meshes, are drawn.
     const uint64_t frame_number = mesh->passing || frame->settings.shadows ? f->device->frame_number : 0;
     const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
     uint64_t key = 1;
@@ -96,7 +97,7 @@ static bool light_range(struct gl_frame *f, const struct gl_mesh *mesh, uint32_t
             return false;
         for (uint32_t back = 0; back < 2; back++) {
             run.back = back;
-            if (!back || !f->frame->draws[of->draw].one_sided) // one-sided: the back repeats the front
+            if (!back || !f->frame->draws[of->draw].one_sided) // if one-sided, the back repeats the front
                 vertex_colors_light(colors, &run);
             for (uint32_t i = 0; i < count; i++)
                 memcpy(lit[(first + i) * each + back], out->color[i / repeat], sizeof *out->color);
@@ -104,7 +105,7 @@ static bool light_range(struct gl_frame *f, const struct gl_mesh *mesh, uint32_t
                 memcpy(lit[(first + i) * each + 2 + back], out->rest[i / repeat], sizeof *out->rest);
         }
     }
-    return call_should_continue(f->call); // otherwise the last vertices may not be lit
+    return call_should_continue(f->call); // if the call is stopped, the last vertices may not be lit
 }
 
 static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, const struct gl_mesh *mesh, int number,
@@ -129,7 +130,8 @@ static bool send_colors(struct gl_frame *f, struct gl_vertex_lighting *row, cons
         return false;
     struct shading *shading = &colors->shading;
     shading->points_lit = shading->lights_evaluated = shading->rays = 0;
-    bool on = true, shared = mesh->form == FORM_SHARED, done = false; // shared vertices: all ranges have one material
+    // with shared vertices, all ranges have one material
+    bool on = true, shared = mesh->form == FORM_SHARED, done = false;
     for (int i = 0; on && !done && i < frame->range_count; i++) {
         const struct frame_draw_range *s = &frame->ranges[i];
         uint32_t first = 3 * (s->first_id - frame->draws[number].first_id);

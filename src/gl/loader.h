@@ -39,9 +39,9 @@ struct egl {
     char library[256]; // file name, for error messages
 };
 
-// Opens the library (NULL: "libEGL.so.1") and looks up its functions. It stays open until the program ends, because
-// drivers start threads and install exit handlers. Fails with LAM_UNSUPPORTED, and names the missing part and its
-// package.
+// Opens the library (NULL: "libEGL.so.1") and looks up its functions. The library stays open until the program ends,
+// because drivers start threads and install exit handlers. Fails with LAM_UNSUPPORTED, and names the missing library or
+// function and its package.
 bool egl_open(struct egl *egl, const char *library, lam_error *error);
 
 // Returns the error of the last EGL call as a phrase.

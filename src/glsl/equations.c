@@ -32,8 +32,8 @@ static char *next_line(const char *at)
 
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
-// Returns the end of a definition: its first line if that has a semicolon, otherwise the line that begins with the
-// closing brace; a table ends with a parenthesis.
+// Returns the end of a definition. If its first line contains a semicolon, the definition ends with that line.
+// Otherwise it ends with the line that begins with the closing brace or, for a table, with a parenthesis.
 static char *definition_end(char *at)
 {
     bool table = begins(at, "const ");
@@ -95,7 +95,7 @@ static int split_definitions(struct definition *definitions, int count, char *so
 
 enum { BUCKETS = 256 };
 struct definition_index {
-    int first[BUCKETS], next[DEFINITIONS_MAX]; // chains of definitions whose names have the same hash; -1 means the end
+    int first[BUCKETS], next[DEFINITIONS_MAX]; // chains of definitions whose names have the same hash; -1 ends a chain
 };
 
 static unsigned hash_of(const char *name, size_t length)
@@ -106,7 +106,7 @@ static unsigned hash_of(const char *name, size_t length)
     return hash % BUCKETS;
 }
 
-// Marks the definitions that a definition names, except after a dot (".xyz").
+// Marks the definitions whose names occur in a definition. Names after a dot (".xyz") are ignored.
 static bool mark(struct definition *definitions, const struct definition_index *index, const struct definition *from)
 {
     bool changed = false;
@@ -131,7 +131,7 @@ static bool mark(struct definition *definitions, const struct definition_index *
     return changed;
 }
 
-// Appends a text without its erased bytes.
+// Appends text without its erased bytes.
 static void write_rest(struct text *text, const char *at, const char *end)
 {
     for (const char *erased; at < end; at = erased) {
@@ -143,7 +143,8 @@ static void write_rest(struct text *text, const char *at, const char *end)
     }
 }
 
-// Writes a definition. The comments of a struct's members are aligned again, because GLSL types have other lengths.
+// Writes a definition. The comments of a struct's members are aligned again, because the names of types have other
+// lengths in GLSL.
 static void write_definition(struct text *text, const struct definition *p)
 {
     if (!begins(p->start, "struct ")) {

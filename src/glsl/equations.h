@@ -1,10 +1,10 @@
-// equations.h: composes a stage's text from the equations of src/lighting and the texts of src/glsl/text.
+// equations.h: composes the text of a shader stage from the equations of src/lighting and the texts of src/glsl/text.
 #ifndef EQUATIONS_H
 #define EQUATIONS_H
 
 #include "specialize.h"
 
-// A part of a stage: definitions in the order of their calls, with their comments.
+// A section of a shader stage: definitions in the order of their calls, with their comments.
 struct stage_source {
     const char *title; // heading of the called definitions, or NULL
     const char *text;  // may be NULL
@@ -12,9 +12,9 @@ struct stage_source {
     bool whole;        // keeps unread parameters and variables of its functions
 };
 
-// Appends the definitions that the function `main` needs, directly or indirectly: those in the equations first, then
-// those in the sources. Branches with a known condition are resolved, and names that are then unread are removed
-// (specialize.h). embed.py has translated the dialect of the equations to GLSL.
+// Appends the definitions that the function `main` needs, directly or indirectly: first from the equations, then from
+// the sources. Branches with a known condition are resolved, and names that are then unread are removed (specialize.h).
+// embed.py has translated the dialect of the equations to GLSL.
 void equations_add(struct text *text, const struct stage_source *sources, int count, const struct known *known);
 
 #endif

@@ -1,13 +1,14 @@
 // glsl.h: GLSL text for a set of choices, and the values of its uniforms from a frame.
 //
-// The text consists of the called equations of src/lighting (equations.h), and of the texts in src/glsl/text,
-// which are ordinary texts for all choices: known conditions are resolved, and unread names are removed (specialize.h).
+// The text consists of the equations of src/lighting that the shader calls (equations.h), and of the files in
+// src/glsl/text. These files contain the code for all choices. For one set of choices, branches with known conditions
+// are resolved, and unread names are removed (specialize.h).
 //
 // Names in the text. Attributes, with their locations (GLSL 120: bound by name):
 //    0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position, 7 texcoord,
 //    8 second_texcoord.
-// Uniforms: the table of glsl_rows.c. All colours are vec4, so that arrays of them have the same layout in std140
-// blocks, in texels and for glUniform4fv.
+// glsl_rows.c contains the table of uniforms. All colours are vec4, so that arrays of them have the same layout in
+// std140 blocks, in texels and for glUniform4fv.
 #ifndef GLSL_H
 #define GLSL_H
 
@@ -55,11 +56,11 @@ enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FA
 // A map of one side's material.
 struct glsl_map {
     uint8_t used;
-    uint8_t texels; // maps of a range with the same number have the same texels everywhere
+    uint8_t texels; // two maps of a range with the same number here have the same texels everywhere
     uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // same as in lam_texture_map
 };
 
-// The choices that determine a shader's text. Zero the struct before assigning members if memcmp is to compare it.
+// The choices that determine a shader's text. If memcmp compares two structs, zero them before assigning members.
 struct glsl_choices {
     enum glsl_version version;
     enum glsl_storage storage;
@@ -74,12 +75,13 @@ struct glsl_choices {
     lam_stage stage; // never AUTO
     lam_shading shading;
     lam_reflection reflection; // never AUTO
-    lam_output output;         // COVERAGE and OVERDRAW write 1, CLIPPED the picture
+    lam_output output;         // COVERAGE and OVERDRAW write 1, CLIPPED writes the picture
     bool distant_viewer;
     bool gl1;
     bool single_scattering;
-    bool widens;      // the variance of normals widens physical materials' roughness (lam_specular_aa); not in 120
-    bool passed;      // each light is multiplied by a share, a uniform that the program sets (texels: position.w)
+    // the variance of the normals increases the roughness of physical materials (lam_specular_aa); not in 120
+    bool widens;
+    bool passed;      // each light is multiplied by its unblocked share, which the program sets (in texels: position.w)
     bool shadows;     // traverses the hierarchy in a texture (shadows.glsl); not in 120
     bool passes_rays; // with shadows, some triangles transmit light
     bool tints_rays;  // with passes_rays, they also tint the light
@@ -95,10 +97,10 @@ struct glsl_choices {
     bool tangents;                  // attribute tangent; otherwise the direction field, if the model needs a tangent
     bool converted[2];              // front, back: a metallic-roughness material with maps under a classic model
     uint8_t alpha[2];               // front, back: lam_alpha_mode
-    uint8_t anisotropy;             // the most probes of a texture
+    uint8_t anisotropy;             // the maximum number of probes per texture lookup
     bool hardware_filter;           // glsl_use_hardware_filter
-    // LAYER_… of the range's materials (layer_kinds.h), and of all materials of the frame; a block has the fields of
-    // the latter.
+    // The layers (LAYER_…, layer_kinds.h) of the range's materials, and the layers of all materials of the frame. A
+    // block contains the fields for all layers of the frame.
     uint8_t layers, field_layers;
     struct glsl_map maps[2][LAM_MAP_COUNT]; // front, back
     struct glsl_group groups[GLSL_GROUPS_MAX];
@@ -113,8 +115,8 @@ struct glsl_choices {
 void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
                  lam_stage stage);
 
-// Returns whether an output is a value of the geometry, evaluated for each fragment without lighting for every shading
-// method.
+// Returns whether an output is a value of the geometry, which the fragment shader evaluates without lighting, whatever
+// the shading method.
 static inline bool glsl_output_is_geometry(lam_output output)
 {
     return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||
@@ -128,21 +130,23 @@ struct glsl_text {
     char *vertex, *fragment; // ASCII
 };
 
-// A style of texts beside the full one.
+// A style of shaders other than the full style.
 struct glsl_facts;
 struct text;
 struct glsl_style {
-    // Returns whether the style supports these choices. Otherwise fails with LAM_UNSUPPORTED and the unsupported
-    // option.
+    // Returns whether the style supports these choices. If not, fails with LAM_UNSUPPORTED, and the message names the
+    // unsupported option.
     bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
     // Appends a stage after its version and its uniforms.
     void (*add_stage)(struct text *text, const struct glsl_facts *stage);
-    // Makes the change choices->mistake in one of the texts, which are freed and replaced. Returns false on failure.
+    // Makes the change choices->mistake in one of the texts. On success, all texts are freed and replaced by copies.
+    // Returns false on failure.
     bool (*change)(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 };
 
 // Makes both sources. Errors: LAM_LIMIT (memory); LAM_BAD_ARGUMENT for choices that exclude each other (GLSL_TEXTURE or
-// GLSL_FACES with 120, Gouraud in the fragment stage, Phong in another). Outputs of the geometry ignore the shading.
+// GLSL_FACES with 120, Gouraud in the fragment stage, Phong in any other stage). Outputs of the geometry ignore the
+// shading method.
 bool glsl_make(const struct glsl_choices *choices, struct glsl_text *text, lam_error *error);
 void glsl_free(struct glsl_text *text);
 
@@ -151,10 +155,11 @@ void glsl_free(struct glsl_text *text);
 // A light, with the layout of struct Light. With products the struct ends after `cone`; without gl1 it ends before
 // `ambient`.
 struct glsl_light {
-    // In eye space; w 1. In shaders with shadows w is the radius, negative if the light casts no shadows, and the
-    // position of a directional light is the world axis of which its direction has the smallest component.
+    // In eye space; w is 1. In shaders with shadows, w is the radius, or negative if the light casts no shadows. For a
+    // directional light, the position is then the world axis along which the light's direction has its smallest
+    // component.
     float position[4];
-    // the unit direction of travel in eye space; w is 0, or with `occlusion` the share that occlusion dims
+    // the unit direction of travel in eye space; w is 0 or, with `occlusion`, the share that occlusion dims
     float direction[4];
     float attenuation[4]; // constant, linear, quadratic, 1 / range (0 if there is none)
     float cone[4];        // cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner − cos outer)
@@ -178,14 +183,15 @@ enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
-// Do the same for one material's products: the block Products or BackProducts, or the material's texels of
-// product_list: for each light diffuse, specular and with gl1 ambient, then for each hemisphere sky and ground. The
-// uniforms first_product and back_first_product contain the index of the first texel.
+// Do the same for the products of one material: the block Products or BackProducts, or the material's texels of
+// product_list. They contain, for each light, the diffuse, the specular and (with gl1) the ambient product, then, for
+// each hemisphere, the products of sky and ground. The uniforms first_product and back_first_product contain the index
+// of the first texel.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);
 
-// Sets the choices about maps for a range.
+// Sets the choices for the maps of a range.
 void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
 
 // Returns whether a shader of these materials keeps the light that the diffuse map multiplies separate
@@ -208,8 +214,8 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
 // Returns the name of a field in the shader.
 const char *glsl_field_name(const struct material_field *field, bool products);
 
-// Returns the index in the frame of the shader's next light, or −1 past the end. Lights of a group keep the frame's
-// order. A zeroed cursor is before the first light.
+// Returns the frame's index of the next light in the shader's order, or −1 after the last light. Lights of a group keep
+// the frame's order. A zeroed cursor is before the first light.
 struct glsl_light_cursor {
     int group, light;
 };

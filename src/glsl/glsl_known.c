@@ -71,7 +71,7 @@ void known_facts(struct known_table *t, const struct glsl_facts *f)
         known_text(t, "pixel", "gl_FragColor");
 }
 
-// A condition that holds for `some` of the lights is known if it holds for none or for all.
+// Adds a condition that holds for `some` of `all` lights, if it holds for none of them or for all of them.
 static void add_known_lights(struct known_table *out, const char *condition, int some, int all)
 {
     if (some == 0 || some == all)

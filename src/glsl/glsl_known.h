@@ -5,7 +5,7 @@
 #include "glsl_rows.h"
 #include "specialize.h"
 
-// A table under construction. Zero is empty; names and texts are not copied.
+// A table under construction. A zeroed table is empty. Names and texts are not copied.
 enum { KNOWN_MAX = 192, KNOWN_MADE_MAX = 32 };
 struct known_table {
     struct known rows[KNOWN_MAX + 1];
@@ -25,9 +25,9 @@ void known_specialize(struct text *text, const char *source, struct known_table 
 const struct known *known_finish(struct known_table *table);
 void known_free(struct known_table *table);
 
-// Adds the facts of a stage, by name, and the words for its inputs and outputs, which all styles share.
+// Adds the facts of a stage, by name, and the keywords that declare its inputs and outputs. All styles use these rows.
 void known_facts(struct known_table *table, const struct glsl_facts *stage);
-// Adds conditions of the equations.
+// Adds the conditions in the equations.
 void known_conditions(struct known_table *table, const struct glsl_facts *stage);
 
 #endif

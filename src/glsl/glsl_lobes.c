@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// The calls of the table: "kajiya_kay_lobe(s, l, m.fibre)".
+// The call of each reflection model: "kajiya_kay_lobe(s, l, m.fibre)".
 static const char *const calls[LAM_REFLECTION_COUNT] = {
 #define LOBE(NAME, call, ...) [LAM_REFLECTION_##NAME] = #call,
     LOBES(LOBE)
@@ -42,7 +42,7 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
     bool numbers = f->converts && !f->microfacet; // the classic model's numbers are computed from these
     if (strcmp(parameter, "shininess") == 0)
         return f->highlights && !f->microfacet;
-    if (strcmp(parameter, "metallic") == 0) // part of the Fresnel factor
+    if (strcmp(parameter, "metallic") == 0) // the Fresnel factor uses this parameter
         return f->microfacet || numbers;
     if (strcmp(parameter, "roughness") == 0 && numbers)
         return true;
@@ -118,7 +118,8 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
 
 // --- layers
 
-// Appends the value of a layer's field at the point: the value after maps, or else the visible side's own.
+// Appends the value of a layer's field at the point: the value from the maps or, if no map changes the field, the value
+// of the visible side's material.
 static void add_layer_field(struct text *text, const struct glsl_facts *f, const char *member, const char *field,
                             bool color)
 {

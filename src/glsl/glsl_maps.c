@@ -1,5 +1,5 @@
-// glsl_maps.c: the maps of a shader: the choices about them, the maps that it reads, and the words of maps.glsl, which
-// computes their values.
+// glsl_maps.c: sets the choices about a shader's maps, finds the maps that it reads, and writes the texts that replace
+// the names in maps.glsl.
 #include "fail.h"
 #include "glsl_rows.h"
 #include "maps.inc"
@@ -58,7 +58,7 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
     for (int side = 0; side < 2; side++) {
         const lam_material *material = frame->materials[side ? range->back : range->front];
         bool masks = material->alpha_mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
-        // If no texel has an alpha below 1, a map's scale makes nothing translucent.
+        // If no texel has an alpha below 1, the map does not make the surface translucent, whatever its scale.
         bool opaque = material->alpha_mode == LAM_ALPHA_MASK || (!range->translucent && frame_maps(frame, material));
         c->alpha[side] = masks ? LAM_ALPHA_MASK : opaque ? LAM_ALPHA_OPAQUE : (uint8_t)material->alpha_mode;
     }
@@ -94,7 +94,7 @@ void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4
     }
     s[3] = map->scale != 0 ? map->scale : 1;
     t[3] = map->offset;
-    if (!frame_has_texcoords(mesh, map)) { // as if all texels were 1
+    if (!frame_has_texcoords(mesh, map)) { // a map without texture coordinates counts as 1 everywhere
         t[3] += s[3];
         s[3] = 0;
     }
@@ -220,7 +220,8 @@ void glsl_find_maps(struct glsl_facts *f)
 lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
 {
     const struct glsl_map *maps = f->choices->maps[side];
-    for (int i = 0; i < (int)map && map != LAM_MAP_BUMP; i++) // a bump map is read beside the point
+    // a bump map is sampled beside the point, so it has its own sampler
+    for (int i = 0; i < (int)map && map != LAM_MAP_BUMP; i++)
         if (f->maps[side][i] && i != LAM_MAP_BUMP && maps[i].texels == maps[map].texels)
             return (lam_map)i;
     return map;
@@ -265,7 +266,7 @@ bool glsl_maps_have(const struct glsl_facts *f, const char *member)
 
 // --- text
 
-// The words of maps.glsl for one side.
+// The names of maps.glsl for one side, with the texts that replace them.
 enum { WORDS_MAX = 9 * LAM_MAP_COUNT + 24, WORD_MAX = 128 };
 struct words {
     const struct glsl_facts *facts;
@@ -275,7 +276,7 @@ struct words {
     int count;
 };
 
-// Adds the word `start``end`.
+// Adds the name that consists of `start` and `end`.
 __attribute__((format(printf, 4, 5))) static void add_word(struct words *w, const char *start, const char *end,
                                                            const char *format, ...);
 static void add_word(struct words *w, const char *start, const char *end, const char *format, ...)
@@ -359,7 +360,7 @@ static void add_texels(struct text *text, const struct glsl_facts *f, int side)
     }
 }
 
-// Appends the numbers and colours of layers: the material's own times the map's. The thickness of a film is
+// Appends the numbers and colours of layers: the material's value times the map's value. The thickness of a film is
 // interpolated between two numbers.
 static void add_layer_values(struct text *text, const struct glsl_facts *f, int side)
 {

@@ -46,7 +46,8 @@ struct glsl_row {
     const char *block; // NULL for a plain uniform
     const char *meaning;
     bool back; // belongs to the back material
-    // Offset in floats of a member or a head: in struct glsl_light, in the material, or in up, sky, ground.
+    // Offset in floats of a member or of a GLSL_HEAD: in struct glsl_light, in the material, or in a hemisphere (up,
+    // sky, ground).
     int at;
     lam_map map; // the map of GLSL_MAP…
 };
@@ -56,63 +57,63 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 // (specialize.h).
 // clang-format off
 #define GLSL_FACTS(X) \
-    /* of the light and where it is evaluated */ \
+    /* light, and the stage that evaluates it */ \
     X(application) /* the program lights the vertices */ \
-    X(per_vertex) /* the vertex shader does */ \
-    X(per_fragment) /* the fragment shader does, or writes a number of the geometry */ \
+    X(per_vertex) /* the vertex shader lights them */ \
+    X(per_fragment) /* the fragment shader lights the fragments, or writes a value of the geometry */ \
     X(lit) /* the shader has a function light_point */ \
     X(unlit) /* the surface has its diffuse colour */ \
     X(adds_lights) /* light_point sums terms of lights */ \
-    X(has_lights) /* light_point reads them */ \
+    X(has_lights) /* light_point reads lights */ \
     X(has_hemispheres) \
-    X(has_falloff) /* of any light */ \
-    X(has_cone) /* of any light */ \
-    X(positions) /* any light is not directional */ \
-    X(directions) /* any light is not a point */ \
-    /* of the output */ \
-    X(output_geometry) /* a number of the geometry */ \
+    X(has_falloff) /* any light has a falloff */ \
+    X(has_cone) /* any light has a cone */ \
+    X(positions) /* at least one light is not directional */ \
+    X(directions) /* at least one light is not a point light */ \
+    /* output */ \
+    X(output_geometry) /* a value of the geometry */ \
     X(output_vector) /* a vector, or a cosine of one light */ \
-    X(output_one_light) /* the latter */ \
-    X(output_material) /* what the material is at the point; the surface is unlit */ \
+    X(output_one_light) /* a cosine of one light */ \
+    X(output_material) /* a property of the material at the point; the surface is unlit */ \
     X(output_depth) X(output_occlusion) \
     X(shows_level) /* the level of detail of a map */ \
-    /* of the surface */ \
-    X(back_material) /* it has a material of its own */ \
-    X(needs_normal) /* which come from the mesh */ \
+    /* surface */ \
+    X(back_material) /* the back has its own material */ \
+    X(needs_normal) /* light_point reads the normal */ \
     X(needs_position) \
     X(needs_tangent) /* light_point reads a tangent */ \
     X(needs_tangent_attribute) \
-    X(signed_tangent) /* with the sign of the bitangent, which the fragment shader reads */ \
-    X(vertex_colors) /* light_point reads them */ \
-    X(needs_vertex_color) /* the fragment shader does */ \
-    /* of the material */ \
+    X(signed_tangent) /* the fragment shader reads the tangent and the sign of the bitangent */ \
+    X(vertex_colors) /* light_point reads vertex colours */ \
+    X(needs_vertex_color) /* the fragment shader reads vertex colours */ \
+    /* material */ \
     X(highlights) /* the reflection model has a highlight */ \
     X(microfacet) /* the Fresnel factor colours it */ \
     X(layered) /* layers lie over the surface */ \
     X(has_clearcoat) X(has_anisotropy) \
-    X(widens_roughness) /* by the variance of normals */ \
-    X(has_transmission) /* the fragment shader finds what goes through */ \
+    X(widens_roughness) /* the variance of the normals increases the roughness */ \
+    X(has_transmission) /* the fragment shader computes the transmitted light */ \
     X(converts) /* a side's material is converted (glsl_choices.converted) */ \
     X(has_mask) /* a side is masked */ \
-    X(value_masks) /* and the fragment writes a number of the surface */ \
-    /* of maps */ \
-    X(has_maps) /* the fragment shader reads some */ \
+    X(value_masks) /* a side is masked, and the fragment shader writes a value of the surface */ \
+    /* maps */ \
+    X(has_maps) /* the fragment shader reads maps */ \
     X(has_normal_map) X(has_bump_map) \
     X(has_coat_normal_map) /* a normal map of the clear coat */ \
-    X(first_texcoords) /* maps read them */ \
+    X(first_texcoords) /* maps use the first texture coordinates */ \
     X(second_texcoords) \
     X(maps_interpolated_light) /* the fragment applies maps to light that was evaluated without them */ \
-    X(separate_texture_terms) /* with that: the terms that a diffuse map multiplies are apart from the rest */ \
-    /* of light from all around */ \
-    X(has_environment) /* light_point reads it */ \
-    X(environment_light) /* as light of a physical material */ \
+    X(separate_texture_terms) /* with that: the terms that a diffuse map multiplies are separate from the others */ \
+    /* environment and occlusion */ \
+    X(has_environment) /* light_point reads the environment */ \
+    X(environment_light) /* the environment lights a physical material */ \
     X(occluded) /* the fragment shader reads ambient occlusion */ \
-    /* of what the fragment writes, and of a stage */ \
-    X(encodes) /* light becomes sRGB */ \
+    /* the written colour, and the stage */ \
+    X(encodes) /* the fragment shader encodes light as sRGB */ \
     X(premultiplied) /* the colour is multiplied by the opacity */ \
     X(glsl_120) \
     X(fragment) /* the stage is the fragment shader */
-// Choices that are flags as well, under their names in struct glsl_choices.
+// Members of struct glsl_choices that are also flags of the sources, with the same names.
 #define GLSL_CHOICE_FLAGS(X) \
     X(distant_viewer) X(gl1) X(two_sided) X(tangents) X(products) X(single_scattering) X(passes_rays) X(tints_rays) X(catches) X(shadows)
 // clang-format on
@@ -139,7 +140,7 @@ bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
 // Finds the maps that a shader uses; the other facts must be set.
 void glsl_find_maps(struct glsl_facts *facts);
-// Returns the map whose sampler another map uses: itself, or the first one of its side with the same texels.
+// Returns the map whose sampler another map uses: itself, or the first map of its side with the same texels.
 lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
 // Returns whether the reflection model lights physical materials.
 bool glsl_is_physical(const struct glsl_facts *facts);
@@ -158,8 +159,8 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
 // Appends the struct of values from maps, and the functions that fill it.
 void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
 
-// Appends the expression of a parameter of the material: either as it is lit, or as the material and its maps define
-// it.
+// Append the expression of a parameter of the material: the value from the material and its maps, or the value that
+// lighting uses.
 void glsl_add_own_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
@@ -189,7 +190,7 @@ int glsl_members(const struct glsl_facts *facts, const char *type, struct glsl_r
 struct glsl_uniform_source {
     const struct frame *frame;
     const struct frame_draw_range *range; // NULL for uniforms of the frame
-    const int *order;                     // index in the frame of each of the shader's lights; NULL: no row reads one
+    const int *order; // for each light of the shader, its index in the frame; NULL if no row reads a light
 };
 int glsl_uniform_value(const struct glsl_choices *choices, const struct glsl_uniform_source *from,
                        const struct glsl_row *row, const struct glsl_row *member, int index, float out[16]);

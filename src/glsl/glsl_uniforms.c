@@ -116,7 +116,7 @@ int glsl_uniform_value(const struct glsl_choices *c, const struct glsl_uniform_s
     case GLSL_MAPPED_EMISSION:
         glsl_mapped_emission(frame, range, row->back, out);
         return 4;
-    default: // the projection, which depends on the window, and textures
+    default: // textures, and the projection, which depends on the window
         return 0;
     }
 }

@@ -146,7 +146,8 @@ size_t glsl_lights_bytes(const struct glsl_choices *c)
     return (all ? all : 4) * sizeof(float);
 }
 
-// Packs the data that shaders with shadows read instead of w 1, and instead of the position if the light has none.
+// Packs the data that shaders with shadows read instead of w = 1 and, if the light has no position, instead of the
+// position.
 static void pack_shadow(float position[4], const struct frame_light *light)
 {
     position[3] = light->casts_shadows ? (float)light->radius : -1;

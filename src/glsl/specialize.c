@@ -45,7 +45,7 @@ static void add_span(struct text *text, struct span s) { text_add_part(text, s.a
 enum { LENGTHS = 64 };
 struct index {
     const struct known *rows;
-    bool any[LENGTHS][128]; // whether a name of that length begins with a character
+    bool any[LENGTHS][128]; // whether a name of that length begins with that character
 };
 
 static const char *text_of(struct span name, const struct index *known)
@@ -84,10 +84,10 @@ static const char *find_outside(struct span s, const char *operator)
     return NULL;
 }
 
-static const char *const operators[] = {" || ",
-                                        " && "}; // in ascending precedence; the value of operand i decides if it is !i
+// In ascending precedence. An operand of operator i decides the result if its value is !i.
+static const char *const operators[] = {" || ", " && "};
 
-// Returns 1 if the condition holds, 0 if it does not, -1 if that is unknown.
+// Returns 1 if the condition holds, 0 if it does not, and -1 if its value is unknown.
 static int truth_of(struct span s, const struct index *known)
 {
     const char *text = text_of(s, known);
@@ -151,7 +151,7 @@ static void add_operand(struct text *text, struct span s, const struct index *kn
     }
 }
 
-// Returns the colon of a choice, after its question mark.
+// Returns the colon that belongs to the question mark of a choice (?:).
 static const char *colon_of(struct span s)
 {
     for (int depth = 1;; s.at++) {
@@ -274,8 +274,8 @@ static const char *add_branch(struct text *text, const char *head, struct span s
     }
 }
 
-// Returns the end of the statement that begins with a line: it continues while brackets are open, or with the parts of
-// a choice.
+// Returns the end of the statement that begins with a line: it continues while brackets are open, and over the lines of
+// a choice (?:).
 static const char *statement_end(const char *at, const char *end)
 {
     for (int open = 0; at < end;) {
@@ -385,7 +385,8 @@ static bool is_of(const struct source_span *s, struct span variable, struct span
     return false;
 }
 
-// Returns whether a span reads a struct's member. If none does, `erases` overwrites the lines that set the member.
+// Returns whether a span reads a struct's member. If it does not and `erases` is set, overwrites the lines that set the
+// member.
 static bool reads_member(const struct source_span *s, struct span type, struct span member, bool erases)
 {
     for (struct span w = next_name(s->start, s->end); w.end > w.at; w = next_name(w.end, s->end)) {
@@ -439,7 +440,8 @@ static bool erase_members(const struct source_span *spans, int count, const stru
     return changed;
 }
 
-// Returns whether a function reads a variable after `from`. If it does not, `erases` overwrites the lines that set it.
+// Returns whether a function reads a variable after `from`. If it does not and `erases` is set, overwrites the lines
+// that set the variable.
 static bool reads(const struct source_span *s, const char *from, struct span name, bool erases)
 {
     for (struct span w = next_name(from, s->end); w.end > w.at; w = next_name(w.end, s->end)) {

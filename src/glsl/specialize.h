@@ -1,16 +1,16 @@
-// specialize.h: reduces general sources to the shader for some choices. Branches that are never taken are removed, and
-// so are the parameters, variables and members that are then unread, so that a printed shader contains none of them.
+// specialize.h: reduces general sources to the shader for some choices. It removes branches that are never taken, and
+// the parameters, variables and members that are then unread.
 //
-// The text must have the layout that the formatter gives src/lighting: an `if` ends its line with the opening brace,
-// the closing brace is in the same column as the `if`, and a condition or a choice (?:) of known names is on one line.
+// The text must have the layout that the formatter gives src/lighting. An `if` ends its line with the opening brace,
+// and the closing brace is in the same column as the `if`. A condition or a choice (?:) of known names is on one line.
 #ifndef SPECIALIZE_H
 #define SPECIALIZE_H
 
 #include "text_builder.h"
 
-// A name, or the condition of an `if` as written between the parentheses, and its text. "true" and "false" decide
-// branches; any other text replaces the name. A line "NAME;" is replaced by the lines of the text. A table ends with
-// NULL.
+// A row of the table: a name, or the condition of an `if` as written between the parentheses, and the text that
+// replaces it. The texts "true" and "false" decide branches. A line "NAME;" is replaced by the lines of the text. A
+// table ends with NULL.
 struct known {
     const char *name, *text;
 };
@@ -24,10 +24,10 @@ struct source_span {
     bool reduced; // unread parameters and variables are removed too
 };
 
-// Overwrites unread text with SPECIALIZE_ERASED: members of structs (one member per line) that no span
-// reads, and the lines that only set them; in reduced functions also unread parameters, the arguments for them, the
-// lines of the comment that begin with their names ("// `NAME`"), and unread variables. Returns whether anything was
-// erased; another call may then erase more.
+// Overwrites unread text with SPECIALIZE_ERASED: members of structs (one member per line) that no span reads, and the
+// lines that only set them. In reduced functions it also overwrites unread variables and unread parameters, with the
+// arguments for these parameters and the lines of the comment that begin with their names ("// `NAME`"). Returns
+// whether anything was erased; another call may then erase more.
 enum { SPECIALIZE_ERASED = 1 };
 bool specialize_unread(const struct source_span *spans, int count);
 

@@ -1,6 +1,6 @@
 // layer_inputs.h: the members of struct layer_values (layers.h) that are numbers of the material, some of them
-// multiplied by a map. Struct members, rows of points and GLSL are made from these lists: to add one, add a line here
-// and a member there.
+// multiplied by a map. These lists generate the code that fills the struct, the rows of points, and the GLSL text. To
+// add a number, add a line here and a member to the struct.
 #ifndef LAYER_INPUTS_H
 #define LAYER_INPUTS_H
 

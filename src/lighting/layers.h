@@ -2,9 +2,9 @@
 // clear coat, sheen, anisotropy, a thin film, transmission.
 //
 // The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). The formulas are from the Khronos
-// extensions KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set` has
-// a bit for each layer of the material (layer_kinds.h); without layers, lobes.h and sum.h are complete. Colours of the
-// base layer are multiplied by pi, like every lobe here.
+// extensions KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set`
+// contains a bit for each layer of the material (layer_kinds.h). For materials without layers, lobes.h and sum.h are
+// sufficient. Colours of the base layer are multiplied by pi, like every lobe here.
 
 // The numbers of a material at a point.
 STRUCT(layer_values)
@@ -15,7 +15,7 @@ STRUCT(layer_values)
     num ior;                 // the dielectric's index of refraction
     num specular_weight;     // reflectance at grazing angles
     vec3 f0_color;           // factor of the reflectance along the normal
-    num specular_glossiness; // share of the reflectance along the normal that the matt part loses
+    num specular_glossiness; // share of the reflectance along the normal that diffuse light loses
     num clearcoat;           // share of the surface that is coated
     num clearcoat_roughness;
     vec3 clearcoat_normal; // unit
@@ -28,7 +28,7 @@ STRUCT(layer_values)
     num film; // thickness in nanometres
     num transmission;
     num thickness;        // the thickness of the volume behind the surface
-    num path;             // distance that light travels in it, in units of attenuation_distance
+    num path;             // distance that light travels in the volume, in units of attenuation_distance
     vec3 attenuation_log; // log2 of the volume's colour after a path of 1
 };
 
@@ -49,19 +49,19 @@ STRUCT(layered)
     num iridescence_ior;
     num film;
     num opaque; // share of the light in the dielectric that is not transmitted
-    num matt;   // share of that light that leaves as matt light
+    num matt;   // share of that light that is reflected diffusely
     vec3 sheen_color;
     num sheen_largest; // the largest channel
     num sheen_roughness;
-    num sheen_left; // share of the light towards the eye that the sheen lets through
+    num sheen_left; // share of the light towards the eye that the sheen transmits
     vec3 coat_normal;
     num coat; // share that the coat reflects, including its Fresnel factor
     num coat_roughness;
     num coat_gain; // gain by multiple scattering in the coat
 };
 
-// The response of all layers to light from one direction: factors of kd Ld and of Ls; and intermediate values, which
-// drawing does not read.
+// The response of all layers to light from one direction: the factors of kd Ld and of Ls. It also contains intermediate
+// values, which drawing does not read.
 STRUCT(layered_value)
 {
     num diffuse;
@@ -69,7 +69,7 @@ STRUCT(layered_value)
     num strength; // S of the base
     num base_diffuse;
     vec3 base;
-    num sheen_left; // share of the base that the sheen lets through
+    num sheen_left; // share of the base's light that the sheen transmits
     vec3 sheen;
     num coat;
 };
@@ -105,7 +105,8 @@ FN num cosine_of_turns(num x)
 // Belcour and Barla (2017), in the approximation of KHR_materials_iridescence: the reflectance of a thin film over a
 // surface of f0, for light at an angle to the film's normal with the cosine `c`. Light reflected by both sides of the
 // film interferes; the integral over the wavelengths is computed in Fourier space, with Gaussians for the sensitivities
-// of the eye. `path` is the optical path difference in nanometres times the order, `shift` the phase shifts in turns.
+// of the eye. `path` is the optical path difference in nanometres times the order, and `shift` contains the phase
+// shifts in turns.
 FN vec3 film_sensitivity(num path, vec3 shift)
 {
     num square = path * path;
@@ -179,7 +180,7 @@ FN num stretched_lobe(surface s, vec3 l, layered m)
 //    S = pi D V n.l
 //    D = (2 + 1/alpha) s^(1/alpha) / (2 pi)
 //    V = 1 / (4 n.l |n.v| (1 + L(|n.v|) + L(n.l)))
-// L is their fit of the shadowing between fibres.
+// L is the authors' fit of the shadowing between fibres.
 FN num sheen_fit(num x, num alpha)
 {
     num part = (1.0f - alpha) * (1.0f - alpha);
@@ -467,8 +468,8 @@ FN vec3 layered_transmittance(surface s, layered m, layer_values given, int set)
 
 // --- C only: the GLSL text ends here (src/glsl/embed.py).
 
-// The numbers of a material that are the same at all points. Its base colour, the coat's normal and the stretched
-// direction differ between points.
+// Returns the numbers of a material that are the same at all points. The base colour, the coat's normal and the
+// stretched direction are not set, because they differ between points.
 LANE_FN layer_values layers_of(const lam_material *m)
 {
     layer_values y;

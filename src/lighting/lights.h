@@ -29,9 +29,8 @@ STRUCT(light_sample)
     num spot;        // the cone's factor, 0...1
 };
 
-// Returns 1 / (a + b d + c d^2), or 0 if that sum is 0. With a range, times the window of glTF's KHR_lights_punctual:
-// max(min(1
-// - (d / range)^4, 1), 0).
+// Returns 1 / (a + b d + c d^2), or 0 if that sum is 0. With a range, the result is multiplied by the window of glTF's
+// KHR_lights_punctual: max(min(1 - (d / range)^4, 1), 0).
 FN num attenuation_at(num d, light_source light, int falloff)
 {
     num sum = light.constant + (light.linear + light.quadratic * d) * d;
@@ -48,8 +47,8 @@ FN num attenuation_at(num d, light_source light, int falloff)
 //    cutoff:    [c >= cos cutoff] max(c, 0)^exponent
 //    exponent:  max(c, 0)^exponent
 //    cones:     clamp((c - cos outer) / max(0.001, cos inner - cos outer), 0, 1)^2, as in KHR_lights_punctual
-// The edge itself is always lit, however c was rounded: 5e-7 is the largest error of c. The cones multiply that error
-// by 1 / (cos inner - cos outer), the power by its exponent.
+// The edge itself is always lit, whatever the rounding error of c, which is at most 5e-7. The cones multiply that error
+// by 1 / (cos inner - cos outer), and the power multiplies it by the exponent.
 FN num spot_at(num c, light_source light, int kind)
 {
     num spot = num_of(1.0f);
@@ -66,7 +65,8 @@ FN num spot_at(num c, light_source light, int kind)
     return spot;
 }
 
-// Returns the light at the end of the vector `way` from a point; `square` is its squared length, `inverse` 1 / length.
+// Returns the sample for a light at the end of the vector `way` from a point. `square` is the squared length of `way`,
+// and `inverse` is 1 / length.
 FN light_sample toward_along(vec3 way, num square, num inverse)
 {
     light_sample t;
@@ -77,7 +77,8 @@ FN light_sample toward_along(vec3 way, num square, num inverse)
     return t;
 }
 
-// Applies attenuation and cone. At the light's own position there is no light, because it has no direction there.
+// Applies the attenuation and the cone. A point at the light's own position receives no light, because no direction is
+// defined there.
 FN light_sample weaken_light(light_sample t, num square, light_source light, int kind, int falloff)
 {
     if (falloff != FALLOFF_NONE) {

@@ -1,15 +1,15 @@
 // lobes.h: the reflection models: how a point of a surface reflects light from one direction; and their table.
 //
 // The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). All vectors are in eye space: n is the unit
-// normal, l points to the light, v to the eye, t along the tangent. Each has length 1, or 0 if it is missing; the
-// result is then 0. D is the fraction of diffuse light, S the strength of the highlight, both in 0...1; sum.h
-// multiplies them by colours. No light passes through a surface: S is 0 if n.l <= 0, although r.v and n.h may be
+// normal, l points to the light, v to the eye, t along the tangent. Each vector has length 1, or 0 if the vector is
+// missing; the result is then 0. D is the fraction of diffuse light, S the strength of the highlight, both in 0...1;
+// sum.h multiplies them by colours. No light passes through a surface: S is 0 if n.l <= 0, although r.v and n.h may be
 // positive there.
 //
 // `lambent shader` prints this text, and src/glsl/equations.c and specialize.c read it line by line. They rely on its
-// layout, here and in lights.h and sum.h: a definition begins in column 1, and so does its closing brace; an `if` ends
-// its line with a brace, and the closing brace is below the `if`; a struct has one member per line; a comment precedes
-// its definition without an empty line between them. clang-format preserves all of this.
+// layout, here and in lights.h and sum.h. A definition and its closing brace begin in column 1. An `if` ends its line
+// with a brace, and the closing brace is below the `if`. A struct has one member per line. A comment precedes its
+// definition without an empty line between them. clang-format preserves all of this.
 
 STRUCT(surface)
 {
@@ -44,14 +44,14 @@ FN mask present(vec3 w) { return dot3(w, w) > 0.0f; }
 
 // Returns the mirror image of w about n:
 //    2 (n.w) n - w
-// For l it is the r of textbooks; for v it is the direction in which an environment is looked up.
+// For l, the result is the r of textbooks. For v, it is the direction in which an environment is looked up.
 FN vec3 mirror3(vec3 w, vec3 n) { return sub3(scale3(n, 2.0f * dot3(n, w)), w); }
 
 // Returns the unit vector halfway between l and v, both of length 1.
 FN vec3 halfway3(vec3 l, vec3 v) { return unit3(add3(l, v)); }
 
-// Returns w made perpendicular to n and unit (Gram and Schmidt); 0 if w is parallel to n, |w x n| < 1e-4 |w|: the
-// remainder of w is then only rounding error.
+// Returns the component of w perpendicular to n, as a unit vector (Gram and Schmidt). Returns 0 if w is parallel to n,
+// that is, if |w x n| < 1e-4 |w|; the component would then be only rounding error.
 FN vec3 perpendicular3(vec3 w, vec3 n)
 {
     vec3 across = sub3(w, scale3(n, dot3(n, w)));
@@ -88,8 +88,8 @@ FN lobe_sample phong_lobe(surface s, vec3 l)
     return b;
 }
 
-// Blinn (1977), also called modified Phong: the highlight is brightest where the normal is halfway between light and
-// eye.
+// Blinn (1977), also called modified Phong: the highlight is brightest where the normal is halfway between the
+// directions to the light and to the eye.
 //    S = [n.l > 0] max(n.h, 0)^shininess   with   h = (l + v) / |l + v|
 // The division by the length follows the product with n, which saves three multiplications; n.l + n.v instead of n.(l +
 // v) would save more, but loses digits if l and v are nearly opposite.
@@ -116,11 +116,12 @@ FN lobe_sample blinn_phong_lobe(surface s, vec3 l)
     return b;
 }
 
-// Kajiya and Kay (1989): a thread along t reflects light into a cone around t. With the angles between t and l, t and
-// v:
+// Kajiya and Kay (1989): a thread along t reflects light into a cone around t. With the angles between t and l, and
+// between t and v:
 //    D = sin(t,l)
 //    S = max(sin(t,l) sin(t,v) - cos(t,l) cos(t,v), 0)^shininess
-// On a solid surface D and S are gated by n.l > 0; a fibre (1, else 0) has no inside and therefore no gate.
+// On a solid surface (fibre = 0), D and S are 0 unless n.l > 0. A fibre (fibre = 1) has no inside and therefore no such
+// gate.
 STRUCT(thread_angles)
 {
     num sine;    // sin(t,l)
@@ -237,7 +238,7 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
     vec3 across = cross3(s.n, sum);
     num along = dot3(s.n, sum);
     num square = dot3(sum, sum);
-    // Everything is multiplied by |l + v|^2, so that h is not needed.
+    // All terms are multiplied by |l + v|^2, so that h is not needed.
     num bracket = dot3(across, across) + along * along * alpha_square;
     num spread = alpha * square / max_of(bracket, num_of(1.0e-30f));
     b.base = 0.5f * spread * spread * smith_visibility(positive(b.n_dot_l), eye_cosine(s), alpha_square);
@@ -250,7 +251,7 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
 // ROUGHNESS_MIN to 1, times 32 roots of n.v (scripts/albedo_tables.py).
 STRUCT(albedo_cell)
 {
-    num first;  // the entry above and to the left
+    num first;  // index of the entry above and to the left
     num across; // fractions towards the next entries
     num down;
 };
@@ -279,7 +280,7 @@ FN num single_scattering(num n_dot_v, num roughness)
     return upper + (lower - upper) * p.down;
 }
 
-// Returns the same integral with Schlick's weight (1 - v.h)^5.
+// Returns the integral of single_scattering, weighted by Schlick's (1 - v.h)^5.
 FN num schlick_scattering(num n_dot_v, num roughness)
 {
     albedo_cell p = albedo_cell_of(n_dot_v, roughness);
@@ -328,8 +329,8 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 // --- C only: the GLSL text ends here (src/glsl/embed.py).
 
 // The numbers of a material that lobes read. They have the same names in lam_material, its table of fields and shaders.
-// A number that only lobes read has the columns of its lam_field here; src/scene/fields/material_fields.c makes its row
-// of them.
+// For a number that only lobes read, this table contains the columns of its lam_field;
+// src/scene/fields/material_fields.c makes the field's row from these columns.
 // clang-format off
 #define LOBE_PARAMETERS(X) \
     X(shininess) \
@@ -342,20 +343,20 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
     X(metallic)
 // clang-format on
 
-// The table of the reflection models: the dispatch in C and in GLSL, the words of the command line and of scene files,
-// reports, explanations and tests are made from it. A new model needs an enumerator in lambent/material.h, a function
-// above and a row here; a parameter of its own needs a member of lam_material and a row of LOBE_PARAMETERS. The
-// columns:
+// The table of the reflection models. The dispatch in C and in GLSL, the keywords of the command line and of scene
+// files, reports, explanations and tests are generated from it. A new model needs an enumerator in lambent/material.h,
+// a function above and a row here. If the model has its own parameter, it also needs a member of lam_material and a row
+// of LOBE_PARAMETERS. The columns:
 //     the enumerator without LAM_REFLECTION_
 //     the call: `s` is the surface, `l` the direction to the light, `m` the material's lobe_parameters
 //     properties: LOBE_HIGHLIGHT   S is not 0: the lobe returns the base of a power
 //                 LOBE_MICROFACET  the base is S itself, and the Fresnel factor colours it (fresnel_of)
 //                 LOBE_TANGENT     it reads the surface's tangent
-//                 LOBE_BACKLIT     light from behind (n.l < 0) counts
-//                 LOBE_BACKLIT_FIBRE   it counts where the material is a fibre
+//                 LOBE_BACKLIT     light from behind (n.l < 0) contributes
+//                 LOBE_BACKLIT_FIBRE   light from behind contributes if the material is a fibre
 //                 LOBE_MIRRORED    Lambert's lobe with phong_base, r.v
 //                 LOBE_HALFWAY     Lambert's lobe with the base n.h (halfway_of), which needs four times the exponent
-//     the word, a one-line summary, the formula of D, the formula of the highlight's base ("": none)
+//     the keyword, a one-line summary, the formula of D, the formula of the highlight's base ("" if none)
 // clang-format off
 #define LOBES(X) \
     X(LAMBERT, lambert_lobe(s, l), 0, \

@@ -2,16 +2,16 @@
 //
 // The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl).
 
-// Returns the tangent of a surface without tangents: around the mesh's y axis, like the marks of a lathe; along x if n
-// is along y. n is unit; y and x are the mesh's axes in eye space.
+// Returns the tangent of a surface without tangents. It runs around the mesh's y axis, like the marks of a lathe, or
+// along x if n is parallel to y. n is unit; y and x are the mesh's axes in eye space.
 FN vec3 field_tangent(vec3 n, vec3 y, vec3 x)
 {
     vec3 around = cross3(unit3(y), n);
     return pick3(dot3(around, around) < 1.0e-8f, unit3(x), around);
 }
 
-// Returns the normal from a normal map, given along tangent, bitangent and normal, none of which is normalised after
-// interpolation (MikkTSpace).
+// Returns the normal from a normal map, whose components are along the tangent, the bitangent and the normal. None of
+// these three vectors is normalised after interpolation (MikkTSpace).
 FN vec3 mapped_normal(vec3 map, vec3 tangent, vec3 bitangent, vec3 normal)
 {
     return add3(add3(scale3(tangent, map.x), scale3(bitangent, map.y)), scale3(normal, map.z));
@@ -32,8 +32,9 @@ FN num widened_roughness(num roughness, num variance)
 }
 
 // Returns the variance of the unit normal over a pixel, from an interpolated normal of any length and its derivatives
-// by the window's x and y. A pixel is a box of the variance 1/12. (The paper uses 1 / (2 pi), which blurs the
-// reflections of small mirrors.) Only the part of a derivative that is perpendicular to the normal turns it.
+// with respect to the window's x and y. Positions within a pixel have the variance 1/12. The value 1 / (2 pi) of the
+// paper would blur the reflections of small mirrors. Only the part of a derivative that is perpendicular to the normal
+// turns it.
 FN num normal_variance(vec3 normal, vec3 by_x, vec3 by_y)
 {
     num inverse = rsqrt(dot3(normal, normal));
@@ -52,8 +53,8 @@ FN num map_variance(vec3 mean, num scale, num detail)
     return saturate(detail) * (scale * scale) * ((1.0f - length) / max_of(length, num_of(0.1f)));
 }
 
-// Blinn, "Simulation of wrinkled surfaces" (1978): the unit normal n, tilted by the slopes of a bump map along the
-// directions of increasing columns and rows of the picture, of any length.
+// Blinn, "Simulation of wrinkled surfaces" (1978): returns the unit normal n, tilted by the slopes of a bump map. The
+// directions of increasing columns and rows of the picture may have any length.
 FN vec3 bumped_normal(vec3 n, vec3 across, vec3 down, num slope_across, num slope_down)
 {
     return sub3(n, add3(scale3(perpendicular3(across, n), slope_across), scale3(perpendicular3(down, n), slope_down)));
@@ -81,6 +82,6 @@ FN vec3 along_surface(vec3 n, vec3 tangent, num x, num y)
     return unit3(add3(scale3(tangent, x), scale3(cross3(n, tangent), y)));
 }
 
-// Returns the factor of ambient occlusion for a light: the fraction `occluded` of it counts as surrounding light, of
-// which `share` arrives.
+// Returns the factor of ambient occlusion for a light: the fraction `occluded` of the light is treated as surrounding
+// light, and the fraction `share` of that arrives.
 FN num unoccluded_light(num occluded, num share) { return 1.0f - occluded * (1.0f - share); }

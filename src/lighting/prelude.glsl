@@ -1,5 +1,5 @@
-// prelude.glsl: gives the words of the equations their meaning in GLSL (330, 300 es; nothing here needs more than 120).
-// The same words in C: prelude_c.h, src/base/math/lanes.h and functions.h.
+// prelude.glsl: defines the vocabulary of the equations in GLSL (330, 300 es; nothing here needs more than 120). The
+// same vocabulary in C: prelude_c.h, src/base/math/lanes.h and functions.h.
 #ifdef GL_ES
 precision highp float;
 precision highp int;

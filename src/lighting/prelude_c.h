@@ -1,7 +1,7 @@
 // prelude_c.h: defines the vocabulary of the equations in C: one pixel with LANES 1, or 4, 8, 16 at a time.
 //
 // The equations (lobes.h, lights.h, sum.h, point.h, layers.h) are one source for C and GLSL. They use only + − * / and
-// comparisons on num, the functions below, and the functions of lanes.h and functions.h that prelude.glsl names;
+// comparisons on num, the functions below, and the functions of lanes.h and functions.h that prelude.glsl lists.
 // prelude.glsl defines the same vocabulary in GLSL. A new function needs one line here, one line there, and one row in
 // tests/lighting/words.h.
 #ifndef PRELUDE_C_H
@@ -9,7 +9,7 @@
 
 #include "functions.h"
 
-#define FN LANE_FN // starts every function
+#define FN LANE_FN // precedes every function
 #define STRUCT(name)                                                                                                   \
     typedef struct name name;                                                                                          \
     struct name // starts every struct

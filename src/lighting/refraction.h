@@ -14,9 +14,9 @@ FN vec3 refracted3(vec3 v, vec3 n, num ior)
 }
 
 // Returns the width over which a surface blurs the picture behind it, as a fraction of the picture's height: 1024^(r −
-// 1) with r = roughness · min(2 ior − 2, 1), at most 1/8. In a picture of 1024 pixels this is a texel of the level r
-// log2(1024) of the picture's mipmaps, which three.js uses; without the limit, which r = 0.7 reaches, the roughest
-// glass would have the mean colour of the whole picture with its background. 0 for r = 0.
+// 1) with r = roughness · min(2 ior − 2, 1), at most 1/8. In a picture of 1024 pixels, this is a texel of the level r
+// log2(1024) of the picture's mipmaps, which three.js uses. The limit is reached at r = 0.7. Without it, the roughest
+// glass would have the mean colour of the whole picture, including the background. Returns 0 for r = 0.
 FN num transmission_blur(num roughness, num ior)
 {
     num r = roughness * min_of(positive(2.0f * ior - 2.0f), num_of(1.0f));

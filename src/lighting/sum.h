@@ -21,7 +21,7 @@ STRUCT(hemisphere)
     vec3 sky, ground;
 };
 
-// The viewer: at the eye's position (local), or infinitely far in front, as for an orthographic camera.
+// The viewer is at the eye's position (local), or infinitely far in front of the scene, as for an orthographic camera.
 #define VIEWER_LOCAL    0
 #define VIEWER_INFINITE 1
 
@@ -82,7 +82,7 @@ STRUCT(fresnel) { vec3 f0, rest; };
 
 // glTF 2.0, appendix B, the normative mix of a dielectric and a metal whose f0 is the base colour:
 //    (1 - metallic) (0.04 + 0.96 w) + metallic (base + (1 - base) w)
-// Each part is multiplied by 1 + its f0 gain, for multiple scattering between microfacets (gain 0: none).
+// Each of the two is multiplied by 1 + its f0 gain, for multiple scattering between microfacets (gain 0: none).
 FN fresnel fresnel_of(vec3 base, num metallic, num gain)
 {
     fresnel f;
@@ -136,7 +136,7 @@ STRUCT(surroundings)
 // The environment's light that a physical material reflects.
 STRUCT(returned_light)
 {
-    vec3 diffuse;  // from its matt part
+    vec3 diffuse;  // from its diffuse part
     vec3 specular; // from its microfacets
 };
 

@@ -19,7 +19,7 @@ FN surroundings surroundings_of(SCENE surface s, num roughness)
     return e;
 }
 
-// The surroundings of both boundaries: of the base, whose mirror direction may be bent by anisotropy, and of the coat.
+// The surroundings of the base, whose mirror direction anisotropy may bend, and of the coat.
 STRUCT(layered_around)
 {
     surroundings base;

@@ -7,8 +7,8 @@
 //    x / (1 + x)
 FN vec3 reinhard_tone(vec3 c) { return vec3_of(c.x / (1.0f + c.x), c.y / (1.0f + c.y), c.z / (1.0f + c.z)); }
 
-// Hill's fit of the reference and output transforms of ACES for sRGB screens (BakingLab, ACES.hlsl): into the working
-// space, a rational curve, and back.
+// Hill's fit of the reference and output transforms of ACES for sRGB screens (BakingLab, ACES.hlsl): convert to the
+// working space, apply a rational curve, and convert back.
 FN num aces_curve(num x)
 {
     return (x * (x + 0.0245786f) - 0.000090537f) / (x * (0.983729f * x + 0.4329510f) + 0.238081f);
@@ -77,7 +77,7 @@ FN vec3 saturate3(vec3 c) { return vec3_of(saturate(c.x), saturate(c.y), saturat
 
 // --- C only: the GLSL text ends here (src/glsl/embed.py).
 
-// The table of the curves: enumerator of lam_tone without LAM_TONE_, function, word, summary.
+// The table of the curves: enumerator of lam_tone without LAM_TONE_, function, keyword, summary.
 // clang-format off
 #define TONES(X) \
     X(REINHARD, reinhard_tone, "reinhard", "x / (1 + x), each channel by itself") \

@@ -1,9 +1,9 @@
-// occlusion_pattern.h: the rays of ambient occlusion from every lit point.
+// occlusion_pattern.h: the directions and lengths of the rays that compute ambient occlusion at a lit point.
 //
 // Directions are projected from points of a disc below the hemisphere (Malley's method), so that each has an equal
 // share of the cosine-weighted integral. The points form Vogel's spiral (1979), as for lights with a size
-// (light_pattern.h). Every lit point rotates the disc by its own angle, which turns steps into fine grain. A surface at
-// the distance d occludes its direction by the share
+// (light_pattern.h). Every lit point rotates the disc by its own angle, so that visible steps become fine grain. A
+// surface at the distance d occludes its direction by the share
 //    w(d) = clamp((radius − d) / (OCCLUSION_FADING radius), 0, 1)
 // This is the fraction of rays that reach as far as d if their lengths are evenly distributed from (1 −
 // OCCLUSION_FADING) radius to the radius. A ray is therefore either blocked or not, and the distance of its hit does
@@ -13,7 +13,7 @@
 
 #include <stdint.h>
 
-// The part of the radius over which occlusion fades out.
+// The fraction of the radius over which occlusion fades out.
 #define OCCLUSION_FADING 0.4f
 
 enum { OCCLUSION_RAYS_MAX = 1024, OCCLUSION_TURNS = 256 };
@@ -26,12 +26,12 @@ struct occlusion_pattern {
     double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // the cosines and sines of the turns of occlusion_turn
 };
 
-// Returns the turn at a pixel: interleaved gradient noise (Jimenez 2014) in whole numbers, whose neighbours differ as
-// much as possible.
+// Returns the turn at a pixel: interleaved gradient noise (Jimenez 2014) computed in integers. The turns of
+// neighbouring pixels differ as much as possible.
 static inline uint32_t occlusion_turn(uint32_t x, uint32_t y)
 {
     uint32_t part = x * 0x112e0be8u + y * 0x017e8cd9u;       // fraction of 0.06711056 x + 0.00583715 y
-    return (uint32_t)((uint64_t)part * 3472289 >> 16) >> 24; // the fraction of 52.9829189 times that
+    return (uint32_t)((uint64_t)part * 3472289 >> 16) >> 24; // the fraction of 52.9829189 times the number above
 }
 
 void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count);

@@ -6,9 +6,9 @@
 
 enum { LANES_MAX = 16 };
 
-// Rows have LANES_MAX more floats at either end, and planes of cells precede the planes of pixels. All threads fill
-// them in chunks: the first use of the memory of a large picture takes seconds, and the call may be stopped during that
-// time.
+// Rows contain LANES_MAX additional floats at either end, and planes of cells precede the planes of pixels. All threads
+// fill the rows in chunks, because the first use of the memory of a large picture takes seconds, and the call may be
+// stopped during that time.
 enum { CHUNK = 1 << 17, CELL_PLANES = 5 };
 struct emptying {
     float *at;
@@ -27,7 +27,7 @@ static void empty_chunk(void *user, size_t index, int thread)
         emptying->at[i] = SCREEN_EMPTY;
 }
 
-// Finds memory for the planes of cells in the lent blocks. Returns how many planes did not fit; their pointers are
+// Places the planes of cells in the lent blocks of memory. Returns how many planes did not fit; their pointers are
 // NULL.
 static int place_planes(float *planes[CELL_PLANES], int count, size_t bytes, struct scratch_memory *lent,
                         int lent_count)
@@ -97,8 +97,8 @@ static void fill_beside(const struct screen_occlusion *o, float *plane, int y, f
         row[x] = value;
 }
 
-// Filters also read beside the cells. This function stores 0 there, and marks the depth as containing no surface, which
-// gives the values the weight 0.
+// Filters also read values outside the cells. This function stores 0 there and marks the depths as containing no
+// surface, so that these values have the weight 0.
 static void fill_rows_beside(const struct screen_occlusion *o, int first, int end)
 {
     for (int y = first; y < end; y++) {

@@ -1,7 +1,7 @@
 // screen_occlusion.h: ambient occlusion of every pixel from the depths of the surfaces around it.
 //
 // The visible surfaces are treated as a height field. Around a pixel, a plane through the view vector cuts the height
-// field; in this plane, the horizon on either side bounds the part of the hemisphere that surrounding light comes from
+// field. In this plane, the horizon on either side bounds the part of the hemisphere that surrounding light comes from
 // (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016). Sixteen neighbours rotate
 // their planes by different angles, and an edge-aware filter of that size averages them. docs/lighting/occlusion.md
 // lists the formulas.
@@ -96,8 +96,8 @@ struct occlusion_kernels {
     void (*pixel_rows)(const struct screen_occlusion *occlusion, int first, int end);
 };
 
-// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL). If the call must stop, it stops with
-// incomplete results.
+// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL). If the call is stopped, the results are
+// incomplete.
 void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occlusion_kernels *kernels,
                            struct pool *pool, struct call_control *call);
 

@@ -1,10 +1,10 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and distributes small ranges to threads.
 //
 // The centres of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
-// of its cells instead of the far more numerous triangles. A range of few triangles is removed from its cells and
-// divided by one thread (splits.c), and so is a range within one cell; if that range is large, it gets its own grid.
-// Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its triangles, so
-// the result does not depend on the number of threads.
+// of its cells instead of the far more numerous triangles. A range of few triangles, or a range within one cell, is
+// removed from its cells. One thread then divides it (splits.c), unless it is large; a large range within one cell gets
+// its own grid. Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its
+// triangles, so the result does not depend on the number of threads.
 #include "ranges.h"
 
 #include "fail.h"
@@ -12,8 +12,8 @@
 #include <string.h>
 
 enum {
-    PART = 32, // a part of a node with at most this many triangles is no longer divided by cells
-    // a range up to this size is divided by one thread; the nodes of larger ones have all their children
+    PART = 32, // parts of a node with at most this many triangles are no longer divided by cells
+    // one thread divides a range of up to this size; nodes of larger ranges have the maximum number of children
     SMALL = NODE_CHILDREN * PART,
     CELL_BITS_MAX = 16,
     CHUNKS_MAX = 16,
@@ -214,7 +214,8 @@ static void add(struct large *l, const struct range *r, struct list *list)
     ranges_of(list)[list->count++] = *r;
 }
 
-// Divides a range by its cells. Returns false if it has only one cell, all its centres are equal, or it is too deep.
+// Divides a range by its cells. Returns false if the range contains only one cell, if all its centres are equal, or if
+// the range is too deep.
 static bool halve_cells(struct large *l, struct range *r, struct range *right)
 {
     struct split split;

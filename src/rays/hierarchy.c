@@ -33,8 +33,9 @@ static bool same_sources(const struct hierarchy_memory *memory, const struct fra
     return true;
 }
 
-// Besides the coordinates of the file (frame_draw.rounding), the transforms to the hierarchy's space and to a point of
-// a triangle round too: fewer than eight operations in double, on numbers up to the sum below.
+// Adds the rounding errors of a draw. Besides the coordinates of the file (frame_draw.rounding), the transform to the
+// hierarchy's space and the computation of a point of a triangle also round. They take fewer than eight operations in
+// double, on numbers up to the sum below.
 static void add_rounding(struct hierarchy *h, const struct frame_draw *draw)
 {
     for (int i = 0; i < 3; i++) {
@@ -95,7 +96,7 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
                             .node_count = (uint32_t)nodes,
                             .triangle_count = (uint32_t)count};
     bool ok = ray_triangles_prepare(&builder, error) && ray_nodes_build(&builder, error);
-    // The scratch memory is half as large as the hierarchy, and only needed again after something moves.
+    // The scratch memory is half as large as the hierarchy, and is only needed again after an object moves.
     buffer_release(&memory->scratch, call);
     if (!ok)
         return NULL;

@@ -1,8 +1,8 @@
 // hierarchy.h: a bounding volume hierarchy over all triangles of a frame, for rays.
 //
-// One test in double decides whether a ray meets a triangle (ray_lanes.h), so results do not depend on the hierarchy:
-// its boxes are merely conservative. It is built by fixed tasks and is identical for any number of threads; OpenGL also
-// reads it.
+// One test in double precision decides whether a ray meets a triangle (ray_lanes.h), so results do not depend on the
+// hierarchy, whose boxes are merely conservative. It is built by fixed tasks and is identical for any number of
+// threads. The OpenGL device reads the same hierarchy.
 #ifndef HIERARCHY_H
 #define HIERARCHY_H
 
@@ -17,7 +17,7 @@ struct ray_triangle {
     uint32_t twin;   // the lowest number of a triangle with the same three positions; usually its own
 };
 
-// A node: the boxes of its children as conservative floats. It has the size of four cache lines.
+// A node: the boxes of its children as conservative floats. A node has the size of four cache lines.
 enum { NODE_CHILDREN = 8 };
 struct ray_node {
     _Alignas(64) float planes[2][3][NODE_CHILDREN]; // low and high planes, by axis; without a child, 3e38 and −3e38
@@ -34,11 +34,11 @@ struct hierarchy {
     // From world space: p → (p − centre) scale, so that all corners are within −1…1. The scale is a power of two.
     double centre[3], scale;
     const struct ray_node *nodes;         // the root first
-    const struct ray_triangle *triangles; // the triangles in the order of the leaves; one more may follow them
-    uint32_t node_count;                  // entries of `nodes`, some of them unused, or 0
+    const struct ray_triangle *triangles; // the triangles in the order of the leaves; the array has space for one more
+    uint32_t node_count;                  // number of entries of `nodes`, some of which are unused; may be 0
     uint32_t triangle_count;
     const uint32_t *twins; // for each triangle of the frame, see ray_triangle.twin
-    // The largest rounding error along each axis of a corner, compared with its file, and of a point of its triangle.
+    // The largest rounding error, along each axis, of a corner (compared with the file) and of a point of a triangle.
     double rounding[3];
 };
 
@@ -51,7 +51,7 @@ struct hierarchy_memory {
 };
 
 // Builds the hierarchy of a frame, unless the existing one has the same meshes at the same positions. Sets *built to
-// whether it was built. Fails with LAM_LIMIT (memory, time), LAM_CANCELLED.
+// whether it was built. Fails with LAM_LIMIT (memory, time) or LAM_CANCELLED.
 const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, const struct frame *frame,
                                            struct pool *pool, struct call_control *call, bool *built, lam_error *error);
 void hierarchy_free(struct hierarchy_memory *memory);

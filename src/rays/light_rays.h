@@ -23,8 +23,8 @@ struct light_rays {
     uint64_t sent; // number of traced rays
 };
 
-// A ray through an edge meets both of its triangles, which does not matter for opaque surfaces. For translucent ones it
-// must count once: for the triangle on one side of the edge, seen along the ray, as in coverage.
+// A ray through an edge meets both triangles at the edge. This does not matter for opaque surfaces, but only one of two
+// translucent triangles may count: the one on a fixed side of the edge, seen along the ray, as in rasterization.
 static bool owns_edges(const struct ray_triangle *triangle, const double origin[3], const double d[3],
                        const double weights[3])
 {
@@ -51,7 +51,8 @@ struct side_share {
     float passed[3];
 };
 
-// Gets the light that passes a point of a triangle, for each of passed_channels; `share` keeps it for a side.
+// Gets the light that passes a point of a triangle, for each of passed_channels. If that light is the same at all
+// points of a side, `share` stores it.
 static void share_at(const struct frame *frame, uint32_t number, bool back, float b1, float b2,
                      struct side_share *share)
 {
@@ -67,8 +68,8 @@ static void share_at(const struct frame *frame, uint32_t number, bool back, floa
         passed[0] = passed[1] = passed[2] = 1 - ray_opacity(frame, number, back, b1, b2);
 }
 
-// Records the light that a translucent triangle lets through, and returns the rays that it blocks. It uses the side
-// that faces the light.
+// Records the light that a translucent triangle lets through, and returns the rays that it blocks. Uses the side of the
+// triangle that faces the light.
 static unsigned filter_ray(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                            const struct ray_view *view, unsigned lanes)
 {

@@ -70,7 +70,7 @@ static texel map_texel(const lam_mesh *mesh, const lam_texture_map *map, uint32_
     return value * (map->scale != 0 ? map->scale : 1) + map->offset;
 }
 
-// Returns a channel of such a texel.
+// Returns a channel of the texel of a map at level 0, or 1 if the mesh lacks texture coordinates for the map.
 static float map_value(const lam_mesh *mesh, const lam_texture_map *map, int channel, uint32_t triangle, float b1,
                        float b2)
 {

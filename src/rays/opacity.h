@@ -5,15 +5,15 @@
 #include "frame.h"
 
 // Returns the opacity, 0…1, of a triangle of the frame at the point with the weights 1 − b1 − b2, b1 and b2; textures
-// are read at level 0. A masked surface has 0 or 1. With `back`, returns the opacity of its back side.
+// are read at level 0. The opacity of a masked surface is 0 or 1. With `back`, returns the opacity of its back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
-// Gets the light, red, green and blue, that passes such a point: 1 − opacity, plus, of the opaque share, the light that
-// continues behind a transmitting surface: transmission (1 − metallic) · base. The boundary of a volume counts only
-// where light enters it.
+// Gets the light (red, green, blue) that passes such a point: 1 − opacity, plus the light that continues behind a
+// transmitting surface, which is opacity · transmission · (1 − metallic) · base. The boundary of a volume colours light
+// only where the light enters the volume.
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3]);
 
-// Returns whether both are the same at all points of a triangle.
+// Returns whether opacity and transmitted light are the same at all points of a triangle.
 bool ray_share_is_constant(const struct frame *frame, uint32_t number, bool back);
 
 // The translucent triangles that a group of rays passes.
@@ -26,8 +26,8 @@ struct ray_layers {
     bool failed; // out of memory
 };
 
-// Get the linear colour with alpha of a corner of a mesh with colours, and its texture coordinates in a map's set; the
-// latter returns false if the mesh has none. Corners are counted over all triangles.
+// Get the linear colour with alpha of a corner of a mesh with colours, and a corner's texture coordinates in a map's
+// set. The second function returns false if the mesh has no such coordinates. Corners are counted over all triangles.
 void ray_corner_color(const lam_mesh *mesh, uint32_t corner, float out[4]);
 bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float out[2]);
 

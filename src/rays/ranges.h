@@ -1,7 +1,7 @@
 // ranges.h: ranges of primitives that become a hierarchy's nodes, and the bins by which they are divided.
 //
 // The surface area heuristic (MacDonald and Booth, 1990) with the candidates of Wald, "On fast construction of
-// SAH-based bounding volume hierarchies", 2007: a range's primitives are sorted into bins by the centres of their
+// SAH-based bounding volume hierarchies", 2007. A range's primitives are sorted into bins by the centres of their
 // boxes, and the range is divided at the boundary between two bins with the smallest
 //    area(left) count(left) + area(right) count(right)
 #ifndef RANGES_H
@@ -201,10 +201,11 @@ static inline uint32_t partition(struct primitive *p, uint32_t count, const stru
 
 // --- the nodes of one range (splits.c)
 
-// Computes the box of a range's primitives, and of twice their centres.
+// Computes the box of a range's primitives, and the box of twice their centres.
 void range_measure(const struct primitive *p, uint32_t count, struct box *box, struct box *middles);
 
-// Divides a range into itself and *right. Returns false if it becomes a leaf, or memory runs out.
+// Divides a range: reduces `range` to the left half, and sets *right to the right half. Returns false if the range
+// becomes a leaf, or if memory runs out.
 bool range_halve(struct builder *builder, struct range *range, struct range *right);
 
 // Stores the node of a range that was divided into `parts`, and sets where the parts store their nodes.

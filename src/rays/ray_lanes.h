@@ -1,20 +1,20 @@
 // ray_lanes.h: intersects LANES rays at a time with a hierarchy. Define LANES as 1, 4, 8 or 16 before including it.
 //
 // A ray is origin + t direction with 0 < t < end, in the hierarchy's space. Only crosses() decides whether a ray meets
-// a triangle, in double and in a fixed order of operations; boxes merely save work. The result therefore does not
+// a triangle. It uses double and a fixed order of operations; boxes merely save work. The result therefore does not
 // depend on the hierarchy, on the number of lanes, or on which rays are traced together.
 //
-// The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013): seen along the ray, with
+// The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013). Seen along the ray, with
 // the origin at (0, 0), the signs of cross products of a triangle's corners decide on which side of each edge the ray
-// passes. Rounding is monotonic, so that such a sign is never wrong, only 0, and 0 belongs to both triangles at an
-// edge: no ray passes between them. A corner at the origin gives t = 0, so triangles around a point do not block its
-// rays. Nor does a triangle whose plane contains the start point of the ray (through_points), since t is then 0 except
-// for rounding.
+// passes. Rounding is monotonic, so that such a sign can be 0 but is never wrong. A sign of 0 counts as inside for both
+// triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles around a
+// point do not block its rays. A triangle whose plane contains the start point of the ray (through_points) does not
+// block the ray either, because t is then 0 except for rounding.
 //
-// Rays with nearly the same direction form a bundle and traverse the hierarchy together: at a node, the intervals of
-// their origins and directions are tested against the boxes of all its children at once (Boulos, Wald and Shirley,
-// "Geometric and arithmetic culling methods for entire ray packets", 2006); only leaves test individual rays. A ray
-// with a different direction is a bundle of one.
+// Rays with nearly the same direction form a bundle and traverse the hierarchy together. At a node, the intervals of
+// their origins and directions are tested against the boxes of all children of the node at once (Boulos, Wald and
+// Shirley, "Geometric and arithmetic culling methods for entire ray packets", 2006); only leaves test individual rays.
+// A ray with a different direction is a bundle of one.
 #ifndef RAY_LANES_H
 #define RAY_LANES_H
 
@@ -22,8 +22,8 @@
 #include "eights.h"
 #include "hierarchy.h"
 
-// The rays of a bundle differ from one of them by at most this distance at their starts, and at their ends at full
-// length (at most 1), summed over coordinates.
+// The rays of a bundle differ from the first of them by at most this distance, summed over coordinates. This limit
+// applies at the starts of the rays, and at their ends at full length (at most 1).
 #define BUNDLE_SPREAD 0.2f
 
 struct ray_lanes {
@@ -31,7 +31,7 @@ struct ray_lanes {
     double end[LANES];                                         // may be infinite
     // The twin of the triangle on which the ray starts, which never blocks it; NO_TRIANGLE: none.
     int32_t own[LANES];
-    double point[3][LANES]; // the start point: the origin, unless that was moved off the surface
+    double point[3][LANES]; // the start point: the origin, unless the origin was moved off the surface
 };
 
 // Rays seen along their directions d, with k the largest component: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
@@ -40,7 +40,7 @@ struct ray_lanes {
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // the rays with each k
-    int k, i, j;      // the same for all requested rays, which then use only row k; k is −1 if they differ
+    int k, i, j;      // equal for all requested rays, which then use only row k; k is −1 if they differ
 };
 
 LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
@@ -83,8 +83,8 @@ LANE_FN dnum along(const double row[3][LANES], int at, const dnum p[3])
     return (dnum_load(row[0] + at) * p[0] + dnum_load(row[1] + at) * p[1]) + dnum_load(row[2] + at) * p[2];
 }
 
-// Returns the lanes of `active` whose rays a triangle blocks. `weights` (may be NULL) gets the weights of its corners,
-// each times their sum, and `t` the rays' t.
+// Returns the lanes of `active` whose rays a triangle blocks. `weights` (may be NULL) gets the weights of the
+// triangle's corners, each multiplied by the sum of the weights. `t` gets the rays' t.
 LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_lanes *ray, const struct ray_view *view,
                          unsigned active, double weights[3][LANES], double t[LANES])
 {
@@ -139,12 +139,12 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
     return hit ? hit & mask_bits(inum_load(ray->own) != (int32_t)triangle->twin) : 0;
 }
 
-// Returns the `lanes`, whose rays cross a triangle, for which the start point is in the triangle's plane within the
+// The rays of `lanes` cross a triangle. Returns the lanes whose start point is in the triangle's plane, within the
 // rounding error:
 //    |N·(p_0 − point)| ≤ 2 Σ_i |N_i| rounding_i + 2⁻⁵⁰ Σ_i (|a_j b_k| + |a_k b_j|) |p_0 − point|_i    N = a × b
-// where a and b lead from corner p_0 to the others. Both triangle and point are rounded (hierarchy.rounding); the last
-// term is the error of this determinant (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
-// geometric predicates", 1997, has 7 · 2⁻⁵³ instead of 8 · 2⁻⁵³).
+// where a and b are the vectors from corner p_0 to the other corners. Both triangle and point are rounded
+// (hierarchy.rounding); the last term is the error of this determinant (Shewchuk, "Adaptive precision floating-point
+// arithmetic and fast robust geometric predicates", 1997, has 7 · 2⁻⁵³ instead of 8 · 2⁻⁵³).
 LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_triangle *triangle,
                                 const struct ray_lanes *ray, unsigned lanes)
 {
@@ -207,7 +207,8 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
         sum += (d + num_load(origin[i])) * 0.0f;
         num_store(b->low[i], num_load(origin[i]) + reach);
         num_store(b->high[i], num_load(origin[i]) - reach);
-        // The direction is parallel to the planes: the ray never reaches them, or too far away to matter.
+        // The direction is parallel to the planes: the ray never reaches the planes, or reaches them too far away to
+        // matter.
         num least = pick(d < 0.0f, num_of(-1e-30f), num_of(1e-30f));
         num_store(b->inverse[i], 1.0f / pick(absolute(d) < 1e-30f, least, d));
     }
@@ -221,7 +222,7 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
 // meets. Rounding is monotonic, so this also holds for the computed numbers.
 struct ray_bundle {
     unsigned lanes;
-    int first[3], last[3];           // the planes that they meet first and last, as positions among a node's floats
+    int first[3], last[3];           // the planes that the rays meet first and last, as indices into a node's floats
     const float *start[3], *stop[3]; // for box_rays: the origin, to be subtracted from these planes
     eight near[3], far[3];           // the same for all rays
     eight least[3], most[3];         // the range of the inverse of their directions
@@ -381,8 +382,9 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
 }
 
 #if LANES == 1
-// Returns the nearest triangle on a ray by its number in the frame (at equal distances the lowest), and its distance
-// *t. Returns NO_TRIANGLE if there is none. `counts` decides whether a triangle is considered.
+// Returns the number in the frame of the nearest triangle on a ray, and the triangle's distance *t. Of triangles at
+// equal distances, it returns the lowest number. Returns NO_TRIANGLE if there is none. `counts` decides whether a
+// triangle is considered.
 LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *ray,
                              bool (*counts)(void *user, const struct ray_triangle *triangle,
                                             const struct ray_lanes *ray, const struct ray_view *view),

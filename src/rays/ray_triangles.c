@@ -1,7 +1,7 @@
 // ray_triangles.c: transforms the triangles of a frame to the hierarchy's space, and computes their boxes.
 //
-// Corners are computed on demand, three times: for the total extent, for boxes, and for the leaves. Storing them would
-// take longer, mostly for memory access.
+// Corners are computed three times: for the total extent, for the boxes, and for the leaves. Storing the corners would
+// take longer, mostly because of memory access.
 #include "ray_triangles.h"
 
 #include "fail.h"

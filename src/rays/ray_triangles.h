@@ -1,4 +1,4 @@
-// ray_triangles.h: the corners of a frame's triangles, with two coordinates per register.
+// ray_triangles.h: computes the corners of a frame's triangles, with two coordinates per vector register.
 #ifndef RAY_TRIANGLES_H
 #define RAY_TRIANGLES_H
 
@@ -53,9 +53,9 @@ static __attribute__((noinline, unused)) void place_draw(struct placement *place
     }
 }
 
-// Computes the corners of a triangle in world space, bit-identical to ray_corners. Returns false if no ray can meet it:
-// its corners are not finite, or it belongs to the rectangles of lines and points, which face the eye and cast no
-// shadows.
+// Computes the corners of a triangle in world space, bit-identical to ray_corners. Returns false if no ray can meet the
+// triangle. Its corners are then not finite, or it belongs to the rectangles of lines and points, which face the eye
+// and cast no shadows.
 LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct placement *place, struct point p[3])
 {
     if (number - place->first >= place->end - place->first)

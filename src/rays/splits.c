@@ -117,7 +117,7 @@ static void divide_at(struct builder *b, struct range *r, uint32_t left, struct 
     halves_of(r, left, boxes, middles, right);
 }
 
-// Compares by twice the centre along one axis, then by number.
+// Compares two primitives by twice the centre along one axis, then by number.
 static int compare_along(const void *a, const void *b, int axis)
 {
     const struct primitive *p = a, *q = b;
@@ -130,8 +130,8 @@ static int along_x(const void *a, const void *b) { return compare_along(a, b, 0)
 static int along_y(const void *a, const void *b) { return compare_along(a, b, 1); }
 static int along_z(const void *a, const void *b) { return compare_along(a, b, 2); }
 
-// Divides in the middle if bins have repeatedly given uneven parts, so that the depth is bounded; it uses the nearest
-// position between two different centres.
+// Divides a range in the middle if bins have repeatedly produced uneven parts, so that the depth is bounded. It uses
+// the position nearest to the middle that is between two different centres.
 static uint32_t divide_evenly(struct primitive *p, uint32_t count, int axis)
 {
     static int (*const along[3])(const void *, const void *) = {along_x, along_y, along_z};
@@ -185,8 +185,8 @@ static void sort_corners(double p[3][3])
     }
 }
 
-// For more triangles than fit into a leaf, all with the same centre: sorts them, and finds twins. They can then be
-// divided anywhere.
+// Sorts the triangles of a range with equal centres and too many triangles for a leaf, and finds twins. The range can
+// then be divided at any position.
 static bool sort_group(struct builder *b, const struct range *r)
 {
     struct placement place = {0};
@@ -222,7 +222,7 @@ static bool sort_group(struct builder *b, const struct range *r)
 }
 
 // Divides a range of few triangles at the midpoint between the outermost centres, which is hardly worse than the best
-// of many boundaries, and much faster to find. Returns false if it becomes a leaf.
+// of many boundaries, and much faster to find. Returns false if the range becomes a leaf.
 static bool halve_few(struct primitive *p, struct range *r, int axis, struct range *right)
 {
     struct primitive sorted[MIDDLE_MAX];

@@ -1,9 +1,9 @@
-// formula.h: surfaces given by text, "x=…; y=…; z=…" over u and v or an expression of x, y and z that is zero on the
-// surface, and their derivatives. docs/shapes.md describes the language.
+// formula.h: surfaces that a text defines, and their derivatives. The text is "x=…; y=…; z=…" over u and v, or an
+// expression of x, y and z that is zero on the surface. docs/shapes.md describes the language.
 //
-// A text becomes a list of operations (formula_graph.c). Equal operations are shared, constants are evaluated, and the
-// list also contains the partial derivatives of the results, made by the rules of calculus. Evaluating the surface
-// takes one pass over the list.
+// The parser converts a text to a list of operations (formula_graph.c). Equal operations are shared, and constants are
+// evaluated. The list also contains the partial derivatives of the results, which are derived symbolically. Evaluating
+// the surface takes one pass over the list.
 #ifndef FORMULA_H
 #define FORMULA_H
 
@@ -12,13 +12,13 @@
 #include <lambent/mesh.h>
 
 enum {
-    FORMULA_BYTES_MAX = 4096,  // bytes of a text
-    FORMULA_DEPTH_MAX = 64,    // nesting of parentheses, signs and powers
-    FORMULA_NODES_MAX = 16384, // operations, derivatives included
+    FORMULA_BYTES_MAX = 4096,  // the maximum length of a text in bytes
+    FORMULA_DEPTH_MAX = 64,    // the maximum nesting of parentheses, signs and powers
+    FORMULA_NODES_MAX = 16384, // the maximum number of operations, including derivatives
 };
 
 // NUMBER and the parameters have no operand. LESS: 1 if a < b, ½ if they are equal, otherwise 0. CHAIN: a · b, but 0 if
-// b is 0: a term of a derivative, whose outer factor may be infinite where the inner function is constant.
+// b is 0. It is a term of a derivative, whose outer factor may be infinite where the inner function is constant.
 enum formula_op {
     OP_NUMBER,
     OP_PARAMETER_0, // u or x
@@ -80,7 +80,7 @@ int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b
 // derivatives[i] belongs to node i.
 void formula_differentiate(struct formula_graph *graph, int count, enum formula_op parameter, int *derivatives);
 
-// A surface. Only one thread at a time may use it, because its nodes store the values.
+// A surface. Only one thread at a time may use a surface, because its nodes store the values.
 struct formula {
     struct formula_node *nodes;
     int count;
@@ -98,7 +98,7 @@ struct formula {
 // Parses a text, which must outlive the formula. Errors: LAM_BAD_ARGUMENT with the column, LAM_LIMIT.
 bool formula_parse(const char *text, bool implicit, struct arena *arena, struct formula *formula, lam_error *error);
 
-// Parses a range, "0..2pi", whose ends may use the constants that the formula defines. `name` is for errors.
+// Parses a range, "0..2pi", whose ends may use the constants that the formula defines. Error messages use `name`.
 bool formula_range(struct formula *formula, const char *name, const char *text, double range[2], lam_error *error);
 
 // Makes the list of operations for evaluation; formula_range must not be called afterwards.

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    CELLS = 96, // along the longest side, by default
+    CELLS = 96, // default number of cells along the longest side
     CELLS_MAX = 1024,
     SEARCH_CELLS = 64,
     SEARCH_POINTS = SEARCH_CELLS + 1,
@@ -16,8 +16,8 @@ enum {
                                   // milliseconds
 };
 
-// Half the sides of the cubes that are searched: textbook examples are in the first, and most closed surfaces in the
-// second.
+// Half the sides of the cubes that are searched. Textbook examples fit into the first cube, and most closed surfaces
+// fit into the second.
 static const double search_sides[] = {4, 16};
 
 struct implicit {
@@ -25,7 +25,7 @@ struct implicit {
     struct call_control *call;
     int value_cost, gradient_cost; // cost of one evaluation, in operations such as a sum
     int operations;                // operations since the last check of the call's limits
-    bool ended;                    // the call must stop: f is NaN from now on, which means outside
+    bool ended;                    // the call is stopped: from now on f is NaN, which means outside
     double from[3], to[3];
     bool given[3]; // whether the range of an axis was given
 };
@@ -80,8 +80,8 @@ static lam_vec3 gradient_at(void *user, lam_vec3 p)
 
 static double step_of(double from, double to, int i) { return from + (to - from) * ((double)i / SEARCH_CELLS); }
 
-// Finds the crossed edges of a coarse lattice: the first and the last of their ends along each axis. Returns false if
-// there are none.
+// Finds the edges of a coarse lattice that the surface crosses, and gets the first and the last of their ends along
+// each axis. Returns false if the surface crosses no edge.
 static bool find_crossings(struct implicit *s, bool *inside, int first[3], int last[3])
 {
     static const int strides[3] = {1, SEARCH_POINTS, SEARCH_POINTS * SEARCH_POINTS};
@@ -108,8 +108,8 @@ static bool find_crossings(struct implicit *s, bool *inside, int first[3], int l
     return found;
 }
 
-// Sets the ranges that were not given: around the surface, plus one cell of the coarse lattice. Returns false if the
-// surface was not found; the ranges are then the largest searched box.
+// Sets the ranges that were not given to the extent of the surface, plus one cell of the coarse lattice. Returns false
+// if the surface was not found; the ranges are then the largest searched box.
 static bool fit_box(struct implicit *s, bool *inside)
 {
     enum { SEARCHES = sizeof search_sides / sizeof *search_sides };

@@ -1,10 +1,12 @@
 // formula_surface.c: makes a mesh of a parametric formula: its resolution, seams and creases.
 //
 // Creases: the domain is cut along grid lines where the normals of the two sides differ, and along lines whose points
-// coincide (a pole inside the domain). Each part of the domain then has its own normals there, from its own side.
+// coincide (a pole inside the domain). At these lines, each part of the domain has its own normals, computed from its
+// own side.
 //
-// Seams: ends that meet with equal normals are closed (shapes_parametric.c). Parts, and ends that meet in another way,
-// such as upside down on a Möbius strip, share their vertices but not their normals.
+// Seams: if two ends of the domain meet with equal normals, the surface is closed there (shapes_parametric.c). Parts of
+// the domain, and ends that meet in another way, such as upside down on a Möbius strip, share their vertices but not
+// their normals.
 #include "formula.h"
 
 #include "fail.h"
@@ -29,7 +31,7 @@ struct surface {
     double from[2], to[2]; // the domain: u, v
     int segments[2];
     double size;
-    bool undefined; // a point was not finite; the first such point
+    bool undefined; // whether a point was not finite; the first such point
     double undefined_at[2];
     int undefined_axis;
 };
@@ -202,7 +204,7 @@ static bool is_closed(struct surface *s, int axis)
     return true;
 }
 
-// Lists the steps at which an axis is cut, including its ends. Returns their number, or 0 if the call must stop.
+// Lists the steps at which an axis is cut, including its ends. Returns their number, or 0 if the call is stopped.
 static int find_cuts(struct surface *s, int axis, int *cuts, struct call_control *call)
 {
     int count = 0;
@@ -255,7 +257,7 @@ static void weld(const lam_mesh *mesh, const uint8_t *border, struct border_poin
             uint32_t a = same[points[i].vertex], b = same[points[k].vertex];
             same[points[i].vertex] = same[points[k].vertex] = a < b ? a : b;
         }
-    for (uint32_t i = 0; i < mesh->vertex_count; i++) // the lowest index of all: a chain of equal ones leads to it
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) // a chain of equal vertices leads to the lowest index
         same[i] = same[same[i]];
 }
 

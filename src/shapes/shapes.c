@@ -92,8 +92,8 @@ static void cone_side(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = v3_scale(v3_sub(up(2), outward), 1 / n->stacks);
 }
 
-// Discs. v goes from rim to centre on the top disc and from centre to rim on the bottom disc, so that ∂p/∂u × ∂p/∂v
-// points outward.
+// Discs. v runs from the rim to the centre on the top disc, and from the centre to the rim on the bottom disc, so that
+// ∂p/∂u × ∂p/∂v points outward.
 static void top_disc(void *user, double u, double v, lam_surface_point *out)
 {
     const struct segments *n = user;
@@ -125,8 +125,9 @@ static void square_point(void *user, double u, double v, lam_surface_point *out)
     out->dp_dv = square->v;
 }
 
-// The torus knot winds KNOT_TURNS times around Y and KNOT_LOOPS times around the tube of a torus: a trefoil. The frame
-// of its own tube is the torus's outward normal m, which is perpendicular to the curve, and b = m × t.
+// The torus knot winds KNOT_TURNS times around Y and KNOT_LOOPS times around the tube of a torus: a trefoil. The
+// cross-section of the knot's own tube has the axes m and b = m × t. m is the torus's outward normal, which is
+// perpendicular to the curve.
 enum { KNOT_TURNS = 2, KNOT_LOOPS = 3 };
 #define KNOT_RING 0.6
 #define KNOT_LOOP 0.25
@@ -238,7 +239,7 @@ static lam_vec3 balls_gradient(void *user, lam_vec3 p)
 
 // --- Builders
 
-// Returns a surface of `n->slices` segments around and `stacks` along; u and v count segments.
+// Returns a surface of `n->slices` segments around the axis and `stacks` segments along it. u and v count segments.
 static lam_parametric round_surface(lam_surface_fn *surface, struct segments *n, int stacks)
 {
     return (lam_parametric){.surface = surface,
@@ -401,7 +402,7 @@ int lam_shape_find(const char *name)
 
 // --- Adding to a scene
 
-// Adds a mesh, whose arrays are in the scene's arena, if it was made. Returns its index; −1 on failure.
+// If `made` is true, adds a mesh, whose arrays are in the scene's arena. Returns the mesh's index, or −1 on failure.
 static int add_mesh(struct lam_scene *scene, bool made, const lam_mesh *mesh, lam_error *error)
 {
     int index = made ? scene_adopt_mesh(scene, mesh, error) : -1;

@@ -7,7 +7,7 @@
 
 #include <lambent/mesh.h>
 
-// The most vertices of a tessellated mesh; more fail with LAM_LIMIT.
+// The maximum number of vertices of a tessellated mesh. Larger meshes fail with LAM_LIMIT.
 enum { SHAPE_VERTICES_MAX = 1 << 28 };
 
 // Arguments of the function that builds a shape as a mesh of radius 1. If a number of segments is 0, the shape's
@@ -17,12 +17,12 @@ struct shape_request {
     struct arena *arena;
     struct call_control *call;
     lam_error *error;
-    int threads; // that compute the surface; 0: one for each processor
+    int threads; // number of threads that compute the surface; 0: one for each processor
 };
 
 // Tessellates parametric surfaces into one mesh: positions, welded within each surface, and normals, tangents and
 // texture coordinates (0…1 over each domain) with their own indices. shapes_parametric.c explains seams and poles. With
-// several threads, functions of surfaces are called by all of them.
+// several threads, all threads call the functions of the surfaces.
 bool tessellate_parametric(const lam_parametric *surfaces, int count, const struct shape_request *request,
                            lam_mesh *mesh);
 
@@ -35,7 +35,8 @@ bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struc
                          lam_error *error);
 
 // Returns the point of the unit circle after `steps` of `around` steps per turn, from (1, 0) towards (0, 1). Quarter
-// turns are exact and mirrored steps give mirrored bits, so round shapes are closed and symmetric to the last bit.
+// turns are exact, and mirrored steps give bit-identical mirrored points, so round shapes are closed and symmetric to
+// the last bit.
 struct circle_point {
     double c, s;
 };

@@ -1,17 +1,18 @@
 // shapes_implicit.c: tessellates implicit surfaces f(p) = 0 by marching cubes, with a table that is computed here.
 //
 // The box is divided into cells. A lattice point is inside if f < 0; 0 and NaN are outside. The surface crosses an edge
-// of a cell if its ends differ: the edge then has one vertex, shared by all cells at the edge. Root finding along the
-// edge puts the vertex on the surface up to rounding; its normal comes from ∇f.
+// of a cell if one end of the edge is inside and the other is outside. The edge then contains one vertex, which all
+// cells at the edge share. Root finding along the edge places the vertex on the surface, up to rounding. The vertex's
+// normal is computed from ∇f.
 //
 // The table connects the vertices of a cell. Going around a face of the cell counter-clockwise, seen from outside the
 // cell, each run of inside corners begins after one crossed edge and ends before another. The surface intersects the
-// face in a line from the first of these edges to the second. A face with two opposite inside corners has two such
-// lines, each cutting off its corner. This rule depends only on the face, so both cells at it agree and the mesh has no
-// holes. A crossed edge starts a line in one of its two faces and ends one in the other, so the lines form closed
-// loops, counter-clockwise seen from outside the surface. Loops are triangulated with diagonals that are not in a face,
-// because the neighbouring cell might have the same diagonal. Among these, the triangles that agree best with the
-// normals at their corners are chosen.
+// face in a line from the first of these edges to the second. A face with two opposite inside corners contains two such
+// lines, each of which cuts off one of these corners. This rule depends only on the face, so both cells at the face
+// agree and the mesh has no holes. A crossed edge starts a line in one of its two faces and ends a line in the other,
+// so the lines form closed loops. Seen from outside the surface, the loops are counter-clockwise. Loops are
+// triangulated with diagonals that are not in a face, because the neighbouring cell might have the same diagonal. Among
+// these triangulations, the one whose triangles agree best with the normals at their corners is chosen.
 #include "shapes.h"
 
 #include "fail.h"
@@ -147,8 +148,8 @@ static lam_vec3 lattice(const struct march *m, int x, int y, int z)
 
 static bool is_inside(double value) { return value < 0; }
 
-// Returns the root of f between a (0) and b (1) by the Illinois method: regula falsi that halves the value at an end
-// which is kept twice.
+// Returns the root of f between a (0) and b (1) by the Illinois method, a variant of regula falsi that halves the value
+// at an end that was kept twice.
 static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa, double fb)
 {
     const lam_implicit *s = m->surface;
@@ -350,8 +351,8 @@ static void add_triangle(struct march *m, uint32_t a, uint32_t b, uint32_t c)
     m->count += 3;
 }
 
-// Triangulates a loop at minimum cost by dynamic programming: the cost of the polygon from i to j is the minimum over k
-// of the costs of triangle i–k–j and of the polygons from i to k and from k to j.
+// Triangulates a loop at minimum cost by dynamic programming. The cost of the polygon from i to j is the minimum, over
+// k, of the cost of triangle i–k–j plus the costs of the polygons from i to k and from k to j.
 static void triangulate_loop(struct march *m, const uint8_t *edges, const uint32_t *ids, int count)
 {
     const double in_a_face = 1000;

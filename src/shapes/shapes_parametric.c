@@ -6,13 +6,13 @@
 // Seams: if u (or v) is closed, the last column (row) has the position, normal and tangent of the first, bit for bit;
 // only the texture coordinate differs.
 //
-// Poles: a row, or the first or last column, whose points coincide is one vertex. Degenerate triangles there are
+// Poles: a row, or the first or last column, whose points coincide is one vertex. Degenerate triangles at a pole are
 // skipped. Each remaining triangle has its own corner at the pole, with the texture coordinate, tangent and normal of
-// the centre of its cell. If these normals agree, the pole is smooth and all corners get their mean; otherwise it is a
-// tip, like the tip of a cone, and each corner keeps its normal.
+// the centre of its cell. If these normals agree, the pole is smooth and all corners get the mean normal. Otherwise the
+// pole is a tip, like the tip of a cone, and each corner keeps its normal.
 //
-// A zero derivative does not determine the tangent plane. It is replaced by the derivative at a point a ten-thousandth
-// of the domain further inside, which approximates the one-sided limit.
+// A zero derivative does not determine the tangent plane. Such a derivative is replaced by the derivative at a point a
+// ten-thousandth of the domain further inside, which approximates the one-sided limit.
 #include "shapes.h"
 
 #include "fail.h"
@@ -29,11 +29,11 @@
 #define VANISHED 1e-9
 // The distance from the boundary at which the one-sided limit is approximated, as a fraction of the domain.
 #define INSET 1e-4
-// A pole is smooth if the cosines of its normals with their mean are above this (0.08°).
+// A pole is smooth if the cosine between each of its normals and their mean is above this limit (0.08°).
 #define SMOOTH_POLE (1 - 1e-6)
 
 enum {
-    ROWS = 4,            // of a parallel task
+    ROWS = 4,            // rows of a parallel task
     OF_THREAD = 1 << 12, // the fewest vertices for which a thread is started
 };
 
@@ -62,11 +62,11 @@ struct tessellation {
     lam_surface_point *points; // rows of `widest` points, one for each thread
     size_t widest;
     struct loop_status loop;
-    int failed; // the first row with a bad point, or above all rows
+    int failed; // the first row with a bad point, or a number above all rows
 };
 
-// Returns the parameter at step i of n from a to b. The ends are exact; mirrored steps of a symmetric domain give
-// mirrored bits.
+// Returns the parameter at step i of n from a to b. The ends are exact. Mirrored steps of a symmetric domain give
+// bit-identical mirrored parameters.
 static double parameter(double a, double b, int i, int n)
 {
     if (i <= 0)
@@ -183,7 +183,7 @@ static size_t attribute_at(const struct tessellation *t, int i, int j)
     return t->attribute_base + (size_t)j * (size_t)(t->surface->u_segments + 1) + (size_t)i;
 }
 
-// Gives a smooth pole one normal: the mean over its columns, if they agree with it.
+// Gives a smooth pole a single normal: the mean over its columns, if the normals of the columns agree with the mean.
 static void smooth_pole(const struct tessellation *t, int j)
 {
     int count = t->surface->u_segments;
@@ -399,7 +399,7 @@ static bool tessellate_one(struct tessellation *t, struct pool *pool, lam_error 
     if (!should_continue(&t->loop))
         return loop_error(&t->loop, 0, error);
     if (t->failed <= s->v_segments)
-        return compute_row(t, t->failed, t->points, error); // fails again, and fills the error
+        return compute_row(t, t->failed, t->points, error); // computes the failed row again, which fills `error`
     for (int i = 0; s->v_closed && i <= s->u_segments; i++)
         copy_attributes(t, attribute_at(t, i, s->v_segments), attribute_at(t, i, 0));
     if (s->v_closed && t->rows[s->v_segments].pole)

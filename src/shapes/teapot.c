@@ -1,16 +1,17 @@
 // teapot.c: the Utah teapot from its Bézier patches.
 //
-// Adjacent patches form one parametric surface. u goes around: 4 patches for body and lid, 2 for handle and spout. v
-// runs along the part: from the centre of the bottom over body and rim, from the edge of the lid to its top, from the
-// body outward. All joints are smooth in the data and share positions and normals. As published, the pot is open: the
-// lid rests in the rim without touching it, and handle and spout end inside the body's wall.
+// Adjacent patches form one parametric surface. u runs around: over 4 patches for the body and the lid, and over 2 for
+// the handle and the spout. On the body, v runs from the centre of the bottom to the rim. On the lid, it runs from the
+// edge to the top. On the handle and the spout, it runs away from the body. All joints are smooth in the data and share
+// positions and normals. As published, the pot is open: the lid is inside the rim without touching it, and the handle
+// and the spout end inside the body's wall.
 #include "shapes.h"
 
 #include "fail.h"
 #include "linear.h"
 #include "teapot_data.h"
 
-// Converts Newell's coordinates to Y up, centred, with a width of 2 from handle (−3) to spout (3.434075).
+// Converts Newell's coordinates to Y up, centred, with a width of 2 from the handle (−3) to the spout (3.434075).
 #define TEAPOT_MIDDLE_X   0.2170375625
 #define TEAPOT_MIDDLE_Z   1.575
 #define TEAPOT_HALF_WIDTH 3.2170375625
@@ -43,7 +44,8 @@ static void bernstein(double t, double b[4], double d[4])
     d[3] = 3 * t * t;
 }
 
-// Returns the index of the patch for a parameter, and the parameter within it. A joint belongs to the next patch.
+// Returns the index of the patch for a parameter, and the parameter within it. A parameter at a joint belongs to the
+// next patch.
 static int patch_of(double x, int steps, int count, double *within)
 {
     int patch = (int)(x / steps);

@@ -2,13 +2,13 @@
 #ifndef TEAPOT_DATA_H
 #define TEAPOT_DATA_H
 
-// A ring of control points around the vertical axis: their radius, the tangential offset of the inner points,
-// and height.
+// A ring of control points around the vertical axis: their radius, the tangential offset of the inner points, and their
+// height.
 struct teapot_ring {
     double radius, step, height;
 };
 
-// A planar ring of control points across handle or spout, from a to b in the plane of symmetry.
+// A planar ring of control points across the handle or the spout, from a to b in the plane of symmetry.
 struct teapot_section {
     double ax, az, bx, bz, width;
 };

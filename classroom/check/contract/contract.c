@@ -98,7 +98,7 @@ bool lam_check_role_row(int row, lam_check_role *out)
     return true;
 }
 
-// The names in generated vertex shaders (default_vertex_shader.c), which are part of every contract.
+// The names in generated vertex shaders (default_vertex_shader.c). Every contract contains these names.
 static const struct contract_name default_vertex_names[] = {
     {"lambent_position", SEMANTIC_POSITION, true, "vec3", "", NULL, LAM_FRAME_OBJECT, -1},
     {"lambent_normal", SEMANTIC_NORMAL, true, "vec3", "", NULL, LAM_FRAME_OBJECT, -1},
@@ -142,8 +142,8 @@ static bool in_word_list(const char *list, const char *name)
     return false;
 }
 
-// Lambent's own names have two more forms: "back_…" for the back of a surface, and fields of the material that only
-// some reflection models read; the reference scenes leave these at 0.
+// Lambent's own contract contains names in two more forms: "back_…" for the back of a surface, and fields of the
+// material that only some reflection models read. The reference scenes set these fields to 0.
 static const struct contract_name *find_own(const struct contract *contract, const char *name)
 {
     static const struct contract_name other_field = {"material.*", SEMANTIC_ZERO,    false, "float", "0 here",

@@ -8,15 +8,15 @@
 #include "role.h"
 
 struct contract_name {
-    const char *name; // "lights[].lightPosition" for members of a list
+    const char *name; // for members of an array, "lights[].lightPosition"
     enum uniform_semantic semantic;
     bool attribute;
     const char *type;    // the type in the course's declaration
-    const char *meaning; // text for documentation and messages
+    const char *meaning; // the meaning, for documentation and messages
     // Other accepted names, separated by blanks. May be NULL.
     const char *synonyms;
-    lam_light_frame space; // for a role with ROLE_IN_SPACE, the space: OBJECT, WORLD or CAMERA
-    int group;             // for ROLE_LIGHT, the index in contract.groups; −1 if it belongs to no light
+    lam_light_frame space; // the space of a role with ROLE_IN_SPACE: OBJECT, WORLD or CAMERA
+    int group;             // for ROLE_LIGHT, the index in contract.groups; −1 if the name belongs to no light
 };
 
 // The meaning of a varying, for a fragment shader without a vertex shader.
@@ -35,7 +35,7 @@ struct contract_varying {
     lam_light_frame space;
 };
 
-// The source of a colour for which a shader has no name: the scene, another colour, or a constant.
+// The source of a colour for which a shader declares no name: the scene, another colour, or a constant.
 enum color_source { COLOR_OF_SCENE, COLOR_GIVEN, COLOR_OF_DIFFUSE, COLOR_OF_LIGHT };
 struct default_color {
     enum color_source source;
@@ -57,7 +57,7 @@ struct contract_defaults {
     int light_space;    // the space of these vectors; by default the contract's space
 };
 
-// A variable that a shader sets to a number: `float ambientStrength = 0.1;`. The name "pow" means a number that is the
+// A variable that a shader sets to a number: `float ambientStrength = 0.1;`. If its name is "pow", the number is the
 // second argument of pow().
 struct contract_constant {
     const char *name;
@@ -65,14 +65,14 @@ struct contract_constant {
 };
 
 // The lighting of a contract's shaders with metalness and roughness. The defaults are glTF 2.0's, appendix B; other
-// forms are recognised, and accepted if they are as correct (fault_table.c).
+// forms are recognised, and are accepted if they are equally correct (fault_table.c).
 enum masking {
     MASKING_SMITH,  // Smith's masking for GGX, height-correlated
     MASKING_SCHLICK // Schlick's approximation, k = (roughness + 1)²/8
 };
 enum diffuse_share {
-    DIFFUSE_OF_DIELECTRIC, // (1 - metallic)(1 - F), F from 0.04
-    DIFFUSE_OF_MIX,        // (1 - metallic)(1 - F), F from mix(0.04, base colour, metallic)
+    DIFFUSE_OF_DIELECTRIC, // (1 - metallic)(1 - F), F with F0 = 0.04
+    DIFFUSE_OF_MIX,        // (1 - metallic)(1 - F), F with F0 = mix(0.04, base colour, metallic)
     DIFFUSE_WHOLE          // 1 - metallic
 };
 enum tone_curve { TONE_NONE, TONE_REINHARD };
@@ -86,17 +86,18 @@ struct physical_convention {
 
 // The contents of a contract's maps.
 struct map_convention {
-    // If true, colour maps are encoded with pow(x, 1/2.2), and the shader decodes them. If false, they are linear, as
-    // textures with an sRGB format are for a shader.
+    // If true, colour maps are encoded with pow(x, 1/2.2), and the shader decodes them. If false, the shader reads
+    // linear colours, as from textures with an sRGB format.
     bool encoded;
-    // v grows downward in the picture, as in glTF files: on a patch whose u points right and whose normal points to the
-    // eye, v points down.
+    // v increases downwards in the picture, as in glTF files. On a patch whose u points right and whose normal points
+    // to the eye, v points down.
     bool v_down;
 };
 
-// Forms that a contract may require; otherwise their counterparts are accepted (fault.h).
+// Forms that a contract may require. If the contract does not require a form, its counterpart is accepted too
+// (fault.h).
 enum contract_demand {
-    DEMAND_GATE = 1,         // no highlight if n.l <= 0
+    DEMAND_GATE = 1,         // there is no highlight if n.l <= 0
     DEMAND_UNIT_NORMALS = 2, // normals are also normalized in the vertex shader
     DEMAND_BARE_AMBIENT = 4, // the ambient term is not attenuated
 };
@@ -112,32 +113,33 @@ struct contract {
     const struct contract_varying *varyings; // ends with NULL
     // Built-in names whose use identifies the contract. Ends with NULL.
     const char *const *built_ins;
-    // The structs and lists of lights: "lights[]", "sun"; "" for names outside them.
+    // The structs and arrays of lights: "lights[]", "sun"; "" for names outside of these.
     const char *groups[MAX_LIGHT_GROUPS];
     int group_count;
     unsigned supports;     // bits of reference_need
     unsigned terms;        // bits of contract_term
     unsigned demands;      // bits of contract_demand
     lam_light_frame space; // the space of the lighting: CAMERA (eye space) or WORLD
-    // The space of the first light: OBJECT (the model-view matrix transforms it like the vertices), WORLD or CAMERA.
+    // The space of the first light: OBJECT (the model-view matrix transforms the light like the vertices), WORLD or
+    // CAMERA.
     lam_light_frame light_frame;
     lam_reflection reflection;
     struct contract_defaults defaults;
     struct physical_convention physical; // used by shaders with metalness and roughness
     struct map_convention maps;
     const struct contract_constant *constants; // ends with NULL
-    // The lines that an engine inserts before the text of a shader, which then has no version line and declares none of
-    // these names. May be NULL.
+    // The lines that an engine inserts before the text of a shader. Such a text contains no version line and declares
+    // none of these names. May be NULL.
     const char *prefix_vertex, *prefix_fragment;
     const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL if not stated
-    bool has_attenuation;    // attenuation uses names or constants
-    bool material_strengths; // colours and their strengths are separate
-    bool any_strengths;      // shaders have their own strengths and colours, and the best fit to their pictures is used
-    // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The texts are rewritten
+    bool has_attenuation;    // names or constants determine the attenuation
+    bool material_strengths; // colours and their strengths are separate inputs
+    bool any_strengths;      // shaders contain their own strengths and colours; the check fits them to the pictures
+    // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The check rewrites such shaders
     // (fixed_state.h).
     bool fixed_state;
     const double *weights; // the points for each reference scene
-    bool printed;          // shaders of `lambent shader`, whose loops are named after the kinds of lights
+    bool printed;          // the contract of `lambent shader`, whose loops contain the kind of their lights
 };
 
 // A contract that owns its memory.
@@ -150,8 +152,8 @@ enum { MAX_CONTRACTS = 16 };
 // Reads the shipped contracts. The caller frees them with lam_check_contract_free.
 bool contracts_read(lam_check_contract *out[MAX_CONTRACTS], int *count, lam_error *error);
 
-// Returns the row of a name, or NULL if it is unknown. "lights[0].lightColor" is looked up as "lights[].lightColor",
-// and its index is stored in `index` (may be NULL), 0 outside of lists.
+// Returns the row of a name, or NULL if it is unknown. "lights[0].lightColor" is looked up as "lights[].lightColor".
+// `index` (may be NULL) gets the array index, or 0 for other names.
 const struct contract_name *contract_find(const struct contract *contract, const char *name, bool attribute,
                                           int *index);
 
@@ -161,12 +163,12 @@ const struct contract_varying *contract_varying(const struct contract *contract,
 // Returns the contract's name most similar to an unknown one, or NULL if none is similar.
 const char *contract_nearest(const struct contract *contract, const char *name);
 
-// Returns the name that the shaders use for a semantic: their own, else the contract's, else NULL. A name may mean
-// the product of a material's colour and the light's.
+// Returns the name for a semantic: the name that the shaders declare, otherwise the contract's name, otherwise NULL. A
+// name may mean the product of the material's colour and the light's colour.
 const char *contract_name_used(const struct contract *contract, enum uniform_semantic semantic,
                                const struct declarations *vertex, const struct declarations *fragment);
 
-// The value of a uniform; matrices by columns.
+// The value of a uniform. Matrices are stored by columns.
 struct uniform_value {
     float v[16];
 };

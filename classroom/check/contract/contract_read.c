@@ -82,8 +82,8 @@ static bool has_any(const struct contract *c, const enum uniform_semantic *list)
     return false;
 }
 
-// Sets the values without a name in the shader or the contract: no attenuation, strengths of 1, white colours. Products
-// of colours include strengths.
+// Sets the values of inputs for which neither the shader nor the contract has a name: no attenuation, strengths of 1,
+// white colours. Products of colours include the strengths.
 static void complete_defaults(struct contract *c)
 {
     static const enum uniform_semantic attenuations[] = {SEMANTIC_ATTENUATION, SEMANTIC_ATTENUATION_CONSTANT,
@@ -118,8 +118,8 @@ static void complete_defaults(struct contract *c)
             *colors[i].color = (struct default_color){COLOR_GIVEN, {1, 1, 1}};
 }
 
-// Returns the space of the lights: of the first name with a light, or else of the default light, or else of the
-// lighting.
+// Returns the space of the lights: the space of the first name of a light, otherwise of the default light, otherwise of
+// the lighting.
 static lam_light_frame light_frame_of(const struct contract *c)
 {
     const struct contract_defaults *d = &c->defaults;

@@ -1,5 +1,5 @@
-// contract_values.c: reads a contract's values for varyings, undeclared names, numbers, an engine, and metalness and
-// roughness.
+// contract_values.c: reads the sections of a contract about varyings, undeclared names, numbers, the engine, and
+// metalness and roughness.
 #include "contract_reader.h"
 
 #include <stdio.h>
@@ -12,7 +12,7 @@ bool contract_read_varyings(struct contract_reader *r, const json_t *root)
     static const struct {
         const char *name;
         enum varying_semantic semantic;
-        bool in_space; // the name may begin with a space, as in object_position
+        bool in_space; // whether the name may begin with a space, as in object_position
     } words[] = {{"normal", VARYING_NORMAL, true},      {"position", VARYING_POSITION, true},
                  {"to_light", VARYING_LIGHT, true},     {"to_eye", VARYING_EYE, true},
                  {"distance", VARYING_DISTANCE, false}, {"texture_coordinate", VARYING_TEXCOORD, false}};

@@ -3,7 +3,7 @@
 
 #include "elementary.h"
 
-// glTF uses green and blue; a shader that reads red or alpha gets these numbers.
+// glTF uses only green and blue. A shader that reads red or alpha instead gets these numbers.
 static const float unread_red = 0.9f, unread_alpha = 0.7f;
 
 // The maps that can multiply each number.
@@ -47,7 +47,7 @@ struct uniform_value map_texel(enum uniform_semantic map, const struct reference
 {
     const lam_vec3 n = s->bump;
     switch (map) {
-    case SEMANTIC_BASE_COLOR_MAP: // white for other shaders, since the colours are separate
+    case SEMANTIC_BASE_COLOR_MAP: // white for other shaders, because their colours are separate inputs
         return s->physical ? color(s, NUMBER_BASE_COLOR, s->diffuse) : grey(1);
     case SEMANTIC_METALLIC_ROUGHNESS_MAP:
         return (struct uniform_value){{unread_red, texel_of(s, NUMBER_ROUGHNESS, s->roughness),

@@ -2,7 +2,7 @@
 // and levels of detail have no effect.
 //
 // If a shader reads a map instead of a number, the texel is the number. If a shader multiplies a factor by a map, the
-// factor and the texel are two different numbers other than 1, whose product is the number.
+// product of factor and texel is the number. The two then differ from each other and from 1.
 #ifndef MAPS_H
 #define MAPS_H
 
@@ -23,7 +23,7 @@ enum map_number { NUMBER_BASE_COLOR, NUMBER_METALLIC, NUMBER_ROUGHNESS, NUMBER_O
 // `whole` is the product of factor and texel.
 float map_factor(const struct reference_scene *scene, enum map_number number, float whole);
 
-// Returns the texel of a map as the sampler returns it.
+// Returns the texel of a map, as the sampler reads it.
 struct uniform_value map_texel(enum uniform_semantic map, const struct reference_scene *scene);
 
 #endif

@@ -13,7 +13,7 @@
 enum { MAX_WORDS = 6, WORD_LENGTH = 24 };
 static const double min_similarity = 0.5;
 
-// Words of the same row have the same meaning. Words of different rows of one class exclude each other.
+// Words in the same row have the same meaning. Words in different rows of one class contradict each other.
 enum { CLASS_OWNER, CLASS_KIND, CLASS_TERM, CLASS_POWER, CLASS_SPACE, CLASS_FALLOFF };
 static const struct {
     int class;
@@ -58,7 +58,7 @@ static int role_of(const char *word)
     return -1;
 }
 
-// Splits "uLightPosition" and "light_position" into "light", "position": at underscores and capitals, without the
+// Splits "uLightPosition" and "light_position" into "light", "position": at underscores and capitals. Removes the
 // prefix that marks the kind of variable (vNormal, fN, uKa).
 static void split(const char *name, struct name_words *out)
 {
@@ -119,8 +119,8 @@ static double shared_words(const struct name_words *a, const struct name_words *
     return all > 0 ? (double)shared / all : 0;
 }
 
-// Gets the sound of a name: its consonants, without doubles, with similar sounds merged ("colour" and "color" are klr,
-// "normalise" and "normalize" nrmls).
+// Gets the sound of a name: its consonants, without doubles and with similar sounds merged. "colour" and "color" become
+// klr; "normalise" and "normalize" become nrmls.
 static void sound_of(const char *name, char out[WORD_LENGTH])
 {
     size_t length = 0;
@@ -184,7 +184,7 @@ double name_similarity(const char *a, const char *b)
         return 0.75;
     if (several && telling && shared >= 0.5)
         return 0.5 + 0.2 * shared;
-    // material_specular and reflect_specular are the same term with another prefix.
+    // material_specular and reflect_specular name the same term with different prefixes.
     int last = words_a.count - 1;
     bool same_term = several && words_a.roles[last] >= 0 && roles[words_a.roles[last]].class == CLASS_TERM &&
                      same_word(&words_a, last, &words_b, words_b.count - 1);

@@ -1,15 +1,15 @@
-// name_similarity.h: estimates how likely it is that one name of a shader was meant instead of another, by spelling, by
-// sound, and by role.
+// name_similarity.h: estimates, from spelling, sound and role, how likely it is that the author of a shader confused
+// two names.
 #ifndef NAME_SIMILARITY_H
 #define NAME_SIMILARITY_H
 
 // Returns 1 for names that are equal except for case and underscores, and 0 for unrelated names. Names whose words have
-// different roles (light and eye, ambient and diffuse, position and direction) are unrelated, however similar they
-// look. Words with the same role count as equal (position and point, eye and camera, normal and N).
+// different roles (light and eye, ambient and diffuse, position and direction) are unrelated, even if they look
+// similar. Words with the same role are treated as equal (position and point, eye and camera, normal and N).
 double name_similarity(const char *a, const char *b);
 
-// Returns the candidate most similar to `name`. If several are equally similar, it returns the first of them. Returns
-// NULL if none is similar enough to be suggested. NULL candidates are skipped.
+// Returns the candidate most similar to `name`. If several are equally similar, returns the first of them. Returns NULL
+// if no candidate is similar enough to be suggested. Skips NULL candidates.
 const char *name_nearest(const char *name, const char *const *candidates, int count);
 
 #endif

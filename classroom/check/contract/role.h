@@ -1,4 +1,4 @@
-// role.h: the meanings that a contract can give to a name, as contract files write them.
+// role.h: the roles (meanings) that a contract can give to a name.
 #ifndef ROLE_H
 #define ROLE_H
 
@@ -21,15 +21,15 @@ enum uniform_semantic {
     SEMANTIC_MODEL,
     SEMANTIC_VIEW,
     SEMANTIC_VIEW_PROJECTION,
-    // Material colour times its strength.
+    // The colour of the material times its strength.
     SEMANTIC_AMBIENT,
     SEMANTIC_DIFFUSE,
     SEMANTIC_SPECULAR,
-    // That product times the light's colour.
+    // The product of the material's colour, its strength and the light's colour.
     SEMANTIC_AMBIENT_PRODUCT,
     SEMANTIC_DIFFUSE_PRODUCT,
     SEMANTIC_SPECULAR_PRODUCT,
-    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // the product for one light, which its attenuation reduces
+    SEMANTIC_LIGHT_AMBIENT_PRODUCT, // the product for one light, which the light's attenuation reduces
     // The strengths only.
     SEMANTIC_KA,
     SEMANTIC_KD,
@@ -41,7 +41,7 @@ enum uniform_semantic {
     SEMANTIC_METALLIC,
     SEMANTIC_ROUGHNESS,
     SEMANTIC_ROUGHNESS_ANGLE, // Oren–Nayar's sigma
-    SEMANTIC_EMISSION,        // factor of the emission map; 0 without one
+    SEMANTIC_EMISSION,        // factor of the emission map; 0 if there is no emission map
     // Maps: textures with one texel, which differs between scenes (maps.h).
     SEMANTIC_BASE_COLOR_MAP,
     SEMANTIC_METALLIC_ROUGHNESS_MAP,
@@ -50,10 +50,11 @@ enum uniform_semantic {
     SEMANTIC_NORMAL_MAP,
     SEMANTIC_OCCLUSION_MAP,
     SEMANTIC_EMISSION_MAP,
-    // a row of the matrix from the mesh's texture coordinates to a map's; w is the factor of the texel
+    // a row of the matrix from the mesh's texture coordinates to a map's coordinates; the texel is multiplied by w
     SEMANTIC_MAP_ROW_U,
-    SEMANTIC_MAP_ROW_V,      // w is added to the texel
-    SEMANTIC_LIGHT_POSITION, // the position with w = 1, or for a directional light the direction towards it with w = 0
+    SEMANTIC_MAP_ROW_V, // the other row; w is added to the texel
+    // the position with w = 1 or, for a directional light, the direction towards the light with w = 0
+    SEMANTIC_LIGHT_POSITION,
     SEMANTIC_LIGHT_X,
     SEMANTIC_LIGHT_Y,
     SEMANTIC_LIGHT_Z,
@@ -68,11 +69,11 @@ enum uniform_semantic {
     SEMANTIC_ATTENUATION,  // constant, linear, quadratic, 0
     SEMANTIC_CONE,         // cosine of the cutoff, exponent, cosine of the outer angle, 1/width
     SEMANTIC_CUTOFF,       // cosine of the cutoff; −1 if there is no spot
-    SEMANTIC_OUTER_CUTOFF, // cosine of an angle just outside of the cutoff
+    SEMANTIC_OUTER_CUTOFF, // cosine of an angle just outside the cutoff
     SEMANTIC_SPOT_EXPONENT,
-    SEMANTIC_AMBIENT_LIGHT, // sum over all lights
+    SEMANTIC_AMBIENT_LIGHT, // the sum over all lights
     SEMANTIC_LIGHT_COUNT,
-    SEMANTIC_LIGHT_KIND, // KHR_lights_punctual's order: 0 directional, 1 point, 2 spot
+    SEMANTIC_LIGHT_KIND, // in the order of KHR_lights_punctual: 0 directional, 1 point, 2 spot
     SEMANTIC_FLAT,
     SEMANTIC_EYE_POSITION,
     SEMANTIC_ZERO,
@@ -85,8 +86,9 @@ enum uniform_semantic {
 enum role_use {
     ROLE_ATTRIBUTE = 1,
     ROLE_UNIFORM = 2,
-    ROLE_LIGHT = 4,    // belongs to one light: an element of lights[i], or the light of the same struct
-    ROLE_IN_SPACE = 8, // has a space
+    // belongs to one light: the element of an array lights[i], or the light whose struct contains the name
+    ROLE_LIGHT = 4,
+    ROLE_IN_SPACE = 8, // a position or direction in a space
     ROLE_CONSTANT = 16 // a shader may write it as a number
 };
 enum role_type {

@@ -13,7 +13,7 @@ static struct uniform_value vector(lam_vec3 v, float w)
     return (struct uniform_value){{(float)v.x, (float)v.y, (float)v.z, w}};
 }
 
-// Returns the factor that a map multiplies to give a colour.
+// Returns the factor that a map multiplies, so that the product is a colour.
 static struct uniform_value color_factor(const struct reference_scene *s, enum map_number number, lam_rgb c,
                                          float alpha)
 {
@@ -21,8 +21,8 @@ static struct uniform_value color_factor(const struct reference_scene *s, enum m
         {map_factor(s, number, c.r), map_factor(s, number, c.g), map_factor(s, number, c.b), alpha}};
 }
 
-// Returns a colour, such as the diffuse light's, divided by the base colour map's texel, by which the shader will
-// multiply it.
+// Returns a colour, such as the diffuse colour of a light, divided by the texel of the base colour map. The shader then
+// multiplies the colour by that texel.
 static struct uniform_value without_texel(const struct reference_scene *s, struct uniform_value c)
 {
     const float base[] = {s->diffuse.r, s->diffuse.g, s->diffuse.b};
@@ -69,8 +69,8 @@ static struct uniform_value light_position(const struct reference_light *light, 
                                                 : vector(mat4_point(to, light->position), 1);
 }
 
-// Returns the cosine of the cutoff and the exponent. For shaders with two angles, it returns a hard edge at the cutoff,
-// or no edge.
+// Returns the cosine of the cutoff and the exponent. For shaders with two angles, returns a hard edge at the cutoff, or
+// no edge.
 static struct uniform_value cone(const struct reference_light *light)
 {
     if (light->cutoff_deg <= 0)
@@ -79,11 +79,11 @@ static struct uniform_value cone(const struct reference_light *light)
     return (struct uniform_value){{cosine, light->exponent, cosine, 1e5f}};
 }
 
-// Published shaders with metalness and roughness divide by pi. Lambent's light intensities include pi: a white surface
-// that faces a light of intensity 1 has the value 1.
+// Returns the factor of light intensities. Published shaders with metalness and roughness divide by pi. Lambent's
+// intensities include pi: a white surface that faces a light of intensity 1 has the value 1.
 static float light_scale(const struct reference_scene *s) { return s->is_radiance ? (float)PI : 1; }
 
-// Returns the inverse transpose of the matrix from the model's space.
+// Returns the inverse transpose of the matrix that transforms the model's space to `space`.
 static struct uniform_value normal_matrix(lam_light_frame space, const struct reference_matrices *m)
 {
     if (space == LAM_FRAME_CAMERA)
@@ -134,7 +134,8 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
             return color_factor(s, NUMBER_BASE_COLOR, s->diffuse, s->alpha);
         return color(s->diffuse, s->kd, s->alpha);
     case SEMANTIC_DIFFUSE_PRODUCT:
-        // A metal does not scatter light: its product is 0 (metallic is 0 if there is no such name).
+        // A metal does not scatter light, so this product is 0 for it. `metallic` is 0 if the shader has no name for
+        // it.
         return color(product(s->diffuse, light->color), s->kd * (1 - s->metallic), s->alpha);
     case SEMANTIC_SPECULAR:
     case SEMANTIC_SPECULAR_PRODUCT:
@@ -189,7 +190,7 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         return cone(light);
     case SEMANTIC_CUTOFF:
         return number(cone(light).v[0]);
-    case SEMANTIC_OUTER_CUTOFF: // soft edges become hard, because there is no width between the two angles
+    case SEMANTIC_OUTER_CUTOFF: // almost equal to the cutoff, so that edges are hard
         return number(cone(light).v[0] - (light->cutoff_deg > 0 ? 1e-6f : 0.1f));
     case SEMANTIC_SPOT_EXPONENT:
         return number(light->exponent);

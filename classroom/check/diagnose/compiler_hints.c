@@ -93,13 +93,14 @@ static const struct {
     {"fma", 400, 320, "write a * b + c"},
 };
 
-// Without a version line, a precision statement implies WebGL.
+// Returns whether a shader is for OpenGL ES. Without a version line, a precision statement implies WebGL.
 static bool is_es(const struct declarations *d)
 {
     return strcmp(d->profile, "es") == 0 || d->version == 100 || (!d->version && declarations_uses(d, "precision"));
 }
 
-// Explains a function that is missing in the shader's version of GLSL. Returns false if it is not one of these.
+// Explains a function that is missing in the shader's version of GLSL. Returns false if the name is not such a
+// function.
 static bool hint_young_function(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                 int line, const char *name)
 {
@@ -120,8 +121,8 @@ static bool hint_young_function(struct diagnostics *diagnostics, const struct de
     return false;
 }
 
-// Returns the name that was probably meant by an undeclared one, used at word `at`, among the names declared there.
-// Returns NULL if there is none.
+// For the undeclared `name`, used at word `at`, returns the name that was probably meant: one of the names that are
+// declared there, or NULL.
 static const char *nearest_declared(const struct declarations *d, const char *name, int at)
 {
     bool called = at + 1 < d->word_count && strcmp(d->words[at + 1].text, "(") == 0;
@@ -142,7 +143,7 @@ static bool quoted_name(const char *words, char name[64])
     return true;
 }
 
-// Finds the word `name` on a line, or else the line's first word.
+// Finds the word `name` on a line or, if it does not occur there, the line's first word.
 static int find_on_line(const struct declarations *d, int line, const char *name)
 {
     int first = -1;
@@ -163,7 +164,7 @@ static int first_on_line(const struct declarations *d, int line)
     return d->word_count;
 }
 
-// Explains a member that no struct of the shader has: lights[0].postion.
+// Explains a member that does not exist in any struct of the shader: lights[0].postion.
 static void hint_member(struct diagnostics *diagnostics, const struct declarations *d, const char *file, int line,
                         const char *name)
 {
@@ -293,7 +294,7 @@ static void hint_types(struct diagnostics *diagnostics, const struct declaration
         size_t known = strlen(item->type);
         if (known > 0 && in_list(item->type, (const char *const[]){"in", "out", "uniform"}, 3))
             continue;
-        // In `vec3v Ns`, the space is one letter too late.
+        // In `vec3v Ns`, the author typed the space one letter too late.
         char shorter[32];
         snprintf(shorter, sizeof shorter, "%.*s", (int)known - 1, item->type);
         if (in_list(shorter, types, COUNT(types)))
@@ -327,7 +328,7 @@ static void hint_globals(struct diagnostics *diagnostics, const struct declarati
 {
     if (strcmp(d->profile, "es") != 0)
         return;
-    for (int i = 2; i + 1 < d->word_count; i++) // vec3 name = an expression with a uniform;
+    for (int i = 2; i + 1 < d->word_count; i++) // finds `vec3 name = expression;` with a uniform in the expression
         if (d->words[i].depth == 0 && strcmp(d->words[i].text, "=") == 0 &&
             in_list(d->words[i - 2].text, types, COUNT(types)))
             for (int k = i + 1; k < d->word_count && strcmp(d->words[k].text, ";") != 0; k++)

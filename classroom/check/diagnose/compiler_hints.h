@@ -1,4 +1,4 @@
-// compiler_hints.h: explains compiler messages: mistakes of spelling and grammar that occur in lectures and in
+// compiler_hints.h: explains compiler messages about mistakes of spelling and grammar that occur in lectures and in
 // students' shaders.
 #ifndef COMPILER_HINTS_H
 #define COMPILER_HINTS_H
@@ -15,7 +15,7 @@ void compiler_hints_for_text(struct diagnostics *diagnostics, const struct decla
                              bool vertex);
 
 // Adds hints about the outputs of a fragment shader that compiles. `output` is the output's name in the course, or
-// NULL. Returns false if the shader writes no colour that a picture can store.
+// NULL. Returns false if the shader writes no floating-point output, which is the only kind that a picture can store.
 bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                const char *output);
 

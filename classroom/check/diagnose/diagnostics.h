@@ -1,4 +1,4 @@
-// diagnostics.h: the messages of a report: the compiler's, hints, unknown names.
+// diagnostics.h: the messages of a report: the compiler's messages, hints, and unknown names.
 #ifndef DIAGNOSTICS_H
 #define DIAGNOSTICS_H
 
@@ -13,7 +13,7 @@ struct diagnostics {
     bool failed; // out of memory
 };
 
-// Adds a message once; drops repeated messages and messages beyond a fixed count.
+// Adds a message. Ignores repeated messages, and messages beyond a fixed count.
 __attribute__((format(printf, 5, 6))) void diagnostics_add(struct diagnostics *diagnostics,
                                                            lam_check_diagnostic_kind kind, const char *file, int line,
                                                            const char *format, ...);

@@ -23,11 +23,11 @@ struct render_key {
 // Returns the samples stored for a key, or NULL if there are none.
 const float *render_cache_find(lam_check_cache *cache, const struct render_key *key);
 
-// Stores a copy of `count` samples. Does nothing if the cache is full.
+// Stores a copy of `count` samples. A full cache stays unchanged.
 void render_cache_add(lam_check_cache *cache, const struct render_key *key, const float *samples, size_t count);
 
-// Returns an unused fault shader for such pictures, made current, or else a new one. Returns NULL and fills `error` on
-// failure. `cache` may be NULL in both functions.
+// Returns an unused fault shader for such pictures and makes it current. If there is none, opens a new one. Returns
+// NULL and fills `error` on failure. `cache` may be NULL in both functions.
 struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const lam_check_painter *painter, int size,
                                               int stride, lam_error *error);
 // Returns a shader to the cache; NULL is allowed.

@@ -3,7 +3,7 @@
 
 static float clamped(float x) { return x > 0 ? (x < 1 ? x : 1) : 0; } // NaN: 0
 
-// Blending uses alpha before it is clamped, so values above 1 matter.
+// Blending uses the unclamped alpha, so values above 1 matter.
 static float bounded(float x) { return x > 0 ? (x < 4 ? x : 4) : 0; }
 
 static double cosine(const float *a, const float *b)

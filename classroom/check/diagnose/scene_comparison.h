@@ -16,13 +16,13 @@ struct scene_comparison {
     bool alpha;     // alpha is also compared
     double mean_difference;
     bool passes;
-    bool spoilt; // contains NaN and is useless for a search
+    bool spoilt; // the shader's picture contains NaN, so the scene is useless for a search
 };
 
 struct difference {
     double maximum, mean, share_over;
     uint64_t pixels;
-    bool fits; // within the tolerance: one pixel in 200 may exceed it, and the mean may be a quarter of it
+    bool fits; // within the tolerance: one pixel in 200 may exceed the tolerance, and the mean may be a quarter of it
 };
 
 // Finds the pixels to compare. The caller allocates `inside`, of size² elements.

@@ -1,4 +1,5 @@
-// shader_diagnostics.c: diagnostics from the compiler's log, and about names that the contract does not know.
+// shader_diagnostics.c: makes diagnostics from the compiler's log, and diagnostics about names that are not in the
+// contract.
 #include "shader_diagnostics.h"
 
 #include <ctype.h>
@@ -109,7 +110,7 @@ static void report_unknown(struct diagnostics *diagnostics, const struct shader_
                         kind, name, r->contract->name);
 }
 
-// Reports a uniform that is a matrix or vector if the contract has the other type.
+// Reports a uniform whose type differs from the contract's type: a matrix instead of a vector, or the reverse.
 static void report_type_mismatch(struct diagnostics *diagnostics, const struct shader_interface *r,
                                  const struct declaration *d, const char *file)
 {
@@ -152,7 +153,7 @@ void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_re
             if (d->kind != DECLARED_UNIFORM && !attribute)
                 continue;
             if (!contract_find(r->contract, d->name, attribute, NULL)) {
-                // An unknown name without any effect is harmless.
+                // An unknown name that has no effect is harmless.
                 if (drawn->state != DRAWN_PICTURES || is_active(drawn, d->name))
                     report_unknown(diagnostics, r, d->name, attribute ? "attribute" : "uniform", file, d->line);
             } else if (!attribute)

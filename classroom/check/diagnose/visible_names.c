@@ -51,7 +51,7 @@ static void leave(struct visible_names *out, int depth)
 
 void visible_names_at(const struct declarations *d, int at, bool functions, struct visible_names *out)
 {
-    int end = at < d->word_count ? at : d->word_count; // end of the last complete statement before `at`
+    int end = at < d->word_count ? at : d->word_count; // becomes the end of the last complete statement before `at`
     while (end > 0 && !is(d, end - 1, ";") && !is(d, end - 1, "{") && !is(d, end - 1, "}"))
         end--;
     int parentheses = 0;

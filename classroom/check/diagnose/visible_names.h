@@ -7,7 +7,8 @@
 enum { MAX_VISIBLE_NAMES = 256 };
 
 struct visible_names {
-    // The names, innermost scopes last. If there are too many, the innermost are kept.
+    // The names; names of inner scopes follow names of outer scopes. If there are too many, the innermost names are
+    // kept.
     const char *names[MAX_VISIBLE_NAMES];
     int depths[MAX_VISIBLE_NAMES]; // the nesting depth of braces; 0 is global
     int count;

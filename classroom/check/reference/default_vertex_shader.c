@@ -1,4 +1,4 @@
-// default_vertex_shader.c: generates the vertex shader for a fragment shader without one.
+// default_vertex_shader.c: generates a vertex shader for a fragment shader that is checked alone.
 #include "default_vertex_shader.h"
 
 #include <stdio.h>
@@ -7,8 +7,8 @@
 
 #include "fail.h"
 
-// The expression of each varying in each space, a vec3, and its w. Varyings without a space have the same expression in
-// all.
+// For each varying, its expression in each space, a vec3, and its w. Varyings without a space have the same expression
+// in all spaces.
 static const struct {
     enum varying_semantic semantic;
     lam_light_frame space;

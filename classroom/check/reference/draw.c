@@ -43,8 +43,8 @@ static void report_unknown(struct draw_result *drawn, const char *name)
         snprintf(drawn->unknown[drawn->unknown_count++], sizeof drawn->unknown[0], "%.63s", name);
 }
 
-// Returns whether a uniform's type matches the contract's: matrices match matrices, vectors vectors, scalars scalars. A
-// colour may be a texture.
+// Returns whether a uniform's type matches the type in the contract: both are matrices, both are vectors or both are
+// scalars. A colour may also be a texture.
 static bool type_fits(lam_check_type type, const struct contract_name *name)
 {
     const char *contract_type = name->type;
@@ -86,7 +86,7 @@ static void add_binding(struct shader_run *run, int index)
         return;
     }
     if (input->type == LAM_CHECK_TYPE_OTHER && known->semantic == SEMANTIC_ZERO)
-        return; // the default value of a uniform that is not set
+        return; // the uniform keeps its default value
     if (!type_fits(input->type, known)) {
         if (run->drawn.types_count < MAX_UNKNOWN_NAMES)
             snprintf(run->drawn.types[run->drawn.types_count++], sizeof run->drawn.types[0],
@@ -184,9 +184,9 @@ static bool draw_scene(struct shader_run *run, const struct reference_scene *sce
 // --- shaders that loop forever
 
 // Software drivers leave an endless loop after some ten thousand iterations and continue with the current values. The
-// check recognises such a shader by its processor time, over all threads: a correct shader takes a hundredth of the
-// limit. The limit depends on the machine's speed: it is a multiple of the time for a sum of dependent terms, measured
-// in intervals so short that at least one of them is not interrupted.
+// check recognises such a shader by the processor time that all threads use; a correct shader uses a hundredth of the
+// limit. The limit depends on the machine's speed: it is a multiple of the time that a sum of dependent terms takes.
+// This time is measured in intervals so short that at least one of them is not interrupted.
 static double seconds(clockid_t clock)
 {
     struct timespec t;
@@ -239,7 +239,7 @@ static bool compile(struct shader_run *run, const char *vertex, const char *frag
 }
 
 // Builds the program. Errors are recorded in run->drawn and refer to the unchanged texts. Both shaders are then built
-// with full precision, which a correct shader may lack (shader_dialect.h).
+// with full precision, because a correct shader may use a lower precision (shader_dialect.h).
 static bool build(struct shader_run *run, lam_error *error)
 {
     const char *vertex = shader_dialect_skip_mark(run->request.vertex),
@@ -284,7 +284,7 @@ static bool draw_scenes(struct shader_run *run, float *pixels, lam_error *error)
             struct reference_scene scene = shader_interface_scene(&run->interface, &reference_scenes[i]);
             double taken = 0;
             for (int turn = 0; turn == 0 || (turn == 1 && taken > limit);
-                 turn++) { // the driver may compile during the first turn
+                 turn++) { // a second turn if the first is too slow, because the driver may compile during it
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
                 if (!draw_scene(run, &scene, pixels + at, error))
                     return false;

@@ -1,5 +1,5 @@
-// draw_request.c: the request and its result as bytes. The program that reads the bytes is the program that wrote them,
-// so structs are copied unchanged. The result is validated nevertheless, because its process has run untrusted shaders.
+// draw_request.c: the request and its result as bytes. The same program writes and reads the bytes, so structs are
+// copied unchanged. The result is validated nevertheless, because the process that writes it has run untrusted shaders.
 #include "draw_request.h"
 
 #include <stdlib.h>

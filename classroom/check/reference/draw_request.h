@@ -6,7 +6,7 @@
 
 struct draw_request {
     const char *contract; // text of the file
-    int light_frame;      // the lam_light_frame of all lights; WORLD means the contract's
+    int light_frame;      // the lam_light_frame of all lights; WORLD means the frame in the contract
     int size;
     unsigned scenes; // bit i: reference_scenes[i]
     const char *vertex, *fragment;
@@ -18,7 +18,7 @@ enum { MAX_UNKNOWN_NAMES = 16 };
 
 struct draw_result {
     int state;                          // enum draw_state
-    int group_counts[MAX_LIGHT_GROUPS]; // for each list of lights, the number of lights that the driver uses
+    int group_counts[MAX_LIGHT_GROUPS]; // for each array of lights, the number of lights that the driver uses
     char driver[128];
     bool refused_vertex, refused_fragment; // with DRAWN_REFUSED, the shaders that do not compile
     // the log of the vertex shader or the linker; for DRAWN_SLOW the scene's name

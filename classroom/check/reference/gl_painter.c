@@ -61,7 +61,8 @@ static void delete_objects(struct gl_place *t)
     gl->DeleteRenderbuffers(1, &t->depth);
 }
 
-// Frees the context. If the context is at rest, another context may be current; its objects are freed with it.
+// Frees the context. If the context is at rest, another context may be current. The objects are then freed together
+// with the context.
 static void close(void *place)
 {
     struct gl_place *t = place;
@@ -139,7 +140,7 @@ static bool wake(void *place, lam_error *error)
 
 // --- programs
 
-// Compiles a shader. Returns 0 if it does not compile; `log` then contains the driver's messages.
+// Compiles a shader. Returns 0 if the text does not compile; `log` then contains the driver's messages.
 static GLuint compile_text(const struct gl *gl, GLenum kind, const char *text, char log[4096])
 {
     GLuint shader = gl->CreateShader(kind);
@@ -256,9 +257,9 @@ static void forget(void *place, lam_check_program *program)
 {
     struct gl_place *t = place;
     struct gl_program *p = program->program;
-    if (p && !t->rests) { // otherwise they are freed with the context
+    if (p && !t->rests) { // otherwise the objects are freed with the context
         t->context.gl.DeleteProgram(p->name);
-        t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // this call and the next one ignore 0
+        t->context.gl.DeleteBuffers(MAX_BLOCKS, p->blocks); // this call and the next ignore the name 0
         t->context.gl.DeleteTextures(MAX_TEXTURES, p->textures);
     }
     if (p) {
@@ -421,7 +422,7 @@ static void upload_mesh(struct gl_place *t, const lam_check_mesh *mesh)
     own->there = true;
 }
 
-// Binds a buffer to an attribute, or to the built-in attribute if the number is negative.
+// Binds a buffer to the attribute `place`, or to the built-in attribute if `place` is negative.
 static void point_at(const struct gl *gl, GLuint buffer, int place, int width, bool is_normal)
 {
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer);

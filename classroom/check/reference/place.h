@@ -28,7 +28,7 @@ struct map_inputs {
 };
 extern const struct map_inputs no_map_inputs;
 
-// Draws `mesh` instead of drawing->mesh. The streams belong to `inputs`.
+// Draws `mesh` instead of drawing->mesh. `inputs` are the inputs that receive the streams.
 bool place_draw(struct place *place, enum reference_mesh mesh, const lam_check_drawing *drawing,
                 const struct map_inputs *inputs, float *pixels, lam_error *error);
 
@@ -39,7 +39,7 @@ struct type_shape {
 };
 struct type_shape type_shape(lam_check_type type);
 
-// Returns the input with a name, as the painter reports it, or -1 if the program has none.
+// Returns the index of the input with this name (as the painter reports names), or -1 if there is none.
 int place_input(const lam_check_program *program, const char *name, bool attribute);
 
 #endif

@@ -144,7 +144,7 @@ int reference_scene_find(const char *name)
 
 // --- meshes
 
-// Computes the lower half of a sphere, open above; ∂p/∂u × ∂p/∂v points outward.
+// Computes the lower half of a sphere, which is open at the top. ∂p/∂u × ∂p/∂v points outward.
 static void bowl(void *user, double u, double v, lam_surface_point *out)
 {
     (void)user;

@@ -1,4 +1,4 @@
-// reference_scene.h: the reference scenes, each of which tests one feature. They are available as scenes for the CPU
+// reference_scene.h: the reference scenes, each of which tests one feature. Other code gets them as scenes for the CPU
 // device and as values for a shader's uniforms.
 #ifndef REFERENCE_SCENE_H
 #define REFERENCE_SCENE_H
@@ -8,8 +8,8 @@
 
 enum { MAX_SCENE_LIGHTS = 4, MESH_COUNT = 9 };
 
-// A patch is the plane with a rotated texture. There are four: unchanged, with u mirrored, with v downward, and with
-// both.
+// A patch is the plane with a rotated texture. There are four patches: unchanged, with u mirrored, with v downward, and
+// with both.
 enum reference_mesh {
     MESH_TEAPOT,
     MESH_SPHERE,
@@ -22,7 +22,7 @@ enum reference_mesh {
     MESH_PATCH_DOWN_MIRRORED
 };
 
-// Features that a contract needs to express a scene.
+// Features that a contract must support to express a scene.
 enum reference_need {
     NEED_AMBIENT = 1,
     NEED_ATTENUATION = 2,
@@ -36,12 +36,12 @@ enum reference_need {
     NEED_SHININESS = 512, // variable shininess
     NEED_VERTEX_LIT = 1024,
     NEED_NORMAL_MAP = 2048,
-    NEED_TANGENT_SIGN = 4096, // the sign of the bitangent is among the inputs
+    NEED_TANGENT_SIGN = 4096, // the sign of the bitangent is an input
     NEED_EMISSION_MAP = 8192,
 };
 
-// Restrictions from the shader's text, in the same word: the kind of each light and whether it is attenuated; no
-// specular term; flat shading.
+// Restrictions from the shader's text, stored in the same integer as reference_need: the kind of each light and whether
+// it is attenuated; no specular term; flat shading.
 enum reference_rule {
     RULE_POINT = 1,
     RULE_DIRECTIONAL = 2,
@@ -58,8 +58,8 @@ enum reference_rule {
 struct reference_light {
     lam_light_type type; // point, directional, spot
     lam_vec3 position;
-    // For a directional light, the direction to the light. For a spot, the opposite of its axis. For a point light the
-    // same, for shaders that read an axis (zero: from the camera's target).
+    // For a directional light, the direction to the light. For a spot, the opposite of its axis. For a point light, the
+    // opposite of the axis for shaders that read one; zero means the direction from the camera's target.
     lam_vec3 to_light;
     lam_rgb color;        // Ld
     lam_rgb specular;     // Ls
@@ -79,19 +79,20 @@ struct reference_scene {
     float ka, kd, ks;                   // the strengths of the terms
     float alpha;                        // the alpha of the diffuse colour
     float shininess;
-    // For shaders with metalness and roughness: `diffuse` is then the base colour, and kd and ks are 1.
+    // Used by shaders with metalness and roughness. For these, `diffuse` is the base colour, and kd and ks are 1.
     float metallic, roughness;
     bool physical;
-    bool is_radiance;          // the shader divides by pi, so its lights are pi times as bright
-    bool dims_ambient;         // as in OpenGL 1, the lights' own ambient light is attenuated, and there is no other
+    bool is_radiance; // the shader divides by pi, so its lights are pi times as bright
+    // as in OpenGL 1, each light has its own ambient light, which is attenuated; there is no other ambient light
+    bool dims_ambient;
     float roughness_angle_rad; // used by shaders of rough matt surfaces (Oren–Nayar)
     bool flat;
-    // The normal in a normal map, along tangent, bitangent and normal. A zero vector means a flat surface. It is not
-    // exactly a unit vector, as in filtered maps.
+    // The normal in a normal map, with components along tangent, bitangent and normal. A zero vector means a flat
+    // surface. As in filtered maps, the vector does not have exactly unit length.
     lam_vec3 bump;
     lam_rgb emission; // the colour of an emission map
-    // For shaders that read maps: the bits (map_bit) of the maps, and of the maps with a separate factor. The product
-    // of factor and texel is the number above.
+    // Used by shaders that read maps: the bits (map_bit) of the maps, and of the maps with a separate factor. The
+    // product of factor and texel is the corresponding number above.
     unsigned maps, factors;
     float occlusion;    // the value of an occlusion map
     bool encoded_maps;  // contract.maps
@@ -123,7 +124,7 @@ void reference_points_free(struct reference_points *points);
 struct reference_matrices {
     lam_mat4 model, view, model_view, projection, model_view_projection;
     double normal[3][3]; // inverse transpose of the model-view's 3×3
-    lam_mat4 normal4;    // inverse transpose of the whole model-view matrix, which some programs pass
+    lam_mat4 normal4;    // inverse transpose of the whole model-view matrix, which some programs use instead
 };
 void reference_matrices(const struct reference_scene *reference_scene, struct reference_matrices *out);
 

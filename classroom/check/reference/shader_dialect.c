@@ -1,11 +1,11 @@
-// shader_dialect.c: determines the language of a pair of shaders, and replaces precision qualifiers.
+// shader_dialect.c: determines the shading language of a pair of shaders, and replaces precision qualifiers.
 #include "shader_dialect.h"
 
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Names that OpenGL ES does not have.
+// Names that do not exist in OpenGL ES.
 static const char *const desktop_names[] = {"gl_Vertex",
                                             "gl_Normal",
                                             "gl_Color",
@@ -86,7 +86,7 @@ bool shader_dialect_lowers_precision(const char *text)
     return find_qualifier(text, &length) != NULL || reads_low(text);
 }
 
-// Appends letters to a text; returns the position after them.
+// Appends characters to a text. Returns the position after them.
 static size_t copy(char *out, size_t at, const char *letters, size_t count)
 {
     memcpy(out + at, letters, count);
@@ -98,7 +98,7 @@ char *shader_dialect_highp(const char *text)
     static const char of_samplers[] = " precision highp sampler2D;";
     size_t at = 0, length = 0;
     const char *place = reads_low(text) ? after_precision(text) : NULL;
-    char *out = malloc(2 * strlen(text) + sizeof of_samplers); // `lowp` becomes one letter longer
+    char *out = malloc(2 * strlen(text) + sizeof of_samplers); // `highp` is one letter longer than `lowp`
     for (const char *word; out && (word = find_qualifier(text, &length)); text = word + length) {
         if (place && place <= word) {
             at = copy(out, at, text, (size_t)(place - text));

@@ -46,8 +46,8 @@ const struct contract_name *shader_dialect_built_in(const char *name)
     return NULL;
 }
 
-// Words of older versions, and their replacements in the two stages of ES 3.00. If the word occurs, `declaration` is
-// added (may be NULL).
+// Keywords of older versions, and their replacements in the two stages of ES 3.00. If the keyword occurs, `declaration`
+// is added (may be NULL).
 static const struct old_word {
     const char *old, *vertex, *fragment, *declaration;
 } words[] = {
@@ -102,10 +102,10 @@ static void put_word(struct rewriting *r, const char *word, size_t length)
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-// Writes the text without its version line, with the words of ES 3.00.
+// Writes the text without its version line, with the keywords of ES 3.00.
 static void put_body(struct rewriting *r, const char *text)
 {
-    bool begins = true; // at the start of a line
+    bool begins = true; // whether the position is at the start of a line
     for (const char *c = text; *c;) {
         const char *hash = c + strspn(c, " \t");
         if (begins && *hash == '#' && strncmp(hash + 1 + strspn(hash + 1, " \t"), "version", 7) == 0) {
@@ -155,7 +155,7 @@ static void put_all(struct rewriting *r, const char *text)
 char *shader_dialect_es(const char *text, bool is_vertex, lam_error *error)
 {
     struct rewriting r = {.vertex = is_vertex};
-    put_body(&r, text); // determines the necessary declarations
+    put_body(&r, text); // the first pass only determines the necessary declarations
     put_all(&r, text);
     r.capacity = r.at + 1;
     r.out = malloc(r.capacity);

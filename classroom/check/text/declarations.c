@@ -138,7 +138,7 @@ static bool read_names(struct reader *r, struct declaration item, bool as_member
     return true;
 }
 
-// Parses a struct after the keyword, and stores its name; an unnamed struct gets a unique name.
+// Parses a struct after the keyword `struct`, and stores the struct's name. An unnamed struct gets a unique name.
 static void read_struct(struct reader *r, char name[32])
 {
     struct struct_type shape = {.first = r->member_count};
@@ -165,7 +165,7 @@ static void read_struct(struct reader *r, char name[32])
         r->struct_types[r->struct_type_count++] = shape;
 }
 
-// Parses { members } [instance]; of a uniform, in or out block.
+// Parses { members } [instance]; after the name of a uniform, in or out block.
 static bool read_block(struct reader *r, enum declared kind)
 {
     struct declaration member = {.kind = kind, .in_block = true};
@@ -218,7 +218,7 @@ static bool read_statement(struct reader *r)
         r->at++;
         return read_names(r, item, false);
     }
-    // Other statements: a function, a constant, a precision statement.
+    // Skips other statements: a function, a constant, a precision statement.
     while (r->at < r->d->word_count && !next_is(r, ";") && !next_is(r, "{"))
         r->at++;
     if (take(r, "{"))
@@ -228,7 +228,7 @@ static bool read_statement(struct reader *r)
     return true;
 }
 
-// Returns the slot of a word, or the empty slot for it.
+// Returns the slot of a word or, if the word is new, the empty slot for it.
 static int *slot_of(const struct declarations *d, const char *text)
 {
     uint32_t hash = 2166136261u; // FNV-1a
@@ -248,7 +248,7 @@ static struct word *first_of(const struct declarations *d, const char *text)
     return index ? &d->words[index - 1] : NULL;
 }
 
-// Counts equal words, so that a text with many names does not take quadratic time.
+// Counts equal words in advance, so that a text with many names does not take quadratic time.
 static bool count_words(struct declarations *d)
 {
     d->slot_count = 16;

@@ -1,7 +1,8 @@
 // declarations.h: the declarations of a GLSL source: uniforms, attributes, varyings.
 //
-// They are parsed from the text and not queried from the compiled program, because names and lines are also needed for
-// shaders that do not compile, and for uniforms that the compiler removes. The words come from the preprocessor.
+// The declarations are parsed from the text instead of queried from the compiled program. The check also needs names
+// and lines for shaders that do not compile, and for uniforms that the compiler removes. preprocess.h splits the text
+// into words.
 #ifndef DECLARATIONS_H
 #define DECLARATIONS_H
 
@@ -14,9 +15,9 @@ struct declaration {
     enum declared kind;
     char type[32];
     char name[96];
-    int count; // the size of the outermost array; 0 if there is no array, −1 if the size is not a literal number
+    int count; // the size of the outermost array; 0 if the name is not an array, −1 if the size is not a literal number
     int line;
-    bool flat;     // interpolation qualifier
+    bool flat;     // whether the interpolation qualifier is `flat`
     bool in_block; // member of an interface block
 };
 
@@ -25,8 +26,8 @@ struct word {
     int line;
     int depth;      // nesting of braces
     bool is_member; // follows a '.'
-    // For declarations_uses. The first of several equal words stores how often the word occurs, and how often it occurs
-    // as a declared name.
+    // Used by declarations_uses. The first of several equal words stores how often the word occurs, and how often the
+    // word occurs as a declared name.
     int times, declared;
 };
 

@@ -1,4 +1,4 @@
-// expectation.c: the terms that shaders are expected to compute, read from their declarations.
+// expectation.c: derives the terms that shaders are expected to compute from their declarations.
 #include "expectation.h"
 
 #include <stdio.h>
@@ -19,7 +19,7 @@ static bool names(const struct shader_interface *r, enum uniform_semantic semant
     return false;
 }
 
-// Returns whether the contract has the name, and the shaders do not declare it.
+// Returns whether the contract contains a name for the semantic, but the shaders declare none.
 static bool lacks(const struct shader_interface *r, enum uniform_semantic semantic)
 {
     return names(r, semantic) && !declares(r, semantic);
@@ -33,7 +33,7 @@ static bool has_number(const struct shader_interface *r, enum uniform_semantic s
     return r->constants >> semantic & 1;
 }
 
-// --- the possible expectations for each term, most complete first
+// --- the possible expectations for each term, the most complete ones first
 
 enum { MAX_CHOICES = 4 };
 
@@ -47,7 +47,7 @@ static int ambient_choices(const struct shader_interface *r, unsigned terms, uns
                (light && is_fixed(&d->ambient_color));
     unsigned complete =
         light || is_fixed(&d->light_ambient) || !names(r, SEMANTIC_AMBIENT_LIGHT) ? 0 : EXPECT_WHITE_AMBIENT_LIGHT;
-    bool constant = d->ambient_strength.given && !declared; // the exercise uses a number for it
+    bool constant = d->ambient_strength.given && !declared; // the exercise uses a number for the strength
     int count = 0;
     if (terms ? terms & LAM_CHECK_TERM_AMBIENT : declared || constant)
         out[count++] = complete;
@@ -97,7 +97,8 @@ static int specular_choices(const struct shader_interface *r, unsigned terms, un
         if (light_open && declares(r, SEMANTIC_LIGHT_COLOR))
             out[count++] = white | EXPECT_SPECULAR_LIGHT_AS_DIFFUSE;
         out[count++] = white | (light_open ? EXPECT_WHITE_SPECULAR_LIGHT : 0);
-        if (!surface && d->specular_color.source == COLOR_OF_DIFFUSE) { // both forms are correct, tinted or not
+        // tinted and untinted highlights are both correct
+        if (!surface && d->specular_color.source == COLOR_OF_DIFFUSE) {
             out[count] = out[count - 1] | EXPECT_WHITE_SPECULAR;
             count++;
         }
@@ -153,7 +154,7 @@ void expectation_apply(unsigned e, struct reference_scene *s)
         s->ka = 0;
     if (e & EXPECT_WHITE_DIFFUSE) {
         bool one = s->ambient.r == s->diffuse.r && s->ambient.g == s->diffuse.g && s->ambient.b == s->diffuse.b;
-        s->ambient = one ? white : s->ambient; // the contract has one colour for both
+        s->ambient = one ? white : s->ambient; // the contract contains one colour for both terms
         s->diffuse = white;
     }
     if (e & EXPECT_WHITE_SPECULAR)

@@ -8,7 +8,7 @@
 
 #include "shader_interface.h"
 
-// The differences of the expected scene from the reference scene.
+// The differences between the expected scene and the reference scene.
 enum expectation {
     EXPECT_NO_AMBIENT = 1,
     EXPECT_NO_DIFFUSE = 2,
@@ -25,9 +25,9 @@ enum expectation {
 
 enum { MAX_EXPECTATIONS = 16 };
 
-// Stores the possible expectations, bits of enum expectation, starting with the largest number of terms. `terms` has
-// the required bits of lam_check_term; 0 means the terms that the declarations suggest. Returns the number of
-// expectations, at least 1.
+// Stores the possible expectations, bits of enum expectation. The first expectation includes the largest number of
+// terms. `terms` contains the bits (lam_check_term) of the required terms; 0 means the terms that the declarations
+// suggest. Returns the number of expectations, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
 // Returns whether a fault of the table is not a mistake because the declarations leave the choice open: some of the
@@ -37,7 +37,8 @@ bool expectation_permits(const struct shader_interface *interface, unsigned term
 // Changes a scene from shader_interface_scene to the expected scene.
 void expectation_apply(unsigned expectation, struct reference_scene *scene);
 
-// Writes a sentence about terms that are not expected or count as white; "" if there are none.
+// Writes a sentence about terms that are not expected and colours that are treated as white. Writes "" if there are
+// none.
 void expectation_describe(unsigned expectation, const struct shader_interface *interface, unsigned terms, char *out,
                           size_t capacity);
 

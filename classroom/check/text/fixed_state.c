@@ -48,8 +48,8 @@ static bool has_word(const char *text, const char *word)
     return false;
 }
 
-// Declares a state with the members that at least one of the two texts uses, identically in both: terms of undeclared
-// members are not expected.
+// Declares a state with the members that at least one of the two texts uses. Both texts get the same declaration.
+// Members that neither uses remain undeclared, so that their terms are not expected.
 static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
 {
     size_t at = strlen(out);
@@ -76,12 +76,12 @@ char *fixed_state_rewrite(const char *text, const char *other, bool *ok)
         int state = state_at(text, at);
         names += state >= 0;
         if (state >= 0 && !(used >> state & 1))
-            declare(state, text, other, declarations); // large enough for all of them
+            declare(state, text, other, declarations); // large enough for the declarations of all states
         used |= state >= 0 ? 1u << state : 0;
     }
     if (!names)
         return NULL;
-    // The declarations follow the version line, which has to be first; the lines keep their numbers.
+    // The declarations follow the version line, which must be the first line. Lines keep their numbers.
     const char *version = strstr(text, "#version"), *rest = version ? version + strcspn(version, "\n") : text;
     int line = version ? 1 : 0;
     for (const char *c = text; c < rest; c++)

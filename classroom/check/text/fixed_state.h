@@ -4,13 +4,13 @@
 
 #include <lambent/base.h>
 
-// Rewrites a shader so that it reads uniforms such as fixed_LightSource[i].position, instead of
-// gl_LightSource, gl_FrontMaterial and similar state. The caller can set these uniforms. `other` is the text of the
-// other stage and may be NULL. The result is from malloc. Returns NULL if the text reads no fixed state or, with `ok`
-// false, if memory runs out.
+// Rewrites a shader so that it reads uniforms such as fixed_LightSource[i].position, instead of gl_LightSource,
+// gl_FrontMaterial and similar state. A program can set these uniforms. `other` is the text of the other stage and may
+// be NULL. The result is from malloc. Returns NULL if the text reads no fixed state or, with `ok` false, if memory runs
+// out.
 char *fixed_state_rewrite(const char *text, const char *other, bool *ok);
 
-// Returns whether a name belongs to the fixed state, or is a member of it: gl_LightSource[].position.
+// Returns whether a name is part of the fixed state or of one of its structs: gl_LightSource[].position.
 bool fixed_state_has(const char *name);
 
 #endif

@@ -11,19 +11,20 @@
 #include "number.h"
 
 enum { MAX_CHAIN = 8, MAX_DEPTH = 8, MAX_SPACES = 4 };
-// The time grows with the product of these numbers; real shaders are far below the limits.
+// The time grows with the product of these numbers. Real shaders stay far below these limits.
 enum { MAX_WORDS = 30000, MAX_DECLARED = 500, MAX_STEPS = 100000 };
 
 struct inference {
     const struct declarations *vertex, *fragment;
-    const char *chain[MAX_CHAIN]; // matrices applied to the position on its way to gl_Position, the last one first
+    // the matrices that transform the position to gl_Position; the last applied matrix is first
+    const char *chain[MAX_CHAIN];
     int chain_count, steps;
     const char *position; // the attribute that determines gl_Position
     bool has_model, has_model_view, has_eye, has_light, has_normal_matrix;
     json_t *attributes, *uniforms, *undeclared;
     const char *space, *light_space; // eye, world, object
     bool guessed;                    // a role was guessed by elimination
-    bool engine;                     // an engine sets the values of its names
+    bool engine;                     // whether an engine sets the values of its own names
     bool all;                        // inputs with unknown roles get the role `zero`
     char *reason;
     size_t capacity;
@@ -62,7 +63,7 @@ static const char *last_part(const char *name)
     return dot ? dot + 1 : name;
 }
 
-// Removes meaningless parts from a name: u_, a leading u before a capital, Matrix, Mat.
+// Removes parts without meaning from a name: u_, a leading u before a capital letter, Matrix, Mat.
 static void core_of(const char *name, char out[64])
 {
     size_t length = 0;
@@ -193,7 +194,7 @@ static bool find_matrix(struct inference *f, const struct declaration *item)
     return true;
 }
 
-// How a shader uses a vector: a point is subtracted, a direction is only normalized.
+// How a shader uses a vector. A shader subtracts a point, but only normalizes a direction.
 enum { USED_IN_DIFFERENCE = 1, USED_ALONE = 2 };
 static unsigned uses_of(const struct declarations *d, const char *name)
 {
@@ -241,7 +242,7 @@ static bool reads_w(const struct inference *f, const char *name)
     return false;
 }
 
-// Returns whether `-name` occurs; the vector then points away from the light.
+// Returns whether `-name` occurs. If it does, the vector points away from the light.
 static bool is_negated(const struct inference *f, const char *name)
 {
     const struct declarations *sides[] = {f->vertex, f->fragment};
@@ -451,7 +452,8 @@ static bool find_vector_of_light(const struct declarations *d, int number, const
     return false;
 }
 
-// Adds a light whose position or direction is a constant. `guess` selects it, and the remainder selects the spaces.
+// Adds a light whose position or direction is a constant. `guess` selects the constant, and *left receives the
+// remainder, which selects the spaces.
 static bool find_light_in_text(struct inference *f, int guess, int *left)
 {
     double v[3];
@@ -482,7 +484,7 @@ static int find_spaces(const struct inference *f, const char *out[MAX_SPACES][2]
     int count = 0;
     const bool built_in = !f->chain_count;
 #define SPACES(lit, light) (out[count][0] = (lit), out[count++][1] = (light))
-    if (f->has_eye && (f->has_model || f->engine)) { // in eye space the eye is at 0, so no input passes its position
+    if (f->has_eye && (f->has_model || f->engine)) { // in eye space the eye is at 0, so no input contains its position
         SPACES("world", "world");
         SPACES("world", "object");
     } else if (f->has_eye) {

@@ -1,8 +1,8 @@
-// infer.h: makes a contract from a pair of shaders: the role of each input is inferred from its use, its type, and the
-// words in its name.
+// infer.h: makes a contract from a pair of shaders: the role of each input is inferred from the input's use, its type,
+// and the words in its name.
 //
-// The result is a guess: the contract allows any strengths, and its verdict counts only if the pictures confirm it
-// (check_fit.c).
+// The result is a guess. The contract allows any strengths, and a verdict is reported only if the pictures confirm the
+// contract (check_fit.c).
 #ifndef INFER_H
 #define INFER_H
 
@@ -10,7 +10,7 @@
 
 // Returns the text of contract number `guess` (0, 1, …) for the shaders, from malloc. The guesses differ in the spaces
 // that the text does not determine. Returns NULL if there is no such guess; for the first guess, `reason` then names
-// the input for which no value is known, and is "" otherwise. `engine` is a contract whose prefix the source texts
+// the input for which no value is known. Otherwise `reason` is "". `engine` is a contract whose prefix the source texts
 // lack, or NULL. With `all`, inputs with unknown roles get the role `zero`, and `reason` names the first of them.
 char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
                      const struct contract *engine, int guess, bool all, char *reason, size_t capacity);

@@ -1,5 +1,5 @@
 // interface_scene.c: converts a reference scene to one that a pair of shaders can express. Undeclared inputs get the
-// contract's values, and terms that the contract does not have are switched off.
+// contract's values, and terms that are not in the contract are switched off.
 #include "maps.h"
 #include "shader_interface.h"
 
@@ -29,8 +29,8 @@ static lam_rgb color_of(const struct default_color *color, lam_rgb scene, lam_rg
     return scene;
 }
 
-// Returns whether the shader has a name for the product of a term's colour and strength, with or without the light's
-// colour.
+// Returns whether the shader declares a name for the product of a term's colour and strength, with or without the
+// light's colour.
 static bool has_product(const struct shader_interface *r, enum uniform_semantic term)
 {
     return declares(r, term) ||
@@ -44,9 +44,9 @@ static lam_rgb *light_color(struct reference_light *light, enum light_term term)
     return term == LIGHT_DIFFUSE ? &light->color : term == LIGHT_SPECULAR ? &light->specular : &light->ambient;
 }
 
-// Sets the strength of a term to the fixed value if the shader has no name for it. A scene switches a term off by its
-// strength; in that case the term's colour becomes black, or else the lights' colours. If `color` is NULL or `lit` is
-// false, the shader has no such colour.
+// Sets the strength of a term to the fixed value if the shader declares no name for the strength. A scene switches a
+// term off by the strength 0. In that case the term's colour becomes black instead or, if the shader has no such
+// colour, the colours of the lights. `color` is NULL, or `lit` is false, if the shader has no such colour.
 static void fix_strength(struct reference_scene *s, const struct default_number *fixed, float *strength, lam_rgb *color,
                          bool lit, enum light_term term)
 {
@@ -69,21 +69,21 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
     bool own_diffuse = diffuse || declares(r, SEMANTIC_COLOR);
     bool lit_specular = declares(r, SEMANTIC_LIGHT_SPECULAR);
     bool lit_ambient = declares(r, SEMANTIC_LIGHT_AMBIENT) || declares(r, SEMANTIC_AMBIENT_LIGHT);
-    // The highlight has the light's colour if the material has none for it.
+    // If the material has no specular colour, the highlight has the light's colour.
     if (!own_specular && lit_specular && d->specular_color.source != COLOR_OF_SCENE)
         for (int i = 0; i < s->light_count; i++)
             s->lights[i].specular = times(s->lights[i].specular, s->specular);
     if (!own_diffuse)
         s->diffuse = color_of(&d->diffuse_color, s->diffuse, s->diffuse, s->diffuse);
-    // If there is a name for the product of the diffuse colour and its strength, the product is also used for the other
-    // terms.
+    // If the shader declares a name for the product of the diffuse colour and its strength, the product is also used
+    // for the other terms.
     lam_rgb own_color =
         diffuse ? (lam_rgb){s->diffuse.r * s->kd, s->diffuse.g * s->kd, s->diffuse.b * s->kd} : s->diffuse;
     if (!ambient)
         s->ambient = color_of(&d->ambient_color, s->ambient, own_color, own_color);
     if (!own_specular)
         s->specular = color_of(&d->specular_color, s->specular, own_color, own_color);
-    // Black cannot replace a missing strength if another term has the same colour.
+    // A black colour cannot replace a missing strength if another term has the same colour.
     bool shared = (!ambient && d->ambient_color.source == COLOR_OF_DIFFUSE) ||
                   (!own_specular && d->specular_color.source == COLOR_OF_DIFFUSE);
     bool lit_diffuse = declares(r, SEMANTIC_LIGHT_COLOR) && lit_specular;
@@ -101,8 +101,8 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
                      LIGHT_SPECULAR);
 }
 
-// With metalness and roughness there is no separate strength: if a scene shows only the ambient term, its lights are
-// dark instead.
+// Adapts a scene to metalness and roughness, for which there is no separate strength. If a scene shows only the ambient
+// term, its lights are dark instead.
 static void adapt_physical(const struct shader_interface *r, struct reference_scene *s)
 {
     const struct contract_defaults *d = &r->defaults;
@@ -130,8 +130,8 @@ static void adapt_physical(const struct shader_interface *r, struct reference_sc
     }
 }
 
-// Makes a light with changed attenuation as bright as before at the scene's centre; the inverse square alone would be
-// too dark.
+// Scales a light whose attenuation was changed, so that it is as bright as before at the scene's centre. An unscaled
+// inverse square would be too dark.
 static void keep_brightness(const struct reference_scene *s, const float before[3], struct reference_light *light)
 {
     const float *now = light->attenuation, d = (float)v3_length(v3_sub(light->position, s->target));
@@ -140,8 +140,8 @@ static void keep_brightness(const struct reference_scene *s, const float before[
     light->specular = (lam_rgb){light->specular.r * k, light->specular.g * k, light->specular.b * k};
 }
 
-// A point light also gets an axis, since shaders of spots normalize it: it points towards the model, so that every lit
-// point is in front of the light.
+// A point light also gets an axis, because shaders of spots normalize the axis. The axis points towards the model, so
+// that every lit point is in front of the light.
 static void set_axis(struct reference_light *light, lam_vec3 target)
 {
     lam_vec3 to_light = light->to_light;
@@ -200,7 +200,7 @@ static void adapt_light(const struct shader_interface *r, int index, const struc
     set_axis(light, s->target);
 }
 
-// --- slots of the lights
+// --- array elements of the lights
 
 int shader_interface_light_count(const struct shader_interface *r)
 {
@@ -215,7 +215,8 @@ static unsigned kind_bit(lam_light_type type)
     return type == LAM_LIGHT_DIRECTIONAL ? NEED_DIRECTIONAL : type == LAM_LIGHT_SPOT ? NEED_SPOT : NEED_POINT;
 }
 
-// Returns a group that can have a light and has space for it, or −1. `taken` marks the used elements.
+// Returns a group that allows a light of this type and has a free element for it, or −1. `taken` marks the used
+// elements.
 static int find_group(const struct shader_interface *r, lam_light_type type, const int taken[MAX_LIGHT_GROUPS])
 {
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
@@ -237,8 +238,8 @@ int shader_interface_light(const struct shader_interface *r, const struct refere
     return -1;
 }
 
-// Removes the lights for which there is no element, and adds a black light if an element is free, so that a shader that
-// reads only the last light draws black.
+// Removes the lights for which there is no array element. If an element is free, adds a black light, so that a shader
+// that reads only the last light draws black.
 static void place_lights(const struct shader_interface *r, struct reference_scene *s)
 {
     int taken[MAX_LIGHT_GROUPS] = {0}, kept = 0;
@@ -250,7 +251,7 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
         s->lights[kept++] = s->lights[i];
     }
     s->light_count = kept;
-    const int capacity = shader_interface_light_count(r), lit = 3; // the most lights in a scene
+    const int capacity = shader_interface_light_count(r), lit = 3; // `lit` is the maximum number of lights in a scene
     int room = lit;
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // only an array may contain more lights
         room = r->groups[g].count == capacity && !r->contract->printed ? MAX_SCENE_LIGHTS : room;
@@ -268,8 +269,8 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
             if (kept && black->type != LAM_LIGHT_DIRECTIONAL && s->lights[0].type != LAM_LIGHT_DIRECTIONAL)
                 memcpy(black->attenuation, s->lights[0].attenuation, sizeof black->attenuation);
         }
-    // In an array with more elements, the last element is lit, so that a shader that omits it is detected. In printed
-    // shaders each element has its own kind.
+    // In an array with more elements, the last element contains a light, so that a shader that omits the last element
+    // is detected. In printed shaders, each element has its own kind.
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
         if (kept > 1 && r->groups[g].count == s->light_count && capacity == s->light_count && !r->contract->printed) {
             struct reference_light last = s->lights[kept - 1];
@@ -281,7 +282,7 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
 // Sets the contents of maps. The numbers of the scene do not change: they are the products of factor and texel.
 static void adapt_maps(const struct shader_interface *r, struct reference_scene *s)
 {
-    // for lighting in the vertex shader, maps with a factor are 1
+    // for lighting in the vertex shader, the texels of maps with a factor are 1
     s->maps = r->vertex_lit ? r->maps & ~r->factors : r->maps;
     s->factors = r->factors;
     s->encoded_maps = r->contract->maps.encoded;
@@ -292,8 +293,8 @@ static void adapt_maps(const struct shader_interface *r, struct reference_scene 
         s->mesh += MESH_PATCH_DOWN - MESH_PATCH;
 }
 
-// If the shader has its own strengths and colours, each term gets a channel: red ambient, green diffuse, blue specular.
-// The fit finds their factors.
+// If the shader has its own strengths and colours, each term gets a channel: ambient is red, diffuse green, specular
+// blue. The fit finds the factors of the terms.
 static void separate_terms(struct reference_scene *s)
 {
     const lam_rgb white = {1, 1, 1}, black = {0, 0, 0};

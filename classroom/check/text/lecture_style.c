@@ -12,11 +12,11 @@ static bool is(const struct declarations *d, int at, const char *text)
 }
 
 struct range {
-    int first, end; // range of the lights that a condition on `i` selects
+    int first, end; // the lights that a condition on `i` selects: from `first` to before `end`
 };
 
-// Parses "i >= 1 && i < 3" or one half of it; without a condition all lights are selected. Returns the position after
-// it.
+// Parses "i >= 1 && i < 3" or one half of such a condition. Without a condition, all lights are selected. Returns the
+// position after it.
 static int read_condition(const struct declarations *d, int at, struct range *range)
 {
     *range = (struct range){0, MAX_SCENE_LIGHTS};
@@ -44,7 +44,7 @@ static struct range condition_before(const struct declarations *d, int at)
     return range;
 }
 
-// Returns whether a statement contains one of two words before its end.
+// Returns whether a statement contains one of two words.
 static bool names(const struct declarations *d, int at, const char *a, const char *b)
 {
     for (; at < d->word_count && !is(d, at, ";"); at++)

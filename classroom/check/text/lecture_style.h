@@ -1,5 +1,5 @@
 // lecture_style.h: reads the lighting of a shader printed by `lambent shader --style lecture` from its words. It
-// recognises the lines of classroom/lecture/lecture.glsl, also if they contain a known mistake.
+// recognises the lines of classroom/lecture/lecture.glsl, even if they contain a known mistake.
 #ifndef LECTURE_STYLE_H
 #define LECTURE_STYLE_H
 
@@ -13,7 +13,8 @@ unsigned lecture_light_rules(const struct declarations *lit);
 // Returns the reflection model of a shader in the lecture style; AUTO means Lambert's.
 lam_reflection lecture_model(const struct declarations *lit);
 
-// Returns whether its viewer is infinitely far: the vector to the eye is a constant.
+// Returns whether a shader in the lecture style uses an infinitely distant viewer: the vector to the eye is then a
+// constant.
 bool lecture_viewer_is_infinite(const struct declarations *lit);
 
 #endif

@@ -1,5 +1,5 @@
-// own_texts.h: the source texts that a check uses: line ends are normalised, and the fixed state of GLSL 110 and 120 is
-// declared as inputs.
+// own_texts.h: makes the source texts that a check uses: normalises line ends, and declares the fixed state of GLSL 110
+// and 120 as inputs.
 #ifndef OWN_TEXTS_H
 #define OWN_TEXTS_H
 

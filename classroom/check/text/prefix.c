@@ -16,7 +16,7 @@ static bool shares_a_name(const struct declarations *a, const struct declaration
     return false;
 }
 
-// Returns whether the engine completes this text.
+// Gets whether the contract's engine completes this text.
 static bool lacks_prefix(const char *prefix, const struct declarations *own, bool vertex, bool *lacks, lam_error *error)
 {
     struct declarations before = {0};
@@ -59,7 +59,7 @@ static char *join(const char *prefix, const char *text)
     char *out = malloc(size);
     if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark is only allowed at the beginning
         text += 3;
-    // The #line directive takes the number of the next line; in older versions of GLSL, of the line after that.
+    // The #line directive contains the number of the next line or, in older versions of GLSL, of the line after that.
     bool modern = strncmp(prefix, "#version 3", 10) == 0;
     if (out)
         snprintf(out, size, "%s\n#line %d\n%s", prefix, modern ? 1 : 0, text);

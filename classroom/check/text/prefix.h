@@ -11,8 +11,8 @@ struct complete_texts {
     int lines[2];                  // the number of lines in the prefixes
 };
 
-// Returns whether a contract's engine completes texts with these declarations: they have no version line and declare
-// none of the names in its prefix. `vertex` may be NULL. Returns false if memory runs out.
+// Gets whether a contract's engine completes texts with these declarations: texts without a version line that declare
+// none of the names in the engine's prefix. `vertex` may be NULL. Returns false if memory runs out.
 bool prefix_applies(const struct contract *contract, const struct declarations *vertex,
                     const struct declarations *fragment, bool *applies, lam_error *error);
 
@@ -20,13 +20,14 @@ bool prefix_applies(const struct contract *contract, const struct declarations *
 bool prefix_add(const struct contract *contract, const char *vertex, const char *fragment, struct complete_texts *out,
                 lam_error *error);
 
-// Completes the texts of a program for a contract: its prefix is added if it applies; otherwise they are unchanged.
+// Completes the texts of a program for a contract: adds the contract's prefix if it applies, and otherwise leaves the
+// texts unchanged.
 // `vertex` may be NULL. Returns false if memory runs out. The caller frees `out`.
 bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
                      struct complete_texts *out, lam_error *error);
 void prefix_free(struct complete_texts *texts);
 
-// Parses the declarations of such a text, with the line numbers of the text itself; declarations of the prefix have
+// Parses the declarations of a completed text. Lines are counted without the prefix, and declarations in the prefix get
 // line 0.
 bool prefix_read(const struct complete_texts *texts, bool vertex, struct declarations *out, lam_error *error);
 

@@ -9,10 +9,10 @@
 enum { MAX_WORDS = 1 << 19, MAX_PARAMETERS = 16, MAX_NESTING = 32, MAX_EXPANSION_DEPTH = 64 };
 
 struct token {
-    char text[64]; // a token, or "\n", which ends a directive; "#" starts one
+    char text[64]; // a token, or "\n", which ends a directive; "#" starts a directive
     int line;
-    bool directive; // the '#' of a directive
-    bool glued;     // no space before it: #define F(x) has a parameter, #define F (x) has none
+    bool directive; // whether the token is the '#' of a directive
+    bool glued;     // no space before the token: #define F(x) has a parameter, #define F (x) has none
 };
 
 struct tokens {
@@ -22,7 +22,7 @@ struct tokens {
 
 struct macro {
     char name[64];
-    bool function, disabled; // a macro is disabled during its own expansion
+    bool function, disabled; // `disabled` is set during the macro's own expansion
     int parameter_count;
     char parameters[MAX_PARAMETERS][64];
     const struct token *body;
@@ -49,7 +49,7 @@ static bool starts_name(const char *text) { return isalpha((unsigned char)text[0
 
 static bool is(const struct token *t, const char *text) { return strcmp(t->text, text) == 0; }
 
-// Makes space for one more element: the capacity doubles at each power of two. Returns NULL if memory runs out.
+// Makes space for one more element. The capacity doubles at each power of two. Returns NULL if memory runs out.
 static void *grown(void *items, int count, size_t size)
 {
     if (count & (count - 1))
@@ -178,8 +178,8 @@ struct argument {
     int count;
 };
 
-// Parses the arguments after a function-like macro's name. Returns the number of tokens up to the closing bracket, or 0
-// if no opening bracket follows the name.
+// Parses the arguments after the name of a function-like macro. Returns the number of tokens up to the closing bracket,
+// or 0 if no opening bracket follows the name.
 static int read_arguments(const struct token *t, int count, struct argument arguments[MAX_PARAMETERS], int *found)
 {
     int depth = 0;
@@ -221,8 +221,8 @@ static void substitute(struct preprocessor *p, const struct macro *m, const stru
     }
 }
 
-// The name of a number, such as LIGHT_SPOT, is kept because it is more meaningful than the number, unless it is the
-// size of an array.
+// The name of a number, such as LIGHT_SPOT, is kept, because the name is more meaningful than the number. The size of
+// an array is replaced by its number.
 static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 {
     const struct declarations *d = p->d;
@@ -230,8 +230,8 @@ static bool is_named_number(const struct preprocessor *p, const struct macro *m)
            !(d->word_count && strcmp(d->words[d->word_count - 1].text, "[") == 0);
 }
 
-// Adds tokens to `out` (see emit) with macros expanded. `line` is the line number of every word; 0 keeps the tokens'
-// own lines.
+// Adds tokens to `out` (see emit), with macros expanded. Every word gets the line number `line`; if `line` is 0, words
+// keep the lines of their tokens.
 static void expand(struct preprocessor *p, const struct token *t, int count, int line, int level, struct tokens *out)
 {
     for (int i = 0; i < count && !p->failed; i++) {
@@ -310,7 +310,7 @@ static bool is_defined(const struct preprocessor *p, const char *name)
 
 static bool next(struct condition *c, const char *text)
 {
-    int length = (int)strlen(text); // operators are split into single characters
+    int length = (int)strlen(text); // operators are split into tokens of one character
     for (int i = 0; i < length; i++)
         if (c->at + i >= c->count || c->t[c->at + i].text[0] != text[i] || c->t[c->at + i].text[1])
             return false;
@@ -355,7 +355,7 @@ static long primary(struct condition *c)
     return starts_name(text) ? value_of_name(c, text) : strtol(text, NULL, 0);
 }
 
-// Binary operators in ascending precedence; longer ones before their prefixes.
+// Binary operators in ascending precedence. A longer operator precedes an operator that is its prefix.
 static const struct {
     const char *text;
     int precedence;

@@ -4,8 +4,8 @@
 
 #include "declarations.h"
 
-// Stores the words of the text, and the version of its #version line, in `d`. It accepts invalid texts: unknown parts
-// are unchanged, and a text that expands to more than half a million words is truncated there. Returns false if memory
+// Stores the words of the text, and the version of its #version line, in `d`. Invalid texts are accepted: unknown parts
+// are kept unchanged, and a text that expands to more than half a million words is truncated. Returns false if memory
 // runs out.
 bool preprocess(struct declarations *d, const char *text);
 

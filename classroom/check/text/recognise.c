@@ -1,4 +1,4 @@
-// recognise.c: compares the names of a program with each contract's.
+// recognise.c: compares the names of a program with the names of each contract.
 #include "recognise.h"
 
 #include <ctype.h>
@@ -7,8 +7,8 @@
 
 #include "name_similarity.h"
 
-// Returns points for a declared name: a name of the contract scores more than an accepted synonym, and a different type
-// scores slightly less.
+// Returns points for a declared name: a name of the contract scores more than an accepted synonym, and a name with a
+// different type scores slightly less.
 static int points_of(const struct contract *contract, const struct declaration *item, bool attribute)
 {
     const struct contract_name *n = contract_find(contract, item->name, attribute, NULL);
@@ -37,7 +37,7 @@ static int score(const struct contract *contract, const struct declarations *d, 
     return points;
 }
 
-// Computes the score of texts that the contract's engine completes.
+// Computes the score of texts after the contract's engine has completed them.
 static bool score_completed(const struct contract *contract, const char *vertex, const char *fragment, int *points,
                             lam_error *error)
 {
@@ -66,7 +66,8 @@ bool contract_recognise(lam_check_contract *const *contracts, int count, const c
         bool completed = false;
         ok = prefix_applies(contract, vertex ? &sides[0] : NULL, &sides[1], &completed, error) &&
              (!completed || score_completed(contract, vertex, fragment, &points, error));
-        // Shaders with any strengths get roles by their use, in more spaces than a contract has.
+        // Contracts with any strengths are skipped: roles are inferred for such shaders, in more spaces than a contract
+        // describes.
         if (points > best && !contract->any_strengths) {
             best = points;
             *out = contract;
@@ -109,8 +110,8 @@ static const struct declaration *find_either(const struct declarations *vertex, 
     return item ? item : find_uniform_or_attribute(fragment, name, false);
 }
 
-// Returns the name of the contract that an unknown name probably means: it has the same kind and a similar type,
-// and the shader does not declare it. Returns NULL if there is none.
+// Returns the name of the contract that an unknown name probably means. Both names have the same kind and similar
+// types, and the shaders do not declare the contract's name. Returns NULL if there is none.
 static const struct contract_name *meant_by(const struct contract *contract, const struct declarations *vertex,
                                             const struct declarations *fragment, const struct declaration *item)
 {

@@ -11,7 +11,7 @@ static bool is(const struct declarations *d, int i, const char *text)
     return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
 }
 
-// Parses a number with its sign and moves past it. Returns false if there is none.
+// Parses a number with its sign, and advances *at past the number. Returns false if there is none.
 static bool read_number(const struct declarations *d, int *at, double *out)
 {
     bool minus = is(d, *at, "-");
@@ -26,7 +26,7 @@ static bool read_number(const struct declarations *d, int *at, double *out)
     return true;
 }
 
-// Parses vec3(a) or vec3(a, b, c) and moves past it.
+// Parses vec3(a) or vec3(a, b, c), and advances *at past it.
 static bool read_vector(const struct declarations *d, int *at, double out[3])
 {
     if (!is(d, *at, "vec3") || !is(d, *at + 1, "("))
@@ -44,7 +44,7 @@ static bool read_vector(const struct declarations *d, int *at, double out[3])
     return true;
 }
 
-// Parses a number, vec3(a), vec3(a, b, c), or normalize() of one of these, up to `;` or the next name.
+// Parses a number, vec3(a), vec3(a, b, c), or normalize() of one of these. A `;` or the next name must follow.
 static bool read_value(const struct declarations *d, int at, double out[3])
 {
     bool unit = is(d, at, "normalize") && is(d, at + 1, "(");
@@ -165,7 +165,8 @@ void shader_constants_find(struct shader_interface *r)
 
 // --- numbers without a name
 
-// Colours and strengths are found by trial; directions and exponents are recognised by their names.
+// Returns whether the values of a semantic are vectors. Colours and strengths are found by trial, and directions and
+// exponents are recognised by their names.
 static bool is_vector(enum uniform_semantic semantic)
 {
     return semantic == SEMANTIC_LIGHT_AMBIENT || semantic == SEMANTIC_LIGHT_COLOR ||

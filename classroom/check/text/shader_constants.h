@@ -5,17 +5,17 @@
 #include "shader_interface.h"
 
 // Finds the contract's constants in the shaders, and stores their values in interface->defaults and their semantics in
-// interface->constants. A variable that is set to anything but numbers is not a constant.
+// interface->constants. A variable that is also set to something other than numbers is not a constant.
 void shader_constants_find(struct shader_interface *interface);
 
 enum { MAX_NUMBERS = 12 };
 
-// Lists the meanings that the contract allows for a number and for which the shaders contain no number. Returns their
-// count.
+// Lists the semantics that the contract allows as numbers, and for which no number was found in the shaders. Returns
+// their count.
 int shader_constants_open(const struct shader_interface *interface, enum uniform_semantic out[SEMANTIC_COUNT]);
 
-// Lists the distinct numbers, or vec3 of numbers, that may have a meaning in the source of the shader that computes the
-// lighting. Returns their count; at most MAX_NUMBERS are listed.
+// Lists the distinct numbers, or vec3 of numbers, in the source of the shader that computes the lighting. Numbers that
+// cannot have the semantic are omitted. Returns their count; at most MAX_NUMBERS are listed.
 int shader_constants_values(const struct shader_interface *interface, enum uniform_semantic semantic,
                             double out[MAX_NUMBERS][3]);
 

@@ -12,7 +12,8 @@
 #include "maps.h"
 #include "shader_constants.h"
 
-// Returns whether the shader reads a declared uniform. A struct member counts only after a dot, other names anywhere.
+// Returns whether the shader reads a declared uniform. A struct member counts as read only after a dot; other names
+// count anywhere.
 static bool is_used(const struct declarations *d, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -39,7 +40,7 @@ static void find_declared(struct shader_interface *r)
         }
 }
 
-// Finds the maps. They replace numbers of the material: a number with a map counts as declared.
+// Finds the maps. Maps replace numbers of the material, so a number with a map counts as declared.
 static void find_maps(struct shader_interface *r)
 {
     static const struct {
@@ -94,8 +95,8 @@ static bool is_material(enum uniform_semantic semantic)
 }
 
 // Returns whether a shader computes lighting: it declares a uniform of a material or light. A shader that declares only
-// the colour of the surface may multiply it by light from the vertex shader; for printed shaders this also applies to
-// any map.
+// the colour of the surface may multiply this colour by light from the vertex shader. In printed shaders, this also
+// applies to any map.
 static bool is_lit(const struct shader_interface *r, const struct declarations *d)
 {
     bool colored = false;
@@ -113,7 +114,7 @@ static bool is_lit(const struct shader_interface *r, const struct declarations *
            (declarations_uses(d, "dot") || declarations_uses(d, "normalize") || declarations_uses(d, "reflect"));
 }
 
-// Returns whether the words at `at` match `text`, a list separated by blanks in which "?" matches any word.
+// Returns whether the words at `at` match `text`, a list of words separated by blanks. "?" matches any word.
 static bool words_match(const struct declarations *d, int at, const char *text)
 {
     for (; *text; at++) {
@@ -126,8 +127,8 @@ static bool words_match(const struct declarations *d, int at, const char *text)
     return true;
 }
 
-// A shader printed by `lambent shader` has one loop for each kind of light, with the kind as a constant. Returns the
-// restrictions that these loops impose (reference_rule), or 0 for other shaders.
+// A shader printed by `lambent shader` contains one loop for each kind of light, with the kind as a constant. Returns
+// the restrictions that follow from these loops (reference_rule), or 0 for other shaders.
 static unsigned lambent_light_rules(const struct declarations *lit)
 {
     unsigned rules = 0;
@@ -177,9 +178,9 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
-// Finds the lighting of a shader printed by `lambent shader` from its functions. Lambert's lobe is ignored: the other
-// lobes call it, and alone it is the contract's own model without a highlight. If several rows match, the last one is
-// used, since a coat has GGX's lobe over another base.
+// Finds the lighting of a shader printed by `lambent shader` from its functions. Lambert's lobe is ignored, because the
+// other lobes call it. If Lambert's lobe is the only one, the contract's own model applies, without a highlight. If
+// several rows match, the last one is used, because a coat adds GGX's lobe to another base.
 static void find_printed(struct shader_interface *r)
 {
     static const struct {
@@ -233,19 +234,21 @@ static void apply_lambent_rules(struct shader_interface *r)
     r->supports |= first == RULE_DIRECTIONAL ? NEED_DIRECTIONAL
                    : first == RULE_SPOT      ? NEED_POINT | NEED_SPOT
                                              : NEED_POINT;
-    if (!lecture && !declarations_uses(&r->fragment, "gl_FrontFacing")) // a mistake in the lecture style
+    if (!lecture && !declarations_uses(&r->fragment, "gl_FrontFacing")) // in the lecture style, this is a mistake
         r->supports &= ~(unsigned)NEED_TWO_SIDES;
-    for (int i = 0; i < r->fragment.word_count && r->maps; i++) // an opaque material ignores the alpha of its map
+    // a shader of an opaque material ignores the alpha of its map
+    for (int i = 0; i < r->fragment.word_count && r->maps; i++)
         if (words_match(&r->fragment, i, "light . a = 1.0 ;"))
             r->supports &= ~(unsigned)NEED_ALPHA;
     r->supports |= rules;
     r->supports |= lam_reflection_describe(r->printed_model)->base ? 0 : RULE_NO_SPECULAR;
     r->supports |= is_flat(&r->fragment) ? RULE_FLAT : 0;
-    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // the rules determine the kind of each
+    for (int g = 0; g < MAX_LIGHT_GROUPS; g++) // the rules determine the kind of each light
         r->groups[g].kinds |= NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
 }
 
-// Returns the possible kinds of light of a shader with Lambent's names, by the members that it reads: lights[i].cone.
+// For a shader with Lambent's names, returns the possible kinds of light, which follow from the members that the shader
+// reads, such as lights[i].cone.
 static unsigned lambent_light_kinds(const struct shader_interface *r)
 {
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
@@ -305,7 +308,7 @@ static void add_light_name(struct shader_interface *r, const struct declarations
         return;
     struct light_group *group = &r->groups[n->group];
     int count = item->count > 0 ? item->count : 1;
-    if (r->contract->any_strengths) // the intended light is unknown
+    if (r->contract->any_strengths) // the check does not know which light is intended
         count = read_elements(r, item->name, count);
     group->list = group->list || item->count != 0;
     group->count = count > group->count ? count : group->count;
@@ -331,19 +334,19 @@ static void find_lights(struct shader_interface *r)
             group->kinds = lambent_light_kinds(r);
         else if (!group->kinds && group->has_direction)
             group->kinds = NEED_DIRECTIONAL;
-        if (!group->kinds && group->count) { // colours without a position
+        if (!group->kinds && group->count) { // the group contains colours but no position
             placeless = placeless < 0 ? g : placeless;
             group->count = 0;
         }
         all |= group->count ? group->kinds : 0;
     }
-    if (!all) // the position is in the vertex shader, or is a constant
+    if (!all) // if none is found, the position is in the vertex shader or is a constant
         r->groups[placeless < 0 ? 0 : placeless] = (struct light_group){
             .count = 1, .kinds = r->contract->supports & (NEED_POINT | NEED_DIRECTIONAL), .list = false};
 }
 
 // Returns the space in which the shaders compute lighting. If the course uses world space, shaders may also use eye
-// space: they then have the model-view matrix, but neither the model's own matrix nor the eye's position.
+// space. Such shaders declare the model-view matrix, but neither the model's own matrix nor the eye's position.
 static lam_light_frame find_space(const struct shader_interface *r)
 {
     bool eye = r->contract->space == LAM_FRAME_WORLD && shader_interface_uses(r, SEMANTIC_MODEL_VIEW) &&
@@ -398,14 +401,14 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
     find_declared(r);
     find_maps(r);
     shader_constants_find(r);
-    // A printed shader declares every member of a material, including members that it does not read.
+    // A printed shader also declares members of a material that it does not read.
     uint64_t named = contract->printed ? r->used : r->declared;
     r->physical =
         contract->reflection == LAM_REFLECTION_GGX || named >> SEMANTIC_METALLIC & 1 || named >> SEMANTIC_ROUGHNESS & 1;
     r->space = find_space(r);
     r->light_frame = find_light_frame(r);
     r->vertex_lit = texts->vertex && !is_lit(r, &r->fragment);
-    if (contract->any_strengths) // names of factors have no meaning
+    if (contract->any_strengths) // factors may have any names
         r->vertex_lit =
             texts->vertex && !declarations_uses(&r->fragment, "dot") && !declarations_uses(&r->fragment, "reflect");
     find_lights(r);

@@ -1,5 +1,5 @@
-// shader_interface.h: the interface of a pair of shaders: their declarations, their contract, and the features of it
-// that their names can express.
+// shader_interface.h: the interface of a pair of shaders: their declarations, their contract, and the features of the
+// contract that their names can express.
 #ifndef SHADER_INTERFACE_H
 #define SHADER_INTERFACE_H
 
@@ -16,9 +16,9 @@ struct shader_interface {
     struct declarations vertex, fragment;
     const struct contract *contract;
     uint64_t declared, used; // bit i is set if a shader declares, or reads, a uniform of semantic i
-    uint64_t constants;      // bit i is set if it has a constant of semantic i
-    // The maps that they read (map_bit), and the maps whose factor they also declare. A number with a map counts as
-    // declared.
+    uint64_t constants;      // bit i is set if a shader contains a constant of semantic i
+    // The maps that the shaders read (map_bit), and the maps whose factor they also declare. A number with a map counts
+    // as declared.
     unsigned maps, factors;
     bool has_tangents; // tangents are attributes, so the frame of a normal map does not require derivatives
     // The contract's values, or the numbers that the shaders contain.
@@ -29,8 +29,8 @@ struct shader_interface {
     // The groups, in the order of contract->groups. If the shaders declare no light, the first group is the light that
     // the contract fixes.
     struct light_group groups[MAX_LIGHT_GROUPS];
-    bool vertex_lit; // the fragment shader has no name of a material or light
-    bool physical;   // uses metalness and roughness; contract->physical describes the lighting
+    bool vertex_lit; // the fragment shader declares no name of a material or light
+    bool physical;   // the shaders use metalness and roughness; contract->physical describes the lighting
     // For a shader printed by `lambent shader`: its reflection model, tone curve, and whether it has multiple
     // scattering. They are AUTO, AUTO and false for other shaders and for Lambert's model.
     lam_reflection printed_model;
@@ -44,22 +44,22 @@ bool shader_interface_make(struct shader_interface *interface, const struct comp
                            const struct contract *contract, lam_error *error);
 void shader_interface_free(struct shader_interface *interface);
 
-// Return whether one of the shaders declares a uniform with that meaning, and whether it also reads it.
+// Return whether one of the shaders declares, or reads, a uniform of the semantic.
 bool shader_interface_declares(const struct shader_interface *interface, enum uniform_semantic semantic);
 bool shader_interface_uses(const struct shader_interface *interface, enum uniform_semantic semantic);
 
-// Raises the sizes of arrays that the text does not state to the driver's sizes.
+// If the text does not state the size of an array, raises the size to the size that the driver reports.
 void shader_interface_set_counts(struct shader_interface *interface, const int counts[MAX_LIGHT_GROUPS]);
 
 // Returns the number of lights that the shaders support, at least 1.
 int shader_interface_light_count(const struct shader_interface *interface);
 
-// Returns the reference scene as the shaders can express it: undeclared inputs get the contract's fixed values, and
-// lights of missing kinds are omitted.
+// Returns the version of the reference scene that the shaders can express: undeclared inputs get the contract's fixed
+// values, and lights of missing kinds are omitted.
 struct reference_scene shader_interface_scene(const struct shader_interface *interface,
                                               const struct reference_scene *reference_scene);
 
-// Returns the light of such a scene in element `element` of a group, or −1 if the element is black.
+// Returns the light of such a scene that belongs to element `element` of a group, or −1 if the element is black.
 int shader_interface_light(const struct shader_interface *interface, const struct reference_scene *scene, int group,
                            int element);
 

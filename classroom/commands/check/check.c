@@ -48,7 +48,7 @@ struct check_command {
     struct check_batch batch;
     struct check_submission *submissions;
     lam_check_contract *contract;
-    int code; // the exit code if an output cannot be written, otherwise 0
+    int code; // the exit code if the command cannot write an output, otherwise 0
     char *scene_list;
     const char *scenes[MAX_SCENES];
 };
@@ -94,7 +94,7 @@ static bool find_submissions(struct check_command *c, int operand_count, char **
     return true;
 }
 
-// Checks the formats of the output files before the work starts. Writing them may still fail later.
+// Checks the formats of the output files before the work starts. Writing the files may still fail later.
 static bool check_outputs(const struct check_command *c, lam_error *error)
 {
     const struct options *o = c->options;
@@ -142,7 +142,7 @@ static bool open_tables(struct check_command *c, lam_error *error)
     return true;
 }
 
-// Creates the folder of the page and the sheets. The verdicts are printed even if this fails.
+// Creates the folder of the page and the sheets. The command prints the verdicts even if this fails.
 static bool prepare_page(struct check_command *c, lam_error *error)
 {
     char *page = check_page_path(c->options->picture.output, error);
@@ -172,7 +172,7 @@ static bool prepare(struct check_command *c, int operand_count, char **operands,
     return c->batch.count == 1 || (c->batch.cache = lam_check_cache_make(max_cache_bytes, error));
 }
 
-// Writes the files that need all results. Only reports failures, because the verdicts are already printed.
+// Writes the files that need all results. A failure is only reported, because the verdicts are already printed.
 static int finish(struct check_command *c)
 {
     const struct options *o = c->options;

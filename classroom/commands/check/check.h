@@ -10,16 +10,16 @@
 
 // --- the drawing process (check_process.c)
 
-// The first argument of a drawing process, which is not a command in the table. The second argument is the memory limit
+// The first argument of a drawing process. It is not in the table of commands. The second argument is the memory limit
 // in bytes.
 #define CHECK_WORKER "check-worker"
 
 // Runs the drawing process, which reads a request from standard input and writes the result to standard output.
 void check_worker(const char *memory_limit_bytes) __attribute__((noreturn));
 
-// The value of lam_check_params.user for check_process.
+// The limits for check_process, which receives this struct as lam_check_params.user.
 struct check_process {
-    double time_limit_s; // processor time of all threads
+    double time_limit_s; // limits the processor time of all threads
     uint64_t memory_limit_bytes;
 };
 lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_bytes *result, lam_error *error);
@@ -30,11 +30,12 @@ lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_by
 struct check_submission {
     char *name; // the path of the fragment shader; in a class, relative to the folder and without the extension
     char *fragment, *vertex;
-    const char *problem; // the reason why nothing can be checked, or NULL
+    const char *problem; // the reason why the submission cannot be checked, or NULL
 };
 void check_free_submissions(struct check_submission *submissions, int count);
 
-// Returns the length of a path without its extension: "a/phong" of "a/phong.frag" and "a/phong.frag.glsl".
+// Returns the length of a path without its extension. For "a/phong.frag" and "a/phong.frag.glsl", this is the length of
+// "a/phong".
 size_t check_stem_length(const char *path);
 bool check_same_stem(const char *a, const char *b);
 bool check_is_vertex(const char *path);   // decided by the extension: .vert, .vs, .vsh or .vertex, also followed by
@@ -42,15 +43,16 @@ bool check_is_vertex(const char *path);   // decided by the extension: .vert, .v
 bool check_is_fragment(const char *path); // decided by the extension: .frag, .fs, .fsh or .fragment, also followed by
                                           // .glsl
 
-// Pairs the files of a command line. A vertex shader belongs to the fragment shader with the same folder and name;
-// fragment shaders without one use `vertex`. Returns the number of submissions, or −1 on failure.
+// Pairs the files of a command line. A vertex shader belongs to the fragment shader with the same folder and name.
+// Fragment shaders without such a vertex shader use `vertex`. Returns the number of submissions, or −1 on failure.
 int check_pair(int count, char **files, const char *vertex, struct check_submission **submissions, lam_error *error);
 
 // Finds the submissions of a class in alphabetical order. Returns their number, or −1 on failure.
 int check_find(const char *folder, struct check_submission **submissions, lam_error *error);
 
-// Returns the path of a sheet, allocated with malloc. This is `output`, or a file in the folder `output` (always for a
-// class) with the submission's name, in which '-' replaces '/'. Returns NULL if memory runs out.
+// Returns the path of a sheet, allocated with malloc. The path is `output` or, if `output` is a folder (always for a
+// class), a file in it. This file is named after the submission, with '-' instead of '/'. Returns NULL if memory runs
+// out.
 char *check_sheet_path(const char *output, const struct check_submission *submissions, int index, bool in_class);
 
 // Reads a text file, or standard input for "-", into memory allocated with malloc. Returns NULL on failure.
@@ -61,18 +63,18 @@ char *check_read_text(const char *path, lam_error *error);
 struct check_result {
     const struct check_submission *submission;
     lam_check_report report; // contains a verdict if error.code is 0
-    lam_error error;         // why there is no verdict
-    lam_error sheet_error;   // why there is no sheet
+    lam_error error;         // the reason why there is no verdict
+    lam_error sheet_error;   // the reason why there is no sheet
     char *sheet;             // the sheet's path; NULL if none was requested or drawn
-    int code;                // the exit code for this shader
+    int code;                // the exit code that results from this shader
 };
 
 // Returns a scene's result in one or two words: "same", "differs", or "black" if it equals a black reference and earns
 // no points.
 const char *check_scene_word(const lam_check_scene *scene);
 
-// Returns the points of a scene: its weight, 0, or −1 if the scene does not count because the exercise requires none of
-// its terms.
+// Returns the points of a scene: its weight, 0, or −1 if the scene earns no points because the exercise requires none
+// of its terms.
 double check_scene_points(const lam_check_scene *scene);
 
 struct check_points {
@@ -91,17 +93,16 @@ struct check_points check_points_of(const lam_check_report *report);
 void check_print_no_finding(FILE *file, const lam_check_report *report);
 void check_report_text(FILE *file, const lam_check_report *report, const char *shader, double tolerance);
 void check_report_line(FILE *file, const struct check_result *result); // prints a line of text for a class
-// `name` is the name of a submission in a class, otherwise NULL.
+// In a class, `name` is the name of the submission; otherwise it is NULL.
 void check_report_json(FILE *file, const struct check_result *result, const char *name, double tolerance);
 // Prints the lists of contracts, scenes and mistakes.
 bool check_print_lists(FILE *file, lam_error *error);
 
-// Returns one sentence: the first mistake, the first message or the meaning of the verdict, in this order of
-// preference. Returns "" if the shader passes.
+// Returns one sentence: the first mistake, otherwise the first message, otherwise the meaning of the verdict. Returns
+// "" if the shader passes.
 const char *check_says(const lam_check_report *report);
 
-// Writes a CSV value, in quotes if necessary. Escapes names that start like a formula, which a spreadsheet would
-// evaluate.
+// Writes a CSV value, in quotes if necessary. Escapes names that a spreadsheet would evaluate as formulas.
 void check_csv_text(FILE *file, const char *text);
 
 // Write the rows of a CSV file and of Moodle's worksheet. They return 0, or the errno of a file that cannot be written.
@@ -110,7 +111,7 @@ int check_csv_row(FILE *file, const struct check_result *result);
 int check_moodle_head(FILE *file);
 int check_moodle_row(FILE *file, const struct check_result *result);
 
-// Writes the result of one submission as a JSON file. Returns 0 or errno.
+// Writes the result of one submission as a JSON file. Returns 0, or the errno of a file that cannot be written.
 int check_gradescope(FILE *file, const struct check_result *result);
 int check_submitty(FILE *file, const struct check_result *result);
 
@@ -136,7 +137,7 @@ void check_page_free(struct check_page *page); // accepts NULL
 bool check_sheet(const lam_check_report *report, const char *shader, const struct options *options, const char *path,
                  lam_error *error);
 
-// Runs many checks (check_batch.c)
+// Many checks at a time (check_batch.c)
 
 struct check_batch {
     const struct options *options;
@@ -149,7 +150,7 @@ struct check_batch {
     int count;
     bool in_class;
     struct check_table tables[CHECK_TABLES];
-    bool without_sheets;     // the folder for sheets cannot be created
+    bool without_sheets;     // set if the folder for sheets cannot be created
     struct check_page *page; // NULL if there is no page
 };
 

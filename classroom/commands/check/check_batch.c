@@ -1,7 +1,7 @@
 // check_batch.c: checks many shaders in parallel and prints the results in order.
 //
-// Each thread takes the next submission, draws it in a separate process and compares the pictures. The thread that
-// completes the next result in order prints it and all following results that are ready.
+// Each thread takes the next submission, draws it in a separate process and compares the pictures. When a thread
+// completes the result that is next in order, the thread prints it, together with all following results that are ready.
 #include "check.h"
 
 #include <errno.h>
@@ -60,8 +60,8 @@ struct work {
 
 // --- one submission
 
-// Writes the contract of a pair of shaders. A failure does not affect the verdict. Without a verdict, the findings up
-// to then are still useful. An existing file is kept, since it may have been corrected by hand.
+// Writes the contract of a pair of shaders. A failure does not affect the verdict. The contract is useful even without
+// a verdict. An existing file is kept, because somebody may have corrected it by hand.
 static void write_contract(const char *path, const lam_check_params *params, struct check_result *result)
 {
     lam_bytes text = {0};
@@ -190,7 +190,7 @@ static void print_result(struct work *w, const struct check_result *result)
     struct check_batch *b = w->b;
     bool alone = b->count == 1 && !b->in_class;
     if (result->error.code && alone)
-        *w->first = result->error; // the caller reports this error
+        *w->first = result->error; // the caller reports the first error
     else if (result->error.code)
         say_error(result->error.text);
     print_report(b, result);
@@ -211,7 +211,8 @@ static void print_result(struct work *w, const struct check_result *result)
 
 // --- the threads
 
-// Returns the next submission to check, or −1 if there is none. Waits if too many results wait for a slow submission.
+// Returns the next submission to check, or −1 if there is none. Blocks while too many finished results wait for a slow
+// submission.
 static int take_next(struct work *w)
 {
     pthread_mutex_lock(&w->lock);

@@ -1,4 +1,4 @@
-// check_csv.c: writes comma-separated values (RFC 4180) with one row for each shader.
+// check_csv.c: writes a file of comma-separated values (RFC 4180), with one row for each shader.
 #include "check.h"
 
 #include <errno.h>
@@ -91,5 +91,5 @@ int check_csv_row(FILE *file, const struct check_result *result)
     putc(',', file);
     check_csv_text(file, result->sheet ? result->sheet : "");
     putc('\n', file);
-    return fflush(file) == 0 ? 0 : errno; // saves this grade even if a later check fails
+    return fflush(file) == 0 ? 0 : errno; // so that this grade is saved even if a later check fails
 }

@@ -3,8 +3,8 @@
 // A folder with one fragment shader is one submission, named after the folder. If the folder has a single vertex
 // shader, the submission uses it. In other folders, and in the class's folder, each fragment shader is a submission
 // named after the file. It uses the vertex shader with the same name in the same folder, or the folder's only vertex
-// shader without a matching fragment shader. Hidden files and links are ignored. Folders below MAX_DEPTH are reported
-// as a problem.
+// shader without a matching fragment shader. Hidden files and links are ignored. Folders nested more than MAX_DEPTH
+// deep are reported as a problem.
 #include "check.h"
 
 #include <dirent.h>
@@ -167,7 +167,7 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
         }
         int before = f->count;
         ok = search(f, top, paths[i], depth + 1, error);
-        // Also lists folders without shaders, so that no submission is overlooked.
+        // A folder without shaders is listed too, so that no submission is overlooked.
         if (ok && depth == 0 && f->count == before &&
             !add(f, name_of(top, paths[i], false), NULL, NULL,
                  "there is no shader in this folder: expected a file that ends in .frag, .fs, .fsh or .fragment"))

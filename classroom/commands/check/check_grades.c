@@ -35,7 +35,7 @@ int check_moodle_head(FILE *file)
     return fflush(file) == 0 ? 0 : errno;
 }
 
-// Returns the reason for a missing verdict without the folders of the teacher's computer.
+// Returns the reason for a missing verdict, without the names of folders on the teacher's computer.
 static const char *reason_of(const struct check_result *result)
 {
     const char *text = result->error.text, *path = result->submission->fragment;
@@ -45,7 +45,7 @@ static const char *reason_of(const struct check_result *result)
     return text + (slash ? slash + 1 - path : 0);
 }
 
-// Leaves the grade empty for a submission without a verdict, so that Moodle keeps the current grade.
+// Writes one row. For a submission without a verdict, the grade is empty, so that Moodle keeps the current grade.
 int check_moodle_row(FILE *file, const struct check_result *result)
 {
     char full[128], number[24];
@@ -113,7 +113,7 @@ int check_submitty(FILE *file, const struct check_result *result)
     bool passes = !result->error.code && r->verdict == LAM_CHECK_PASSES;
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
-    json_text(&json, "status", "success"); // the status of the check itself
+    json_text(&json, "status", "success"); // states whether the check ran, not whether the shader passes
     json_open(&json, "data", '{');
     json_number(&json, "score", share);
     json_text(&json, "message",

@@ -113,7 +113,7 @@ char *check_sheet_path(const char *output, const struct check_submission *submis
     if (!in_class && output_is_named(output))
         return strdup(output);
     char *path = NULL, *name = flat_name(&submissions[index], in_class);
-    int same = 1; // the second of "a-b" and "a/b" becomes "a-b-2"
+    int same = 1; // of the two names "a-b" and "a/b", the second becomes "a-b-2"
     for (int i = 0; name && i < index; i++) {
         char *other = flat_name(&submissions[i], in_class);
         same += other && strcmp(other, name) == 0;

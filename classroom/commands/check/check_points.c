@@ -25,7 +25,7 @@ const char *check_verdict_text(lam_check_verdict verdict)
 const char *check_scene_word(const lam_check_scene *scene)
 {
     if (!scene->passes && scene->maximum == 0 && !scene->not_numbers)
-        return "black, no points"; // a black picture scores no points, even if it matches
+        return "black, no points"; // a black picture earns no points, even if it matches the reference
     return scene->passes ? "same" : "differs";
 }
 

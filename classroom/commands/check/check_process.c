@@ -1,9 +1,9 @@
 // check_process.c: runs the tested shaders in a separate process, another instance of this program. The process is
-// stopped when it exceeds its time or memory limit; a crash counts as a verdict.
+// stopped when it exceeds its time or memory limit. A crash is reported as a verdict.
 //
 // The time limit applies to the processor time of all threads, so that other load on the machine does not make a shader
 // appear endless. The processor may be idle while a graphics card works, so the elapsed time is limited too, to
-// WALL_TIMES times as much.
+// WALL_TIMES times the limit of processor time.
 #include "check.h"
 
 #include <errno.h>
@@ -25,7 +25,8 @@
 #include "interrupt.h"
 
 enum { MAX_BYTES = 1 << 30, WALL_TIMES = 20 };
-// Exit codes of the drawing process in addition to lam_code: it ran out of memory, or the driver called exit().
+// Exit codes of the drawing process in addition to lam_code: the process ran out of memory, or the driver called
+// exit().
 enum { EXIT_MEMORY = 200, EXIT_DRIVER = 201 };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -58,8 +59,8 @@ static bool read_to_end(int from, lam_bytes *bytes)
     }
 }
 
-// Returns whether the process has run out of memory: it cannot even allocate half of the limit. Called if the driver
-// aborts.
+// Returns whether the process has run out of memory, that is, whether it cannot even allocate half of the limit. Called
+// if the driver aborts.
 static rlim_t memory_limit;
 static bool is_out_of_memory(void)
 {
@@ -94,8 +95,8 @@ static uint64_t max_resident_bytes(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
 }
 
-// Ends the process as soon as it exceeds its memory limit. The system's peak value also covers the time before exec(),
-// when the process was a copy of its parent, so a parent larger than the limit raises the limit.
+// Exits as soon as the process exceeds its memory limit. The system's peak value also covers the time before exec(),
+// when the process was a copy of its parent. If the parent is larger than the limit, the limit is therefore raised.
 static void *watch_memory(void *unused)
 {
     const struct timespec pause = {.tv_nsec = 2000000};
@@ -106,8 +107,8 @@ static void *watch_memory(void *unused)
     return unused;
 }
 
-// Sets two limits. It watches the used memory, and limits allocations with a margin for the stacks of the driver's
-// threads, which allocate more than they use.
+// Sets two limits: on the memory in use, which a thread watches, and on allocations. The second limit includes a margin
+// for the stacks of the driver's threads, which allocate more memory than they use.
 static void bound_memory(const char *bytes)
 {
     memory_limit = (rlim_t)strtoull(bytes, NULL, 10);
@@ -130,7 +131,7 @@ void check_worker(const char *memory)
     bound_memory(memory);
     int answer = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY);
     if (answer < 0 || nowhere < 0 || dup2(nowhere, STDOUT_FILENO) < 0 || dup2(nowhere, STDERR_FILENO) < 0)
-        _exit(LAM_LIMIT); // drivers print to both streams
+        _exit(LAM_LIMIT); // drivers print to both streams, so both are redirected
     lam_bytes request = {0}, drawn = {0};
     lam_error error = {0};
     bool ok = read_to_end(STDIN_FILENO, &request) || complain(&error, LAM_LIMIT, "out of memory");
@@ -156,7 +157,7 @@ struct child {
     int to, from; // −1 if closed
 };
 
-// Sets a limit that the system enforces in case the parent dies first.
+// Sets a limit of processor time that the system enforces even if the parent process dies.
 static void bound_time(double limit_s)
 {
     rlim_t seconds = (rlim_t)limit_s + 2;
@@ -173,7 +174,7 @@ static double processor_time_s(pid_t pid)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// Starts this program again, by its path if /proc is missing.
+// Starts this program again, by `path` if /proc is missing.
 static void become_worker(const char *memory, const char *path)
 {
     execl("/proc/self/exe", "lambent", CHECK_WORKER, memory, (char *)NULL);
@@ -183,7 +184,7 @@ static void become_worker(const char *memory, const char *path)
 static bool start(struct child *child, const struct check_process *how, lam_error *error)
 {
     const char *path = (const char *)getauxval(AT_EXECFN);
-    char memory[32]; // written before fork(), since other threads may hold locks
+    char memory[32]; // written before fork(), because other threads may hold locks during fork()
     snprintf(memory, sizeof memory, "%llu", (unsigned long long)how->memory_limit_bytes);
     int in[2] = {-1, -1}, out[2] = {-1, -1};
     *child = (struct child){-1, -1, -1};
@@ -191,7 +192,7 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     pid_t parent = getpid();
     child->pid = piped ? fork() : -1;
     if (child->pid == 0) {
-        interrupt_with_parent(parent); // the worker inherits it
+        interrupt_with_parent(parent); // the worker inherits this setting
         bound_time(how->time_limit_s);
         if (dup2(in[0], STDIN_FILENO) >= 0 && dup2(out[1], STDOUT_FILENO) >= 0)
             become_worker(memory, path ? path : "lambent");
@@ -212,7 +213,8 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     return true;
 }
 
-// Sends as much as the pipe accepts. If the other end is closed, the process has died, and its exit status will follow.
+// Sends as many bytes as the pipe accepts. If the process has closed its end of the pipe, it has died, and its exit
+// status will follow.
 static void send_some(struct child *child, const lam_bytes *request, size_t *sent)
 {
     ssize_t n = write(child->to, (const char *)request->data + *sent, request->size - *sent);

@@ -8,8 +8,8 @@
 
 enum { INK = 0x222222, GREY = 0x777777, GOOD = 0x0a7d33, BAD = 0xb3261e, GAP = 12, HEAD = 96, SIDE = 196 };
 
-// Converts floats to bytes without encoding, as a screen shows a shader's output. Transparent pixels become white, so
-// that the model is visible.
+// Converts floats to bytes without encoding, because a screen shows the output of a shader without encoding.
+// Transparent pixels become white, so that the model is visible.
 static bool to_bytes(const lam_image *from, lam_image *bytes, lam_error *error)
 {
     if (!lam_image_make(bytes, from->width, from->height, LAM_RGBA8, error))

@@ -37,7 +37,7 @@ static double highlight_value(const struct curve *c, double x)
 // interval until its ends are neighbouring floats.
 static double find_below(const struct curve *curve, double level, double farthest)
 {
-    // An inverse square evaluates to 0 at the light itself, so the search starts next to it.
+    // An inverse square evaluates to 0 at the light itself, so the search starts next to the light.
     double low = curve->value(curve, 0) == 0 ? 1e-3 : 0, high = farthest < 1 ? farthest : 1;
     if (curve->value(curve, low) < level)
         return 0;
@@ -83,7 +83,7 @@ static bool add_faded(struct plot *plot, const lam_light *light, const char *nam
     if (!curve)
         return false;
     curve->light = *light;
-    curve->light.name = NULL; // the name's owner is freed before the plot
+    curve->light.name = NULL; // the owner of the name is freed before the plot
     curve->light.object = NULL;
     curve->marked = true;
     lam_attenuation a = light->attenuation;
@@ -104,7 +104,8 @@ static bool add_words(struct plot *plot, const char *kind, const char *word, con
                       lam_error *error)
 {
     lam_error reason;
-    lam_scene *scene = lam_scene_make(&reason); // has no triangles, so lengths in r are rejected
+    // an empty scene: it contains no triangles, so lengths in r are rejected
+    lam_scene *scene = lam_scene_make(&reason);
     bool read = scene && lam_scene_add_light_text(scene, light, NULL, &reason) == 0;
     bool ok = read ? add(plot, lam_scene_light(scene, 0), word, error)
                    : complain(error, reason.code, "plot %s: '%.60s': %.300s", kind, word, reason.text);
@@ -238,7 +239,7 @@ struct kind {
     const char *name, *title, *x_label, *y_label;
     bool (*add)(struct plot *plot, const char *word, lam_error *error);
     const char *standard[5]; // the default curves
-    double x_max, farthest;  // 0 means fitted to the curves
+    double x_max, farthest;  // 0 means that the axis is fitted to the curves
     int per_color;           // the number of curves with the same colour
 };
 
@@ -290,9 +291,9 @@ static const struct kind *find_kind(const char *name, lam_error *error)
     return NULL;
 }
 
-// Returns the length of the axis, which extends to where the last curve has fallen to a twentieth, so that the curves
-// fill the plot. Returns 10 if no curve does. The point where a curve falls below 1/255 is outside the axis, so the
-// legend states it.
+// Returns the length of the axis. The axis ends where the last curve has fallen to a twentieth, so that the curves fill
+// the plot. The length is 10 if no curve falls that far. The point where a curve falls below 1/255 is outside the axis,
+// so the legend states it.
 static double length_of(const struct plot *plot, double farthest)
 {
     double most = 0;
@@ -327,7 +328,7 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
         curve->below = find_below(curve, 1.0 / 255, kind->farthest);
     }
     plot->x_max = o->plot.to > 0 ? o->plot.to : kind->x_max > 0 ? kind->x_max : length_of(plot, kind->farthest);
-    // Attenuations may start above 1. Clips values above 2.
+    // Attenuations may start above 1. The plot clips values above 2.
     for (int i = 0; i < plot->count; i++)
         for (int k = 0; k <= TABLE_STEPS; k++)
             if (plot->curves[i].value(&plot->curves[i], plot->x_max * k / TABLE_STEPS) > 1)
@@ -341,7 +342,7 @@ static void print_text(FILE *file, const struct plot *plot)
 {
     for (int i = 0; i < plot->count; i++) {
         const struct curve *c = &plot->curves[i];
-        // Pads by characters, not bytes.
+        // Pads by the number of characters, not of bytes.
         int letters = 0;
         for (const char *s = c->label; *s; s++)
             letters += (*s & 0xC0) != 0x80;

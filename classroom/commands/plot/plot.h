@@ -16,7 +16,7 @@ struct curve {
     lam_reflection reflection;
     float shininess;
     double below; // the smallest x where the curve is below 1/255; infinite if it never is
-    bool marked;  // whether a dot with its number is drawn there
+    bool marked;  // whether a dot with the number `below` is drawn there
 };
 
 struct plot {

@@ -133,7 +133,8 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
     enum { STEPS = 400 };
     struct path path = {0};
     double x = 0, y = curve->value(curve, 0);
-    // An inverse square is 0 at the light itself and unbounded next to it, so the curve starts next to it.
+    // An inverse square is 0 at the light itself and unbounded next to the light, so the curve starts next to the
+    // light.
     double beside = plot->x_max * 1e-4;
     if (y == 0 && curve->value(curve, beside) > plot->y_max)
         y = curve->value(curve, x = beside);
@@ -149,15 +150,16 @@ static bool draw_curve(const struct plot *plot, const struct layout *at, const s
     return ok;
 }
 
-// Draws dots where curves fall below the level, and prints numbers above them, in several rows if they would overlap.
+// Draws dots where curves fall below the level, and prints numbers above them, in several rows if the numbers would
+// overlap.
 static bool draw_marks(const struct plot *plot, const struct layout *at, struct drawing *d, lam_error *error)
 {
-    double u = at->unit, taken[CURVES_MAX] = {0}; // the right end of each row of numbers
+    double u = at->unit, taken[CURVES_MAX] = {0}; // the right end of the numbers in each row
     for (int k = 0; k < CURVES_MAX; k++)
         taken[k] = -1e9;
     double last = -1;
     for (int n = 0; n < plot->count; n++) {
-        // The next mark to the right.
+        // Find the next mark to the right.
         const struct curve *curve = NULL;
         int at_once = 0;
         for (int i = 0; i < plot->count; i++) {
@@ -188,8 +190,8 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
     return true;
 }
 
-// Draws a curve's line in the legend. If the curve falls below 1/255 outside the axis, the plot has no dot for it, and
-// the legend gives the value.
+// Draws a curve's line in the legend. If the curve falls below 1/255 outside the axis, the plot contains no dot for
+// this value, and the legend states it.
 static const char *legend_of(const struct plot *plot, const struct curve *curve, char text[LEGEND_SIZE])
 {
     snprintf(text, LEGEND_SIZE, "%s", curve->label);

@@ -39,15 +39,15 @@ struct build {
 
 // --- choices for all ranges of a scene
 
-// Lines and points have no exported shader, because their rectangles depend on the camera.
+// Shaders of lines and points are not exported, because the rectangles of lines and points depend on the camera.
 static bool is_selected(const struct frame *frame, const struct frame_draw_range *range, int object)
 {
     const struct frame_draw *draw = &frame->draws[range->draw];
     return !draw->strokes && (object < 0 || draw->object == object);
 }
 
-// Merges the maps of another material, which may have more: a missing map is 1 everywhere (glsl_map_values). Returns
-// false if one source cannot read both.
+// Merges the maps of another material. A map that one of the materials lacks is 1 everywhere for it (glsl_map_values).
+// Returns false if one source cannot read both.
 static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
 {
     bool same = true;
@@ -89,8 +89,8 @@ static bool fail_nothing_selected(const struct build *m, int object, lam_error *
                 lam_scene_object_count(m->scene) - 1);
 }
 
-// Merges the choices of all ranges, for one pair of sources. Vertex colours, back materials and the environment may be
-// used by some ranges only; the number of sides and the presence of tangents must be the same in all.
+// Merges the choices of all ranges, for one pair of sources. Only some of the ranges may use vertex colours, back
+// materials or the environment. All ranges must have the same number of sides, and tangents in all of them or in none.
 static bool merge_choices(struct build *m, lam_stage stage, int object, bool hardware_filter, lam_error *error)
 {
     const struct frame *frame = &m->frame;
@@ -109,7 +109,7 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, bool har
         if (hardware_filter)
             glsl_use_hardware_filter(&own);
         for (int side = 0; side < 2 && mapped && !range->translucent; side++)
-            if (own.alpha[side] == LAM_ALPHA_BLEND) // treated like materials with maps, whose opacity is 1
+            if (own.alpha[side] == LAM_ALPHA_BLEND) // treated as opaque, because all opacities of this range are 1
                 own.alpha[side] = LAM_ALPHA_OPAQUE;
         if (first < 0) {
             m->choices = own;
@@ -260,7 +260,7 @@ static void add_uniform(const struct build *m, struct uniform_list *t, const str
     t->failed |= !u->name;
 }
 
-// Lists the uniforms of a draw or, with NULL, of the frame. In a block, array elements begin at multiples of 16.
+// Lists the uniforms of a draw or, with NULL, of the frame. In a block, array elements begin at multiples of 16 bytes.
 static bool list_uniforms(const struct build *m, const struct frame_draw_range *range, const lam_shader_uniform **out,
                           int *count)
 {

@@ -1,4 +1,4 @@
-// environment.glsl: light from all around.
+// environment.glsl: light from the environment.
 
 // The point where a direction meets a cube, -1...1 on its face, and the number of the face (OpenGL 4.6, 8.13).
 vec3 cube_point(vec3 e)
@@ -49,7 +49,8 @@ vec3 environment_light_texel(float i)
     }
 }
 
-// The light of a level at a point of a cube. Each level is six faces with a border of one texel, one after the other.
+// The light at a point of the cube, from one level. A level consists of six faces, one after the other, each with a
+// border of one texel.
 vec3 level_color(int level, vec3 point)
 {
     const float sizes[LEVEL_COUNT] = float[LEVEL_COUNT](LEVEL_SIZES);
@@ -72,7 +73,7 @@ vec3 irradiance_at(vec3 normal)
     return level_color(int(PREFILTERED_LAST) + 1, cube_point(environment_matrix * normal));
 }
 
-// Level 0 is the environment, as a mirror shows it.
+// Level 0 is the environment itself, without prefiltering.
 vec3 prefiltered_at(vec3 direction, float level)
 {
     vec3 point = cube_point(environment_matrix * direction);

@@ -15,7 +15,7 @@ void main()
         depth_id = uvec2(floatBitsToUint(gl_FragCoord.z), uint(first_triangle + triangle) + 1u);
     }
     if (peels) {
-        // At equal depth the lower triangle number is in front.
+        // At equal depth, the triangle with the lower number is in front.
         uvec2 nearer = texelFetch(nearer_depth_ids, ivec2(gl_FragCoord.xy), 0).xy;
         uvec2 opaque = texelFetch(opaque_depth_ids, ivec2(gl_FragCoord.xy), 0).xy;
         bool peeled = depth_id.x < nearer.x || (depth_id.x == nearer.x && depth_id.y <= nearer.y);
@@ -95,14 +95,14 @@ void main()
             if (shadows) {
                 lit_triangle = first_triangle + triangle;
                 if (from_vertices) {
-                    lit_corner = 2; // the one that OpenGL takes flat values from
+                    lit_corner = 2; // OpenGL uses the flat values of this corner
                 }
             }
             vec3 rest;
             vec4 light = light_point(eye_position, n, tangent_field ? field_tangent(unit3(n), model_view[1].xyz, model_view[0].xyz)
                 : eye_tangent, turn, coat, tint, gl_FrontFacing, maps, rest);
             if (catches) {
-                // Black, with the share of the light as alpha that does not reach the point.
+                // Black; alpha is the share of the light that does not reach the point.
                 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
                 float received = dot(luminance, light.rgb);
                 unobstructed = true;
@@ -120,7 +120,7 @@ void main()
             }
         }
         if (separate_texture_terms) {
-            // The diffuse map multiplies the ambient and diffuse light alone.
+            // The diffuse map multiplies only the ambient and the diffuse light.
             if (color_map_last) {
                 light.rgb = light.rgb * maps.color;
             }
@@ -155,7 +155,7 @@ void main()
         if (writes_transmittance) {
             through = vec4(has_transmission ? 1.0 - light.a * (1.0 - passing) : vec3(1.0 - light.a), 1.0);
         } else if (blends_transmission) {
-            // One alpha for all channels: what goes through is blended without its colour.
+            // A single alpha for all channels: the transmitted light is blended without its colour.
             float solid = 1.0 - dot(passing, vec3(1.0 / 3.0));
             light = vec4(light.rgb / max(solid, 1.0e-3), light.a * solid);
         }

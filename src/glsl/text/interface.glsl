@@ -1,4 +1,5 @@
-// interface.glsl: what the shaders of a program hand on, and what the fragment shader writes.
+// interface.glsl: the values that the vertex shader passes to the fragment shader, and the outputs of the fragment
+// shader.
 
 VARYING vec3 eye_position;
 VARYING vec3 eye_normal;

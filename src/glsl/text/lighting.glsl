@@ -1,11 +1,12 @@
 // lighting.glsl: the light that leaves a point.
 //
-// As in all texts of this folder, `if` and ?: ask for facts of a program (glsl_rows.h, glsl_stage.c), and words in capitals stand for
-// what its choices make of them. A branch with such a condition is not a scope. What a program does not read is left out (specialize.h).
+// As in all files of this folder, the conditions of `if` and ?: may be facts of a program (glsl_rows.h, glsl_stage.c),
+// and names in capitals are replaced by texts that depend on its choices. A branch with such a condition is not a
+// scope. Code that a program does not need is removed (specialize.h).
 
-// What the last point that was lit lets through of the light behind it.
+// The share of the light behind it that the last lit point transmits.
 vec3 passing = vec3(0.0);
-// How much the normals of the surface and of its coat vary within the pixel.
+// The variance of the normals of the surface and of its coat within the pixel.
 float pixel_variance = 0.0;
 float coat_variance = 0.0;
 
@@ -16,7 +17,7 @@ if (unlit) {
     // any length; p and normal are in eye space.
 }
 // `tint` is the vertex colour: a factor of the ambient and diffuse terms, and of the opacity.
-// `maps` is what the material's textures say of the point.
+// `maps` contains the values of the material's maps at the point.
 // `rest` is the part of the light that the diffuse map does not multiply.
 vec4 light_point(vec3 p, vec3 normal, vec3 tangent, float turn, vec3 coat, vec4 tint, bool front, surface_maps maps, out vec3 rest)
 {

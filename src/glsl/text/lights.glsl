@@ -1,6 +1,6 @@
-// lights.glsl: the lights as they act on a material.
+// lights.glsl: the lights, multiplied by the colours of a material.
 
-// The share of the light from all around that reaches this pixel's surface.
+// The share of the surrounding light that reaches the surface at this pixel.
 float unoccluded_share()
 {
     if (catches && unobstructed) {

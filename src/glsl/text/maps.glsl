@@ -1,6 +1,7 @@
-// maps.glsl: the values of a material's maps at a point, once for each side (glsl_maps.c). The rules are those of src/cpu/shade/textures.inc.
-// For a map NAME, has_NAME says whether the side has it; NAME_rgb, NAME_alpha and NAME_number stand for its colour, its alpha and its channel,
-// with the map's scale and offset; own_FIELD stands for a field of the side's material.
+// maps.glsl: the values of a material's maps at a point, once for each side (glsl_maps.c). The same rules apply as in
+// src/cpu/shade/textures.inc. For a map NAME, has_NAME is true if the side has the map. NAME_rgb, NAME_alpha and
+// NAME_number are replaced by its colour, its alpha and its channel, including the map's scale and offset. own_FIELD is
+// replaced by a field of the side's material.
 
 if (!of_back) {
     // The values of maps at a point.
@@ -17,9 +18,9 @@ if (!of_back) {
         float roughness; // 0 a mirror, 1 matt
         float metallic; // 0 a dielectric, 1 a metal
         float dielectric; // factor of the diffuse light
-        vec2 slopes; // by how much the surface rises along the next two
-        vec3 across; // the direction of the picture's rows in eye space, not unit
-        vec3 down; // the direction of its columns
+        vec2 slopes; // slopes of the surface along `across` and `down`
+        vec3 across; // direction of the picture's rows in eye space, not unit
+        vec3 down; // direction of the picture's columns
         float level; // level of detail
         vec3 coat_normal; // components of the coat's normal
         float normal_variance; // the variance of the normals within the pixel
@@ -61,7 +62,7 @@ surface_maps MAPS_OF_SIDE(footprint first, footprint second, vec3 p, vec4 tint)
         ? map_variance(clearcoat_normal_texel.xyz * 2.0 - 1.0, clearcoat_normal_scale, clearcoat_normal_level) : 0.0;
     maps.level = LEVEL;
     if (has_bump && !shows_level) {
-        // The heights one texel of level 0 before and behind the point, along rows and columns.
+        // The heights one texel of level 0 before and after the point, along rows and columns.
         vec2 one = 1.0 / vec2(textureSize(bump_picture, 0));
         float left = map_texel(bump_picture, bump_s - vec4(0.0, 0.0, one.x, 0.0), bump_t, BUMP_SAMPLING)BUMP_CHANNEL;
         float right = map_texel(bump_picture, bump_s + vec4(0.0, 0.0, one.x, 0.0), bump_t, BUMP_SAMPLING)BUMP_CHANNEL;

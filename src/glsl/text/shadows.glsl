@@ -1,15 +1,15 @@
 // shadows.glsl: rays to the lights through the hierarchy (docs/lighting/shadows.md, in float).
 
-uniform sampler2D shadow_tree; // nodes of the hierarchy, its triangles, and the place of each triangle by its number
+uniform sampler2D shadow_tree; // nodes of the hierarchy, its triangles, and the position of each triangle by its number
 uniform mat4 shadow_matrix;    // eye space to the hierarchy's, where all triangles lie within -1...1
-uniform vec4 shadow_offsets;    // first texel of the triangles, and of the places; 1: the terminator is cured; rays to a light with a radius
-uniform vec4 shadow_rounding;  // hierarchy.rounding: how far a corner may have been moved, along each axis; world units to the hierarchy's
+uniform vec4 shadow_offsets;    // first texels of the triangles and of their positions; 1: the shadow terminator is corrected; rays per light with a radius
+uniform vec4 shadow_rounding;  // hierarchy.rounding: the rounding error of a corner, by axis; w: hierarchy units per world unit
 
-int lit_triangle = 0; // number in the frame of the triangle that the fragment shows, or that has the vertex
-int lit_corner = 0; // of its corners that which is lit
+int lit_triangle = 0; // number in the frame of the triangle that the fragment or the vertex belongs to
+int lit_corner = 0; // the lit corner of that triangle
 vec3 ray_origin;
-vec3 ray_point; // of the surface that rays leave: their origin, unless that was moved off the surface
-float ray_twin; // of the triangle that rays start on; -1: they start at a vertex
+vec3 ray_point; // point of the surface from which rays start: their origin, unless the origin was moved off the surface
+float ray_twin; // twin of the triangle on which rays start; -1 if they start at a vertex
 
 vec4 tree_texel(int i) { return texelFetch(shadow_tree, ivec2(i % 1024, i / 1024), 0); }
 
@@ -25,15 +25,17 @@ vec3 moved_by(vec3 p, vec3 corner, vec3 n, float weight)
 }
 
 if (from_vertices) {
-    // Rays start at the vertex itself, which no triangle there can shadow: they leave each of them at t = 0.
+    // Rays start at the vertex itself. Triangles at this vertex cannot block them, because the rays meet these
+    // triangles at t = 0.
 } else {
-    // Rays start at the point of a triangle next to p, a point in eye space. `side` is -1 where the back is seen and lit.
+    // Rays start at the point of the triangle that is nearest to p, a point in eye space. `side` is -1 if the back is
+    // visible and lit.
 }
 void start_rays(vec3 p, int number, float side)
 {
     int at = triangle_texel(number);
     if (from_vertices) {
-        bool apart = tree_texel(at + 1).w > 1.5; // a line or a point: in no ray's way, and not among the triangles
+        bool apart = tree_texel(at + 1).w > 1.5; // a line or a point blocks no ray and is not among the triangles
         ray_origin = apart ? (shadow_matrix * vec4(p, 1.0)).xyz : tree_texel(at + lit_corner).xyz;
         ray_point = ray_origin;
         ray_twin = -1.0;
@@ -45,7 +47,7 @@ void start_rays(vec3 p, int number, float side)
         ray_origin = eye;
         ray_point = eye;
         ray_twin = a.w;
-        if (b.w > 1.5) { // a line, a point or the ground: in no ray's way
+        if (b.w > 1.5) { // a line, a point or the ground, which blocks no ray
             return;
         }
         vec3 e1 = b.xyz - a.xyz;
@@ -71,7 +73,7 @@ void start_rays(vec3 p, int number, float side)
     }
 }
 
-// Whether a box is in the way of the ray from ray_origin; `reach` is more than what rounding can move its planes.
+// Whether the ray from ray_origin meets a box; `reach` is larger than the rounding error of the box's planes.
 bool meets_box(vec3 low, vec3 high, vec3 inverse, float end, float reach)
 {
     vec3 u = (low - ray_origin - reach) * inverse;
@@ -81,18 +83,19 @@ bool meets_box(vec3 low, vec3 high, vec3 inverse, float end, float reach)
     return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, end));
 }
 
-// --- what lets light through: src/rays/opacity.c. gl_shadows.c packs what is read here.
+// --- transmitted light, as in src/rays/opacity.c; gl_surfaces.c packs the data
 
-// A texel of a map: four channels, or one of which four share a texel of the tree.
+// A texel of a map: four channels, or one channel. Four texels of one channel share a texel of the tree.
 vec4 surface_texel(vec4 pixels, int x, int y)
 {
     int i = y * int(pixels.y) + x;
     return pixels.w > 0.5 ? tree_texel(int(pixels.x) + i) : vec4(tree_texel(int(pixels.x) + i / 4)[i % 4]);
 }
 
-// A map at level 0, filtered as texture.glsl does. Four texels: where its pixels are, its size and whether it has four
-// channels; two rows to the picture's coordinates, with the wrapping and the set of coordinates; scale, offset, and 1 where
-// the nearest texel counts.
+// A map at level 0, filtered as in texture.glsl. Its record has four texels. The first contains the position of its
+// pixels, its size, and whether it has four channels. The next two are the rows of the matrix to the picture's
+// coordinates, with the wrapping and the set of coordinates. The last contains scale, offset, and 1 if the nearest
+// texel is used.
 vec4 surface_map(int at, vec4 texcoords)
 {
     vec4 pixels = tree_texel(at);
@@ -126,16 +129,17 @@ vec4 surface_map(int at, vec4 texcoords)
     return value * how.x + how.y;
 }
 
-// The light that passes a point of a triangle, where its corners have the weights w. `at`: the triangle's record, of one texel
-// (the records of its sides, and 1 where it has colours), its corners' texture coordinates, and their colours.
+// The light that passes the point of a triangle at which its corners have the weights w. The triangle's record is at
+// texel `at`. Its first texel contains the records of the triangle's sides, and 1 if the triangle has colours. The
+// texture coordinates and the colours of the corners follow.
 LIGHT_SHARE passed_surface(int at, bool back, vec3 w)
 {
     vec4 head = tree_texel(at);
     int side = int(back ? head.y : head.x);
     vec4 texcoords = tree_texel(at + 1) * w.x + tree_texel(at + 2) * w.y + tree_texel(at + 3) * w.z;
     vec4 color = head.z > 0.5 ? tree_texel(at + 4) * w.x + tree_texel(at + 5) * w.y + tree_texel(at + 6) * w.z : vec4(1.0);
-    vec4 rule = tree_texel(side);     // alpha, its mode, the cutoff, and what it transmits: 0 nothing, 1 some, 2 all
-    vec4 maps = tree_texel(side + 2); // base colour, opacity, transmission, metallic: where they are, or 0
+    vec4 rule = tree_texel(side);     // alpha, alpha mode, cutoff, and transmission: 0 none, 1 some, 2 all
+    vec4 maps = tree_texel(side + 2); // positions of the maps of base colour, opacity, transmission and metallic, or 0
     vec4 base = maps.x > 0.0 ? surface_map(int(maps.x), texcoords) : vec4(1.0);
     float opacity = 1.0;
     if (rule.y > 0.5) {
@@ -169,15 +173,17 @@ LIGHT_SHARE passed_surface(int at, bool back, vec3 w)
     return LIGHT_SHARE(1.0 - opacity);
 }
 
-// A ray through an edge crosses both of its triangles, of which translucent ones count once: the one that has the edge on one side.
+// A ray through an edge crosses both triangles at the edge. If they are translucent, only one may count: the triangle
+// on a fixed side of the edge.
 bool owns_edge(float weight, vec2 from, vec2 to, bool turned)
 {
     vec2 d = turned ? to - from : from - to;
     return weight != 0.0 || d.y > 0.0 || (d.y == 0.0 && d.x > 0.0);
 }
 
-// On which side of an edge the ray lies: the cross product of its ends. They are taken in a fixed order, so that the triangles
-// of both sides get the same number with opposite signs from drivers that fuse products with sums, too.
+// The side of an edge on which the ray passes, as the cross product of the edge's ends. The order of the ends is the
+// same for both triangles at the edge. Both therefore get the same number with opposite signs, even if a driver uses
+// fused multiply-add.
 float edge_weight(vec2 a, vec2 b)
 {
     bool swapped = a.x > b.x || (a.x == b.x && a.y > b.y);
@@ -187,8 +193,9 @@ float edge_weight(vec2 a, vec2 b)
     return swapped ? -w : w;
 }
 
-// Whether ray_point lies in the plane of a triangle with these corners, as far as rounding allows to tell: through_points of
-// ray_lanes.h with the roundings of float, 2^-21 of the corners and of the point, and 2^-21 for 8 ulp of the determinant.
+// Whether ray_point lies in the plane of a triangle with these corners, within the rounding error. This is
+// through_points of ray_lanes.h with the errors of float: 2^-21 of the corners and of the point, and 2^-21 for 8 ulp of
+// the determinant.
 bool through_point(vec3 a, vec3 b, vec3 c)
 {
     vec3 u = (b - a).yzx * (c - a).zxy;
@@ -198,7 +205,8 @@ bool through_point(vec3 a, vec3 b, vec3 c)
     return abs(dot(u - v, q)) <= 2.0 * dot(abs(u - v), moved) + 4.8e-7 * dot(abs(u) + abs(v), abs(q));
 }
 
-// The light that passes a triangle which may be in the way of the ray from ray_origin along d, whose component k is the largest.
+// The light that passes a triangle along the ray from ray_origin in the direction d, whose component k is the largest;
+// 1 if the ray misses the triangle.
 LIGHT_SHARE passed_triangle(int at, vec3 d, int k, float end)
 {
     vec4 corner = tree_texel(at);
@@ -295,8 +303,9 @@ LIGHT_SHARE passed_point(vec3 d, vec3 u, vec3 v, float distance, int i, float en
     return passed_ray(d + distance * (u * cos(angle) + v * sin(angle)), end);
 }
 
-// The light that passes along N rays to the points of a light's disc around p + d (light_pattern.h). `across` has the length of its
-// radius. If N is above LIGHT_PROBES and these rays agree, the others are not traced.
+// The light that passes along N rays to the points of a light's disc around p + d (light_pattern.h). The vector across
+// is as long as the disc's radius. If N exceeds LIGHT_PROBES, that many probes are traced first. If the probes agree,
+// no other rays are traced.
 LIGHT_SHARE passed_disc(vec3 d, vec3 across, float end, int count)
 {
     vec3 along = normalize(d);
@@ -319,7 +328,7 @@ LIGHT_SHARE passed_disc(vec3 d, vec3 across, float end, int count)
     return sum / float(count);
 }
 
-// The axis of which d has the smallest part, the first of equals.
+// The axis along which d has its smallest component; the first axis if several are equal.
 vec3 least_axis(vec3 d)
 {
     vec3 size = abs(d);
@@ -329,8 +338,9 @@ vec3 least_axis(vec3 d)
     return size.y <= size.z ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
 }
 
-// The share of a light that reaches the point. place.w: its radius, below 0 where it casts no shadow; place.xyz of a directional
-// light: the axis of which its direction has the smallest part. Where a light does not shine no ray is needed.
+// The share of a light that reaches the point. place.w is the radius of the light, or below 0 if it casts no shadow.
+// For a directional light, place.xyz is the axis along which its direction has its smallest component. If the light
+// does not shine on the point, no ray is traced.
 LIGHT_SHARE shadowed_light(vec4 place, light_source light, light_sample t, float n_dot_l, int kind)
 {
     if (place.w < 0.0 || !(n_dot_l > 0.0) || !(t.attenuation * t.spot > 0.0)) {

@@ -1,13 +1,13 @@
 // texture.glsl: texels of maps, and filters.
 
-// Texture coordinates, and their derivatives by the window's x and y.
+// Texture coordinates, and their derivatives with respect to the window's x and y.
 STRUCT(footprint)
 {
     vec2 at, dx, dy;
 };
 
-// Coordinates over w and 1/w are linear in the window: their differences between neighbours are exact derivatives, and the
-// quotient rule gives those of the coordinates.
+// The coordinates divided by w, and 1/w, are linear in the window. Their differences between neighbouring pixels are
+// therefore exact derivatives, and the quotient rule gives the derivatives of the coordinates.
 footprint footprint_of(vec2 at)
 {
     float w = gl_FragCoord.w; // 1/w
@@ -24,16 +24,17 @@ footprint footprint_of(vec2 at)
 #define MIP_NEAREST    1
 #define MIP_NONE       2
 
-// How texels make a value.
+// How a value is computed from texels.
 STRUCT(sampling)
 {
     int wrap_s, wrap_t, magnify, minify, mip;
 };
 
-// The filters are computed here: those of graphics cards round their weights, mostly to 1/256.
+// The shader computes the filters itself, because graphics cards round the weights, mostly to 1/256.
 vec4 filtered(sampler2D map, int level, vec2 place, sampling how, int kind)
 {
-    // Computed, since Mesa's software renderer takes the level of textureSize from one fragment of several.
+    // The size is computed, because textureSize in Mesa's software renderer uses one fragment's level for several
+    // fragments.
     ivec2 size = max(textureSize(map, 0) >> level, 1);
     vec2 at = place * vec2(size);
     if (kind == FILTER_NEAREST) {
@@ -55,7 +56,7 @@ vec4 filtered(sampler2D map, int level, vec2 place, sampling how, int kind)
     return upper + (lower - upper) * part.y;
 }
 
-// The value at a level of detail (OpenGL 4.6, section 8.14). All levels are there, down to one texel.
+// The value at a level of detail (OpenGL 4.6, section 8.14). All levels exist, down to one texel.
 vec4 texel_at(sampler2D map, vec2 at, float detail, sampling how)
 {
     vec2 place = vec2(wrapped(at.x, how.wrap_s), wrapped(at.y, how.wrap_t));
@@ -66,7 +67,7 @@ vec4 texel_at(sampler2D map, vec2 at, float detail, sampling how)
         return filtered(map, 0, place, how, how.minify);
     }
     ivec2 size = textureSize(map, 0);
-    int last = (floatBitsToInt(float(max(size.x, size.y))) >> 23) - 127; // the whole part of the logarithm to base 2
+    int last = (floatBitsToInt(float(max(size.x, size.y))) >> 23) - 127; // the integer part of the logarithm to base 2
     if (how.mip == MIP_NEAREST) {
         int nearest = detail >= float(last) ? last : int(ceil(detail + 0.5)) - 1;
         return filtered(map, min(nearest, last), place, how, how.minify);
@@ -80,7 +81,7 @@ vec4 texel_at(sampler2D map, vec2 at, float detail, sampling how)
     return finer + (coarser - finer) * (detail - float(level));
 }
 
-// The directions in eye space in which the picture's rows and columns run on the triangle through p; not unit.
+// The directions of the picture's rows and columns on the triangle through p, in eye space; not unit vectors.
 void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3 down)
 {
     float w = gl_FragCoord.w;
@@ -93,7 +94,7 @@ void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3
     down = (py * dx.x - px * dy.x) * side;
 }
 
-// The level of detail of a map, of each probe if there are several.
+// The level of detail of a map or, if there are several probes, of each probe.
 float map_level(sampler2D map, vec4 s, vec4 t, footprint f)
 {
     vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
@@ -128,7 +129,7 @@ vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f, sampling how)
             float x = dot(dx * size, dx * size);
             float y = dot(dy * size, dy * size);
             float longer = max(x, y);
-            // Footprints of no size, and of none that is known, are magnified.
+            // Footprints of size zero or of unknown size are magnified.
             float detail = longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
             if (anisotropic && detail > 0.0) {
                 float shorter = min(x, y);

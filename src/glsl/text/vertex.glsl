@@ -28,7 +28,7 @@ void main()
             eye_tangent = unit3(mat3(model_view) * TANGENT);
         }
         if (signed_tangent) {
-            // A mirroring object turns the bitangent round.
+            // If the object's transform mirrors, the bitangent is reversed.
             mat3 axes = mat3(model_view);
             bitangent_sign = dot3(cross3(axes[0], axes[1]), axes[2]) < 0.0 ? -tangent.w : tangent.w;
         }

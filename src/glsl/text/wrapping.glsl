@@ -4,7 +4,7 @@
 #define WRAP_CLAMP     1
 #define WRAP_MIRROR    2
 
-// A coordinate as a place in the picture, 0...1.
+// A texture coordinate after wrapping: a position in the picture, 0...1.
 float wrapped(float s, int wrap)
 {
     if (!(abs(s) < 2.0e9)) {
@@ -17,7 +17,7 @@ float wrapped(float s, int wrap)
     return wrap == WRAP_MIRROR && (int(floor(s)) & 1) == 1 ? 1.0 - part : part;
 }
 
-// The number of a texel that may lie one beyond the picture.
+// The index of a texel after wrapping; before, it may be one texel outside the picture.
 int neighbour(int i, int size, int wrap)
 {
     if (wrap == WRAP_REPEAT) {

@@ -29,7 +29,7 @@ static bool hands_on_four(const struct declarations *fragment)
     return false;
 }
 
-// Returns the lighting of a contract with metalness and roughness, as bits of fault_where.
+// Returns the bits of fault_where for a contract with metalness and roughness.
 static unsigned physical_bits(const struct physical_convention *c)
 {
     return WHERE_PHYSICAL | (c->masking == MASKING_SCHLICK ? WHERE_SCHLICK : WHERE_SMITH) |
@@ -90,7 +90,7 @@ bool fault_is_style(const struct fault *fault, const struct shader_interface *in
     return fault->style || (fault->demand && !(fault->demand & interface->contract->demands));
 }
 
-// Returns row `index` of the public list, which contains no styles, and only the first form of each mistake.
+// Returns row `index` of the public list. The list contains the first form of each mistake, and no styles.
 static const struct fault *listed(int index)
 {
     for (int i = 0; i < fault_count; i++)

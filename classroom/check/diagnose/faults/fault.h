@@ -1,15 +1,15 @@
 // fault.h: the known mistakes. Each is a fault: a set of switches of the fault shader.
 //
-// The fault shader (fault_light.glsl) computes the lighting correctly or with faults switched on. It is independent of
-// the library's own equations, which have no such switches.
+// The fault shader (fault_light.glsl) computes the lighting correctly or with faults switched on. The fault shader does
+// not use the library's own equations, which contain no such switches.
 #ifndef FAULT_H
 #define FAULT_H
 
 #include "shader_interface.h"
 
 // The switches. The fault shader tests each switch with is(NAME). Switches up to MEAN_DISTANCE concern normals, spaces
-// and lengths. The next ones, up to USE_ACES, concern the written colour, and the others the terms. fault_shader.c
-// compiles no code for groups that are off.
+// and lengths. The next switches, up to USE_ACES, concern the written colour. The others concern the terms.
+// fault_shader.c compiles no code for groups that are switched off.
 // clang-format off
 #define FAULT_BITS(X) \
     X(LONG_NORMAL) X(LONG_NORMAL_VERTEX) X(LONG_EYE) X(LONG_LIGHT) X(RAW_HALF) X(HALF_LONG) \
@@ -137,8 +137,8 @@ struct fault {
     unsigned maps;                // bits of fault_maps
     float factor;                 // the factor of the exponent, or 0
     enum fault_fit fit;
-    bool rare;       // rarer than other faults with the same pictures, and not reported together with them
-    bool style;      // not a mistake, but a form that is as correct as the reference
+    bool rare;  // rarer than other faults with the same pictures; the report does not mention this fault beside them
+    bool style; // not a mistake: a form that is as correct as the reference
     bool whole_term; // one or more terms are missing completely
     unsigned demand; // bits of contract_demand: the fault is a mistake only if the contract requires one of these
                      // forms; otherwise it is a style
@@ -154,11 +154,11 @@ fault_set fault_set_add(const fault_set *set, const struct fault *fault);
 bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs);
 
-// Returns whether the fault is not a mistake in these shaders, but an accepted form: a style, or a form that their
+// Returns whether the fault is an accepted form in these shaders, and not a mistake: a style, or a form that their
 // contract does not forbid.
 bool fault_is_style(const struct fault *fault, const struct shader_interface *interface);
 
-// Expands an explanation or a correction: each {place} becomes the name that the shaders use.
+// Expands an explanation or a correction: replaces each {place} by the name that the shaders use.
 void fault_text(const char *template, const struct shader_interface *interface, lam_light_frame frame,
                 lam_reflection reflection, char *out, size_t capacity);
 

@@ -1,11 +1,11 @@
-// fault_candidate.c: measures sets of faults, scene by scene, as long as they are promising.
+// fault_candidate.c: measures sets of faults, scene by scene, and stops as soon as a set cannot succeed.
 #include "fault_candidate.h"
 
 #include <string.h>
 
 enum { IDLE_SCENES = 4 };
 
-// the least gain of a set over the set without its last fault, in some scenes
+// the smallest gain, in at least one scene, of a set over the set without its last fault
 static const double min_idle_gain = 0.001;
 
 bool candidate_is_spoilt(const struct state *t, int index, const struct difference *d)
@@ -60,8 +60,8 @@ bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_er
     return true;
 }
 
-// Returns whether a candidate explains no more than its parent, which lacks the last fault, in the first `count` scenes
-// that this fault changes. Such a candidate is not worth pursuing.
+// The parent of a candidate is the set without the last fault. Returns whether, in the first `count` scenes that this
+// fault changes, the candidate explains no more than its parent. The search then drops the candidate.
 static bool is_idle(const struct state *t, const struct candidate *c, const struct candidate *parent, const int *order,
                     int count)
 {
@@ -114,7 +114,7 @@ bool outcome_find_spoils(struct state *t, struct outcome *o, lam_error *error)
         return true;
     const fault_set none = {0};
     struct found_fault fault = o->fault;
-    if (fault.row->fit) // the number may differ in combination with another fault
+    if (fault.row->fit) // the fitted number may differ in combination with another fault
         fault.exponent = fault.row->fit == FIT_SMALLER ? 0.5f : 2;
     fault_set set = fault_measure_with(&none, &fault);
     for (int k = t->m.differ_count; k < t->m.scene_count && !o->spoils; k++) {

@@ -4,10 +4,10 @@
 
 #include "fault_measure.h"
 
-// As fractions of the difference without faults: the largest remainder of a scene, or of all scenes, that counts as
-// explained.
+// A scene, or all scenes together, count as explained if at most this fraction of the difference without faults
+// remains.
 static const double max_ratio_explained = 0.125;
-// The limit of a mean difference if there is no limit.
+// Used as the limit of a mean difference if there is no limit.
 static const double no_limit = 1e9;
 
 // A set of faults, and the remaining difference.
@@ -28,8 +28,8 @@ struct outcome {
     double mean, score;       // same as in a candidate
     double parts[MAX_SCENES]; // the same, for the scenes that differ
     int order[MAX_SCENES];    // the scenes: differing ones first, starting with the most affected ones
-    int changed_count;        // number of differing scenes that it changes
-    uint32_t explained;       // the differing scenes that it explains
+    int changed_count;        // number of differing scenes that the fault changes
+    uint32_t explained;       // the differing scenes that the fault explains
     uint32_t exactly;         // number of scenes explained up to rounding
     double changes[MAX_SCENES];
     int measured; // number of measured differing scenes
@@ -42,8 +42,8 @@ struct state {
     struct fault_search *s;
     struct fault_measure m;
     struct outcome *outcomes; // one for each row of the table
-    // The difference of each scene without faults, in the measured pixels. Because few pixels are measured, more of
-    // them than the tolerance allows may differ in a scene that passes.
+    // The difference of each scene without faults, in the measured pixels. Only few pixels are measured. In a scene
+    // that passes, more of them than the tolerance allows may therefore differ.
     struct difference without[MAX_SCENES];
 };
 
@@ -53,33 +53,34 @@ bool candidate_is_spoilt(const struct state *t, int index, const struct differen
 // Returns whether the search has reached its limit of pictures.
 bool search_is_spent(struct state *t);
 
-// Returns the contribution of one scene to a candidate's score. A scene that gets worse counts as unchanged: one of
-// several faults alone may well spoil it.
+// Returns the contribution of one scene to a candidate's score. A scene that gets worse counts as unchanged, because
+// one of several faults may spoil the scene if it is applied alone.
 double candidate_score_of(const struct state *t, int index, const struct difference *d);
 
-// Measures a candidate in all scenes. It stops when the mean exceeds its limit.
+// Measures a candidate in all scenes. Stops when the mean exceeds its limit.
 bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_error *error);
 
-// Measures a parent with one more fault, whose result alone is `o`. Sets `useful` if its score is within the limit, and
-// below its parent's.
+// Measures a set that consists of a parent and one more fault. `o` is the result of this fault alone. Sets `useful` if
+// the set's score is within the limit and below the parent's score.
 bool candidate_try_child(struct state *t, const struct candidate *parent, const struct outcome *o, struct candidate *c,
                          double max_score, bool *useful, lam_error *error);
 
 // Recomputes the set from its members.
 void candidate_rebuild(struct candidate *c);
 
-// Completes a member to be added to a set. Returns false on error. Sets `possible` to whether it can be added.
+// Completes a member to be added to a set. Returns false on error. Sets `possible` to whether the member can be added.
 bool candidate_prepare(struct state *t, const fault_set *base, const struct fault *row, struct found_fault *out,
                        bool *possible, lam_error *error);
 
-// Finds whether a fault changes a scene that passes without it: a shader with the fault would not pass there.
+// Determines whether a fault changes a scene that passes without the fault. A shader with the fault would not pass in
+// that scene.
 bool outcome_find_spoils(struct state *t, struct outcome *o, lam_error *error);
 
 // Returns the result of a row of the table.
 struct outcome *outcome_of(const struct state *t, const struct fault *row);
 
-// Combines faults that each explain different scenes, starting with the faults that explain most. With `all`, they must
-// explain every picture. Otherwise faults are added while they explain further scenes and contradict none.
+// Combines faults that each explain different scenes, starting with the faults that explain most. With `all`, the
+// faults must explain every picture. Otherwise faults are added as long as they explain further scenes and spoil none.
 bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_error *error);
 
 // Runs the beam search for sets of two, three and four faults.

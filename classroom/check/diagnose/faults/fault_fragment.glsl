@@ -1,4 +1,4 @@
-// fault_fragment.glsl: lights the fragment, or passes the interpolated colour of the vertices.
+// fault_fragment.glsl: lights the fragment, or outputs the interpolated colour of the vertices.
 
 #ifdef IN_VERTEX
 in vec4 vertex_color, vertex_color_back;

@@ -1,34 +1,40 @@
-// fault_light.glsl: the lighting, correct where no fault is switched on. Both stages of the fault shader include it.
+// fault_light.glsl: the lighting, which is correct unless faults are switched on. Both stages of the fault shader
+// include this file.
 //
-// is(NAME) returns whether a fault is switched on; fault.h lists the names. Vectors have four components, since some
-// faults involve the fourth; in the others w is 0. The constants before this text (fault_shader.c): LAMPS, lamp_count,
-// physical, phong_lobe, spots (a light may have a cone), products (the shader receives the colours multiplied by those of the light), ambient_by_light (it
-// adds the ambient term of each light with that light), and NAME of each fault, -1 where it cannot be on.
+// is(NAME) returns whether a fault is switched on; fault.h lists the names. Vectors have four components, because some
+// faults involve the fourth component; without these faults, w is 0.
+//
+// fault_shader.c writes the following constants before this text:
+//    LAMPS, lamp_count, physical, phong_lobe
+//    spots: a light may have a cone
+//    products: the shader receives the material's colours multiplied by the colours of the light
+//    ambient_by_light: the shader adds the ambient term of each light together with that light
+//    NAME of each fault, or -1 if the fault cannot be on
 
 struct Lamp {
-    vec4 position; // in the space of the lighting, which is eye or world space; w 0: the direction to it
+    vec4 position; // in the space of the lighting, which is eye or world space; if w is 0, the direction to the light
     vec4 given;    // the value that the shader under test receives
     vec3 diffuse, specular;
-    vec3 ambient;  // its part of the ambient term
+    vec3 ambient;  // the light's part of the ambient term
     vec3 attenuation;
-    vec4 axis; // of a spot, in the space of the lighting; w 0
-    vec4 cone; // cosine of the cutoff (-1: no spot), exponent; z, w: unused
+    vec4 axis; // axis of a spot, in the space of the lighting; w is 0
+    vec4 cone; // cosine of the cutoff (-1 if not a spot), exponent; z and w are unused
 };
 
 uniform int fault_on[FAULT_BITS];
 uniform Lamp lamps[LAMPS];
 uniform vec3 ambient_light, ka, kd, ks;
 uniform vec3 bare_ka, bare_kd, bare_ks; // the colours without their strengths
-uniform vec3 kd_with_ks, ks_with_kd; // the colours with each other's strength
+uniform vec3 kd_with_ks, ks_with_kd; // the diffuse colour with the specular strength, and the reverse
 uniform vec3 specular_as_diffuse;
 uniform vec3 tint;                   // multiplies a tinted highlight
-uniform float light_capacity;        // of the shader under test
+uniform float light_capacity;        // number of lights of the shader under test
 uniform float opacity, shininess;
-uniform float exponent_factor, exponent_constant; // of a wrong exponent; 0: none
+uniform float exponent_factor, exponent_constant; // values of a wrong exponent; 0 if not used
 uniform mat4 to_lighting, to_clip; // model space to lighting space, lighting space to clip space
-uniform mat4 to_eye_space;         // from the space of the lighting
-uniform vec4 eye_position;         // in the space of the lighting, w 1
-uniform vec4 eye_axis;             // from the scene to the eye, if that were infinitely far away; w 0
+uniform mat4 to_eye_space;         // lighting space to eye space
+uniform vec4 eye_position;         // in the space of the lighting; w is 1
+uniform vec4 eye_axis;             // direction from the scene to an infinitely distant eye; w is 0
 
 bool is(int bit) { return bit >= 0 && fault_on[max(bit, 0)] != 0; }
 
@@ -40,7 +46,7 @@ vec4 unit4(vec4 a)
 
 bool is_far(int i) { return lamps[i].position.w == 0.0; }
 
-// From a point to light i, in the space of the lighting; not normalized.
+// Returns the vector from a point to light i, in the space of the lighting; not normalized.
 vec4 to_lamp(int i, vec4 p)
 {
     vec4 place = is(LIGHT_AS_GIVEN) ? lamps[i].given : lamps[i].position;
@@ -110,14 +116,14 @@ float cone_of(int i, vec4 l)
     return is(NO_EXPONENT) ? 1.0 : pow(max(c, 0.0), cone.y);
 }
 
-// What a vertex shader hands on.
+// The values that the vertex shader passes to the fragment shader.
 struct Surface {
     vec4 normal;
     vec4 light, eye;           // the points from which l and v are computed
     vec4 early_eye;            // v, normalized at the vertices
-    vec4 early_light[LAMPS];   // l of each light likewise
-    vec4 early_mirror[LAMPS];  // the half vector, or r, of each light likewise
-    float distance[LAMPS];     // of the vertices
+    vec4 early_light[LAMPS];   // l of each light, normalized at the vertices
+    vec4 early_mirror[LAMPS];  // the half vector, or r, of each light, normalized at the vertices
+    float distance[LAMPS];     // distance from the vertices to each light
     Frame frame;
 };
 
@@ -125,14 +131,15 @@ vec4 mirrored(vec4 l, vec4 n) { return 2.0 * dot(n, l) * n - l; }
 
 bool is_phong() { return is(OTHER_LOBE) ? !phong_lobe : phong_lobe; }
 
-// `way`: l before it was normalized.
+// `way` is l before normalization.
 vec4 half_vector(int i, Surface s, vec4 l, vec4 way, vec4 v)
 {
     vec4 h = is(EARLY_MIRROR) ? s.early_mirror[i] : (is(RAW_HALF) ? way : l) + v;
     return is(HALF_LONG) ? h : (is(HALF_MEAN) ? 0.5 * h : unit4(h));
 }
 
-// cos of the angle between n and the half vector, or between r and v; of the other vector if a fault exchanges n and v.
+// The cosine of the angle between n and the half vector, or between r and v. If a fault exchanges n and v, the other of
+// the two vectors is used.
 float highlight_base(int i, Surface s, vec4 n, vec4 l, vec4 way, vec4 v)
 {
     if (is_phong()) {
@@ -189,7 +196,7 @@ bool is_left_out(int i)
            (is(LAST_LIGHT_MISSING) && i == lamp_count - 1) || (is(FIRST_LIGHT_MISSING) && i == 0);
 }
 
-// The factor of a term that is added twice, or halved.
+// The factor of a term that a fault adds twice or halves.
 float scale_of(bool twice, bool halved) { return twice ? 2.0 : (halved ? 0.5 : 1.0); }
 
 vec4 shade(Surface s)
@@ -250,7 +257,7 @@ vec4 shade(Surface s)
         sum += ambient_factor() * (by_light ? ambient : ambient_color * ((is(AMBIENT_ATTENUATED) ? arrived : 1.0) * (is(AMBIENT_EACH_LIGHT) ? light_capacity : 1.0) * (is(AMBIENT_TIMES_D) ? cosines : 1.0)));
         sum *= scale_of(is(AMBIENT_TWICE), is(AMBIENT_HALVED));
     }
-    if (is(LIGHTS_MULTIPLIED)) { // lights that the scene does not have are black
+    if (is(LIGHTS_MULTIPLIED)) { // lights that are missing in the scene are black
         diffuse = int(light_capacity) > lamp_count ? vec3(0.0) : product;
         specular = vec3(0.0);
     }

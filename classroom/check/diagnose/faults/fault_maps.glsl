@@ -1,30 +1,31 @@
-// fault_maps.glsl: the numbers of a material, and the normal, where a shader may read them from maps; correct where no fault is
-// switched on. A map has one texel, which the uniforms hold as its sampler gives it (../contract/maps.h).
+// fault_maps.glsl: the numbers of a material and the normal, which a shader may read from maps. They are correct unless
+// faults are switched on. A map has one texel, which the uniforms contain as the sampler reads it (../contract/maps.h).
 //
-// The constants before this text: MAPS where the shader under test reads maps, FRAGMENT in the fragment shader; maps, bits of
-// the maps that it reads, encoded_maps, and tints_ambient: the base colour is in the ambient term.
+// fault_shader.c writes constants before this text. MAPS is defined if the shader under test reads maps, and FRAGMENT
+// in the fragment shader. `maps` contains the bits of the maps that the shader reads. encoded_maps and tints_ambient
+// (the ambient term includes the base colour) are flags.
 
 uniform vec3 base_color;
 uniform float metallic, roughness;
 
 bool is(int bit); // fault_light.glsl
 
-// The direction in which something points, and the point that it is at, in the space of the lighting.
+// The axes of the surface at a point, in the space of the lighting, and the texture coordinates.
 struct Frame {
-    vec4 tangent, bitangent; // of the mesh, as the vertex shader hands them on; tangent.w: the sign of the bitangent
+    vec4 tangent, bitangent; // axes of the mesh, from the vertex shader; tangent.w is the sign of the bitangent
     vec2 texture_coordinate;
     vec3 point;
 };
 
 #ifdef MAPS
-// As map_bit has them.
+// The bits of map_bit.
 #define BASE_COLOR_MAP 1
 #define METALLIC_ROUGHNESS_MAP 2
 #define NORMAL_MAP 16
 #define OCCLUSION_MAP 32
 #define EMISSION_MAP 64
 
-// Factors have another name in the shader, or are 1; texels without a map are 1.
+// Factors have other names in the shader, or are 1. The texel of a missing map is 1.
 uniform vec3 base_factor, base_texel, emission_factor, emission_texel, normal_texel;
 uniform vec4 metallic_roughness_texel;
 uniform float metallic_factor, roughness_factor, occlusion;
@@ -81,7 +82,7 @@ float rough()
     return is(ROUGHNESS_INVERTED) ? 1.0 - r : r;
 }
 
-// The light that the surface emits.
+// Returns the light that the surface emits.
 vec3 emitted()
 {
     if (!has(EMISSION_MAP) || is(NO_EMISSION)) {
@@ -91,16 +92,16 @@ vec3 emitted()
     return (is(EMISSION_MAP_ALONE) ? vec3(1.0) : emission_factor) * (is(EMISSION_DECODED_TWICE) ? pow(texel, vec3(2.2)) : texel);
 }
 
-// The share of the sum of light that is left where occlusion dims more than the ambient term: the factor of the light of lamps.
+// The factor of the light of lamps: the occlusion, if a fault applies it to more than the ambient term.
 float lamp_occlusion() { return has(OCCLUSION_MAP) && is(OCCLUSION_OF_ALL) ? occlusion : 1.0; }
-// What the ambient term, which has the right base colour in it, is multiplied with.
+// The factor of the ambient term, which already contains the correct base colour.
 vec3 ambient_factor()
 {
     return has(BASE_COLOR_MAP) && tints_ambient ? surface_color() / max(base_color, 1e-6) : vec3(1.0);
 }
 
 #ifdef FRAGMENT
-// Tangent and bitangent of a unit normal.
+// Gets the tangent and the bitangent for a unit normal.
 void axes_of(vec3 n, Frame f, out vec3 t, out vec3 b)
 {
     vec3 px = dFdx(f.point), py = dFdy(f.point);
@@ -124,7 +125,7 @@ void axes_of(vec3 n, Frame f, out vec3 t, out vec3 b)
         t = normalize(t - n * dot(n, t));
         b = cross(n, t);
     }
-    if (is(FRAME_COTANGENT)) { // Schueler's, also three.js'
+    if (is(FRAME_COTANGENT)) { // Schueler's method, which three.js also uses
         vec3 a = cross(py, n), c = cross(n, px);
         t = a * ux.x + c * uy.x;
         b = a * ux.y + c * uy.y;
@@ -146,7 +147,7 @@ void axes_of(vec3 n, Frame f, out vec3 t, out vec3 b)
     }
 }
 
-// A unit normal as the normal map bends it. `raw`: as it was interpolated.
+// Returns a unit normal after the normal map. `raw` is the interpolated normal.
 vec4 bumped(vec4 unit, vec4 raw, Frame f)
 {
     if (!has(NORMAL_MAP) || is(BUMPS_MISSING)) {

@@ -1,4 +1,4 @@
-// fault_measure.c: compares pictures with faults, cached or drawn, with the shader's pictures.
+// fault_measure.c: compares the shader's pictures with pictures that contain faults, cached or drawn.
 #include "fault_measure.h"
 
 #include <stdlib.h>
@@ -8,8 +8,8 @@
 #include "linear.h"
 #include "shader_constants.h"
 
-// Copies a scene, reduced to the compared pixels that the fault shader draws. `memory`: 5 floats for each pixel of its
-// pictures.
+// Copies a scene, reduced to the compared pixels that the fault shader draws. `memory` provides 5 floats for each pixel
+// of the fault shader's pictures.
 static void reduce_scene(const struct fault_measure *t, const struct scene_comparison *from,
                          struct scene_comparison *to, float *memory)
 {
@@ -52,7 +52,8 @@ static void order_scenes(struct fault_measure *t)
 bool fault_measure_open(struct fault_measure *t, struct fault_search *s, lam_error *error)
 {
     // In large pictures, every second or third pixel of every second or third row is enough: 35² to 48² of them. This
-    // does not apply if a GPU may round corners to 1/16 of a pixel, which is more in a picture with fewer pixels.
+    // does not apply if a GPU may round corners to 1/16 of a pixel, because in a smaller picture that is a larger
+    // error.
     int stride = s->size >= 96 ? (s->size + 20) / 43 : s->size >= 70 ? 2 : 1;
     *t = (struct fault_measure){.s = s, .stride = s->painter->es_only ? 1 : stride};
     t->size = fault_shader_size(s->size, t->stride);
@@ -144,7 +145,7 @@ fault_set fault_measure_with(const fault_set *set, const struct found_fault *fau
 
 // --- fitting an exponent
 
-// Returns the difference in a scene when the exponent is multiplied by 2^x, or replaced by it.
+// Gets the difference in a scene if the exponent is multiplied by 2^x, or replaced by 2^x.
 static bool try_exponent(struct fault_measure *t, int scene, const fault_set *base, const struct fault *row,
                          double exponent, double *mean, lam_error *error)
 {
@@ -158,7 +159,7 @@ static bool try_exponent(struct fault_measure *t, int scene, const fault_set *ba
 
 static bool is_near(double a, double b) { return a > 0.98 * b && a < 1.02 * b; }
 
-// Returns the number that a person would write: 2 for 1.99, 0.5 for 0.502, 0.3 for 0.299.
+// Returns the nearest number that a person would write: 2 for 1.99, 0.5 for 0.502, 0.3 for 0.299.
 static double plain_number(double x)
 {
     double whole = x >= 1 ? (double)(long)(x + 0.5) : 1 / (double)(long)(1 / x + 0.5);
@@ -175,7 +176,7 @@ static void range_of(const struct fault *row, double *from, double *to)
     *to = ranges[row->fit][1];
 }
 
-// Finds the differing scene that depends most on the exponent. Returns −1 if there is none.
+// Finds the differing scene that depends most on the exponent, or −1 if there is none.
 static bool find_sensitive(struct fault_measure *t, const fault_set *base, const struct fault *row, int *scene,
                            lam_error *error)
 {

@@ -26,11 +26,11 @@ bool fault_measure_draw(struct fault_measure *measure, int scene, const fault_se
 bool fault_measure_scene(struct fault_measure *measure, int scene, const fault_set *set, struct difference *difference,
                          lam_error *error);
 
-// Returns the set with one more fitted fault.
+// Returns the set, extended by one fitted fault.
 fault_set fault_measure_with(const fault_set *set, const struct found_fault *fault);
 
 // Finds the factor of the exponent, or the constant, of a fault in addition to `base`, in the scene whose highlight
-// depends on it most. *exponent is 0 if there is none.
+// depends on it most. *exponent is 0 if no value fits.
 bool fault_measure_fit(struct fault_measure *measure, const fault_set *base, const struct fault *row, float *exponent,
                        lam_error *error);
 

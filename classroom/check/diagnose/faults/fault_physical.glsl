@@ -1,9 +1,10 @@
-// fault_physical.glsl: the light of shaders with metalness and roughness, correct where no fault is switched on: the
-// metallic-roughness material of glTF 2.0 (appendix B), or one of the forms that stand for it.
+// fault_physical.glsl: the light of shaders with metalness and roughness, which is correct unless faults are switched
+// on. It is the metallic-roughness material of glTF 2.0 (appendix B), or one of the accepted forms of this material.
 //
-// In the library's unit, where a white matt surface under a light of 1 is 1: what is published, times pi.
+// The unit is the library's: a white matt surface under a light of intensity 1 has the value 1. Published formulas are
+// therefore multiplied by pi.
 
-// As the enumerations of contract.h.
+// The values of the enumerations in contract.h.
 #define MASKING_SCHLICK 1
 #define DIFFUSE_OF_MIX 1
 #define DIFFUSE_WHOLE 2
@@ -12,7 +13,8 @@
 
 const float PI = 3.14159265358979;
 
-// The cosines of a point, clamped. `cosine`: n.l of the sum over the lights, which a fault may leave unclamped.
+// The cosines of a point, clamped. `cosine` is the n.l that the sum over the lights uses; a fault may leave it
+// unclamped.
 struct Angles { float nl, nv, nh, vh, cosine; };
 
 float distribution(Angles a)
@@ -20,10 +22,10 @@ float distribution(Angles a)
     float r = rough(), alpha = is(ALPHA_IS_ROUGHNESS) || is(ALPHA_IS_ROUGHNESS_D) ? r : r * r;
     float square = alpha * alpha, f = a.nh * a.nh * (square - 1.0) + 1.0;
     float D = square / (is(D_NOT_SQUARED) ? f : f * f);
-    return is(D_TIMES_PI) ? D * PI : D; // times pi, which the lights have in them
+    return is(D_TIMES_PI) ? D * PI : D; // times pi, because the intensities of the lights include pi
 }
 
-// Of one direction, divided by 2 n.l or 2 n.v: Smith's masking for GGX, and Schlick's approximation.
+// The masking for one direction, divided by 2 n.l or 2 n.v: Smith's masking for GGX, or Schlick's approximation.
 float smith(float x, float square) { return 1.0 / (x + sqrt(square + (1.0 - square) * x * x)); }
 float schlick(float x, float k) { return 0.5 / (x * (1.0 - k) + k); }
 
@@ -35,8 +37,8 @@ bool is_schlick()
     return is(USE_SCHLICK) || is(USE_SCHLICK_IBL) || is(K_OF_ALPHA) || masking == MASKING_SCHLICK;
 }
 
-// n.v, which is below 0 where an interpolated normal faces away: its absolute value, as in glTF's appendix B. Schlick's
-// approximation is written with n.v clamped everywhere, and then has no highlight there.
+// Returns the absolute value of n.v, as in glTF's appendix B, because n.v is below 0 if an interpolated normal faces
+// away. Shaders with Schlick's approximation clamp n.v instead, and then show no highlight at such points.
 float eye_cosine(float nv) { return is(RIM_CUT) || is(RIM_CLAMPED) || is_schlick() ? max(nv, 0.0) : abs(nv); }
 
 // Masking and shadowing, divided by 4 n.l n.v.
@@ -56,7 +58,7 @@ float visibility(Angles a)
     } else if (is(MASKING_OF_V) || is(MASKING_OF_L)) {
         V = (is(MASKING_OF_V) ? 2.0 * a.nv * v : 2.0 * a.nl * l) / (four + 0.0001);
     } else if (approximate) {
-        V = four * l * v / (four + 0.0001); // as everybody writes it, so that nothing is divided by 0
+        V = four * l * v / (four + 0.0001); // the usual constant, which prevents a division by 0
     } else if (is(USE_SEPARABLE)) {
         V = l * v;
     } else {
@@ -83,7 +85,7 @@ vec3 fresnel(Angles a, vec3 f0)
     return is(NO_FRESNEL) ? f0 : f0 + (1.0 - f0) * x;
 }
 
-// The light that leaves, of a light of 1: the diffuse and the specular part.
+// Gets the reflected light for a light of intensity 1: the diffuse and the specular part.
 void reflect_physical(Angles a, out vec3 diffuse, out vec3 specular)
 {
     float m = metal();
@@ -141,7 +143,7 @@ vec3 encoded(vec3 c)
     return gamma && !is(NOT_ENCODED) ? pow(c, vec3(1.0 / 2.2)) : c;
 }
 
-// What the shader writes for a sum of light.
+// Returns the colour that the shader writes for a sum of light.
 vec3 displayed(vec3 sum)
 {
     return is(TONE_AFTER_ENCODING) ? toned(encoded(sum)) : encoded(toned(sum));

@@ -1,13 +1,13 @@
 // fault_search.c: searches for the faults that explain the pictures.
 //
-// The search has four steps. First it tries each fault alone, up to the first scene that the fault does not explain.
-// Then it tries combinations of faults that each explain different scenes. The third step is a beam search, which adds
-// one more fault to each of the best few sets. If no set explains every picture, the last step reports the faults that
-// explain some pictures and spoil none.
+// The search has four steps. The first step tries each fault alone, up to the first scene that the fault does not
+// explain. The second step tries combinations of faults, each of which explains different scenes. The third step is a
+// beam search, which adds one more fault to each of the best few sets. If no set explains every picture, the last step
+// reports the faults that explain some pictures and spoil none.
 //
 // Nearly all of the time is spent drawing, so hopeless sets are abandoned after few pictures: an added fault must
-// improve the first of the scenes that it changes (is_idle). The search ends at its limit of pictures; cached pictures
-// count too, so that the result does not depend on the cache.
+// improve the first scenes that it changes (is_idle). The search stops when it reaches its limit of pictures. Cached
+// pictures count too, so that the result does not depend on the cache.
 #include "fault_candidate.h"
 
 #include <stdlib.h>
@@ -15,9 +15,9 @@
 
 #include "fail.h"
 
-// Mean differences: the rounding error of an exact explanation in one scene, and the difference between equal pictures.
+// Mean differences: the maximum for an exact explanation in one scene, and the maximum between equal pictures.
 static const double max_exact_scene = 1e-4, same_mean = 1e-5;
-// The smallest change in a scene's mean difference that counts when one fault is applied alone.
+// A fault changes a scene if, applied alone, it changes the scene's mean difference by at least this much.
 static const double min_change = 1e-6;
 
 // --- one fault
@@ -37,7 +37,7 @@ static bool measure_without(struct state *t, lam_error *error)
     return ok;
 }
 
-// Orders the scenes for sets with a fault: the most affected ones first.
+// Orders the scenes for sets that contain a fault: the scenes that the fault changes most come first.
 static void order_by_change(const struct state *t, struct outcome *o)
 {
     memcpy(o->order, t->m.order, sizeof o->order);
@@ -51,8 +51,8 @@ static void order_by_change(const struct state *t, struct outcome *o)
     }
 }
 
-// Measures a fault alone in the differing scenes that are not measured yet. With `all`, continues after a scene that it
-// does not explain.
+// Measures a fault alone in the differing scenes that are not measured yet. With `all`, continues after a scene that
+// the fault does not explain.
 static bool measure_outcome(struct state *t, struct outcome *o, bool all, lam_error *error)
 {
     const fault_set none = {0};
@@ -76,8 +76,8 @@ static bool measure_outcome(struct state *t, struct outcome *o, bool all, lam_er
     return true;
 }
 
-// Tries each fault of the table alone, until it fails to explain a scene. `best` is the best one that explains
-// everything.
+// Tries each fault of the table alone, until the fault fails to explain a scene. `best` receives the best fault that
+// explains everything.
 static bool try_each(struct state *t, struct candidate *best, lam_error *error)
 {
     struct fault_search *s = t->s;
@@ -86,8 +86,8 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
         return false;
     for (int m = 0; m < fault_count && !search_is_spent(t); m++) {
         struct outcome *o = &t->outcomes[m];
-        bool exact = best->fits && best->mean <= same_mean; // fitting a number cannot improve it
-        // An input without a value also removes a term, and is already reported.
+        bool exact = best->fits && best->mean <= same_mean; // fitting a number cannot improve an exact explanation
+        // An input without a value also removes a term, and the report already mentions it.
         o->applies = fault_applies(&faults[m], s->interface, s->frame, s->reflection, s->needs) &&
                      !(faults[m].whole_term && s->has_unset_names) && !(faults[m].fit && exact);
         if (o->applies && !candidate_prepare(t, &none, &faults[m], &o->fault, &o->applies, error))
@@ -103,7 +103,7 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
             continue;
         if (!candidate_try(t, &c, no_limit, error))
             return false;
-        // If several faults have equal pictures, the first in the table is used.
+        // If several faults draw equal pictures, the first of them in the table is used.
         if (c.fits && c.mean <= max_ratio_explained * s->before &&
             (!best->fits || c.mean < 0.5 * best->mean - same_mean))
             *best = c;
@@ -111,7 +111,7 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
     return true;
 }
 
-// Measures each fault alone in the remaining scenes, for sets.
+// Measures each fault alone in the remaining scenes, because the search for sets needs these results.
 static bool complete_each(struct state *t, lam_error *error)
 {
     for (int m = 0; m < fault_count && !search_is_spent(t); m++) {
@@ -123,8 +123,8 @@ static bool complete_each(struct state *t, lam_error *error)
     return true;
 }
 
-// Tries each set of accepted forms that a contract may forbid, before any mistake, because these forms often occur
-// together.
+// Tries the sets of accepted forms that a contract may forbid. It tries them before any mistake, because these forms
+// often occur together.
 static bool try_forms(struct state *t, struct candidate *best, lam_error *error)
 {
     struct found_fault forms[MAX_FOUND_FAULTS];
@@ -174,7 +174,7 @@ static bool find_also(struct state *t, const struct candidate *best, int i, stru
     return true;
 }
 
-// Stores a candidate as the result; the fault that explains most is first.
+// Stores a candidate as the result, with the fault that explains most first.
 static bool store(struct state *t, struct candidate *c, lam_error *error)
 {
     struct fault_search *s = t->s;

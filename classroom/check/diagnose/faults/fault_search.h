@@ -11,7 +11,7 @@ enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32, MAX_ALSO = 3 };
 // A fault of the table, with the result of the search.
 struct found_fault {
     const struct fault *row;
-    float exponent;                     // fitted factor of the exponent, or constant; 0 if nothing was fitted
+    float exponent;                     // fitted factor of the exponent, or fitted constant; 0 if nothing was fitted
     double after;                       // mean difference over all scenes with this fault and the previous ones
     const struct fault *also[MAX_ALSO]; // faults that draw the same pictures
     int also_count;
@@ -29,11 +29,11 @@ struct fault_search {
     unsigned expectation; // distinguishes the expected appearance of scenes (render_key)
     double tolerance;
     unsigned needs; // the needs of all scenes together
-    // Some names have no value, so only a single fault that explains everything is accepted.
+    // If some names have no value, only a single fault that explains everything is accepted.
     bool has_unset_names;
     uint64_t max_pictures; // after this many pictures, no further sets are tried
     double before;         // mean difference without faults, over the scenes that are not spoilt
-    // Results: the faults, the one that explains most first, and whether they explain everything.
+    // Results: the found faults (the fault that explains most is first), and whether they explain everything.
     struct found_fault found[MAX_FOUND_FAULTS];
     int count;
     bool certain;
@@ -46,10 +46,10 @@ struct fault_search {
     const struct fault **scene_faults;
 };
 
-// Searches for the fewest faults that explain every picture and, if there are none, for faults that explain some
-// pictures. A fault is only reported if pictures support it: it alone explains at least one scene and spoils none that
-// passes, or it is needed in a set that explains everything exactly. The caller allocates `scene_faults`. A shader that
-// only differs by a style gives `certain` with a count of 0.
+// Searches for the smallest set of faults that explains every picture or, if there is none, for faults that explain
+// some pictures. A fault is only reported if pictures support it. Either the fault alone explains at least one scene
+// and spoils no scene that passes, or a set that explains everything exactly needs the fault. The caller allocates
+// `scene_faults`. For a shader that differs only by a style, `certain` is set and the count is 0.
 bool fault_search_run(struct fault_search *search, lam_error *error);
 
 // Draws a scene in the styles of search->styles. `pixels` has size² × 4 floats.

@@ -8,11 +8,12 @@
 
 enum { BEAM = 6 };
 
-// As fractions of the difference without faults: the largest remainder after two faults for which a search for three is
-// worthwhile
+// The search for three faults starts if, after two faults, at most this fraction of the difference without faults
+// remains.
 static const double max_score_for_a_third = 0.75;
-static const double min_gain = 0.03;  // the least that each further fault must explain
-static const double max_rival = 1.25; // a rival's remainder over all scenes may be this many times as large
+static const double min_gain = 0.03; // the smallest fraction that each further fault must explain
+// another fault is a rival if its remaining difference over all scenes is at most this many times as large
+static const double max_rival = 1.25;
 static const double max_exact =
     2e-4; // the rounding error of an exact explanation, as a mean difference over all scenes
 
@@ -26,8 +27,8 @@ static int count_bits(uint32_t bits)
 
 // --- several faults
 
-// Removes unnecessary faults, and checks the others: each is supported by a scene that it explains alone, or the
-// explanation is exact.
+// Removes unnecessary faults, and checks the others: each fault must explain some scene alone, or the whole explanation
+// must be exact.
 static bool reduce(struct state *t, struct candidate *c, lam_error *error)
 {
     for (int i = 0; i < c->count && c->count > 1;) {
@@ -52,8 +53,8 @@ static bool reduce(struct state *t, struct candidate *c, lam_error *error)
     return true;
 }
 
-// Returns whether a fault is the only explanation of some scene: no other fault explains it with a similarly small
-// remainder over all scenes.
+// Returns whether a fault is the only explanation of some scene: no other fault explains this scene and leaves a
+// similarly small difference over all scenes.
 static bool is_the_one(struct state *t, const struct outcome *o, lam_error *error, bool *ok)
 {
     for (int k = 0; k < t->m.differ_count; k++) {
@@ -172,7 +173,7 @@ bool sets_try(struct state *t, struct candidate *best, lam_error *error)
         struct candidate c = {.members = {o->fault}, .count = 1, .mean = o->mean, .score = o->score};
         memcpy(c.parts, o->parts, sizeof c.parts);
         candidate_rebuild(&c);
-        // A candidate that spoils a scene is not part of an explanation, so it must not displace another candidate.
+        // A candidate that spoils a scene cannot be part of an explanation, so it must not displace another candidate.
         bool near = beam_count < BEAM || is_better(&c, &beam[BEAM - 1]);
         if (near && !outcome_find_spoils(t, o, error))
             return false;

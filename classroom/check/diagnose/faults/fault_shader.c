@@ -14,8 +14,8 @@
 
 enum switch_group { GROUP_VECTORS, GROUP_OUTPUT, GROUP_TERMS, GROUP_COUNT };
 
-// The variant of a program. Its constants are part of the source, so that it computes only the terms that a picture
-// needs; a software driver would compute both sides of every branch.
+// The variant of a program. Its constants are part of the source, so that the program computes only the terms that a
+// picture needs. With uniforms instead, a software driver would compute both sides of every branch.
 struct specialization {
     bool in_vertex, physical, phong, products, ambient_by_light, flat, two_sided;
     int masking, diffuse_share, tone, encoding;
@@ -46,7 +46,7 @@ struct fault_shader {
     int value_count;
     float numbers[MAX_NUMBERS];
     int number_count;
-    bool full; // a value did not fit
+    bool full; // set if a value did not fit
 };
 
 static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
@@ -60,7 +60,8 @@ static enum switch_group group_of(int bit)
     return bit <= BIT_MEAN_DISTANCE ? GROUP_VECTORS : bit <= BIT_USE_ACES ? GROUP_OUTPUT : GROUP_TERMS;
 }
 
-// Returns whether a switch can be on in a program: for a shader with an exponent, or with metalness and roughness.
+// Returns whether a switch can be on in a program. This depends on whether the program is for shaders with an exponent,
+// or with metalness and roughness.
 static bool is_possible(const struct specialization *made_for, int bit)
 {
     if (!made_for->groups[group_of(bit)])
@@ -229,7 +230,7 @@ void fault_shader_close(struct fault_shader *m)
         return;
     lam_error unused;
     if (m->rests)
-        fault_shader_wake(m, &unused); // a context that cannot be woken is closed without waking it
+        fault_shader_wake(m, &unused); // a context that cannot be made current is closed nevertheless
     for (int i = 0; i < m->program_count; i++)
         forget(m, m->programs[i].built);
     place_close(&m->place);
@@ -242,7 +243,7 @@ static void set(struct fault_shader *m, const char *name, int count, int each, c
     int input = place_input(m->program, name, false);
     if (input < 0)
         return;
-    if (count > m->program->inputs[input].elements) // a compiler may shorten an array
+    if (count > m->program->inputs[input].elements) // because a compiler may shorten an array
         count = m->program->inputs[input].elements;
     m->full = m->full || m->value_count == MAX_VALUES || m->number_count + count * each > MAX_NUMBERS;
     if (m->full)
@@ -395,8 +396,8 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_color(m, "bare_ka", reference_scene->ambient, 1);
     set_color(m, "bare_kd", reference_scene->diffuse, 1);
     set_color(m, "bare_ks", reference_scene->specular, 1);
-    // In contracts with separate strengths and colours, the fault swaps one of the two; in the others, it swaps the
-    // products.
+    // In contracts with separate strengths and colours, the fault swaps the strengths or the colours. In other
+    // contracts, it swaps the products.
     bool apart = interface->contract->material_strengths;
     set_color(m, "kd_with_ks", apart ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);
     set_color(m, "ks_with_kd", apart ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);

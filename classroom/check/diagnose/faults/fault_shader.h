@@ -1,4 +1,4 @@
-// fault_shader.h: draws a reference scene with faults switched on, with a painter.
+// fault_shader.h: uses a painter to draw a reference scene with faults switched on.
 #ifndef FAULT_SHADER_H
 #define FAULT_SHADER_H
 
@@ -6,15 +6,16 @@
 
 struct fault_shader;
 
-// Opens a fault shader for every `stride`-th pixel of every `stride`-th row of pictures of size² pixels, from the lower
-// left one: pictures of fault_shader_size(size, stride)² pixels.
+// Opens a fault shader for every `stride`-th pixel of every `stride`-th row of pictures of size² pixels, starting at
+// the lower left pixel. These pictures have fault_shader_size(size, stride)² pixels.
 struct fault_shader *fault_shader_open(const lam_check_painter *painter, int size, int stride, lam_error *error);
-void fault_shader_close(struct fault_shader *shader); // NULL is allowed; it may be at rest
+void fault_shader_close(struct fault_shader *shader); // NULL is allowed; the shader may be at rest
 
-// Returns whether it draws such pictures.
+// Returns whether a fault shader draws pictures of this size and stride.
 bool fault_shader_draws(const struct fault_shader *shader, int size, int stride);
 
-// An open shader is current on the thread that opened it. A resting one may be woken on another thread.
+// The context of an open shader is current on the thread that opened the shader. fault_shader_rest releases the
+// context, and fault_shader_wake makes it current again, also on another thread.
 void fault_shader_rest(struct fault_shader *shader);
 bool fault_shader_wake(struct fault_shader *shader, lam_error *error);
 

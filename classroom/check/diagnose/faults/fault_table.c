@@ -3,7 +3,7 @@
 // Most occur in lectures and tutorials (docs/mistakes.md shows them). Of two mistakes with the same picture, the more
 // common one comes first. Rows with the same id are forms of one mistake and are adjacent.
 //
-// The file is longer than 600 lines because it consists of one table.
+// The file is longer than 600 lines because it contains a single table.
 #include "fault.h"
 
 // The switches without their prefix.
@@ -722,7 +722,7 @@ const struct fault faults[] = {
     ROW("clip-space-vertex-four", BITS(POINT_CLIP, EYE_CLIP, FOUR), WHERE_FOUR, 0,
         "the vertex is in clip space and the light is not, with four components; the two cannot be subtracted",
         "vec3 P = ({model_view} * {position}).xyz; // no projection", .rare = true),
-    // --- styles: as right as the reference, and never reported as mistakes
+    // --- styles: as correct as the reference, and never reported as mistakes
     ROW("turned-to-the-eye", BITS(FACE_FORWARD), 0, 0,
         "the normal is turned towards the eye by the sign of n.v, as faceforward() does; gl_FrontFacing decides it for "
         "whole triangles, which is the same but for pixels at the rim",

@@ -143,7 +143,7 @@ static void put_normal_matrix(struct line *line)
         put(line, "transpose(inverse(mat3(%s)))", to_lighting(line));
 }
 
-// Writes the exponent: its name, or the number that the shader has instead.
+// Writes the exponent: its name, or the number that the shader contains instead.
 static void put_shininess(struct line *line)
 {
     const struct shader_interface *r = line->interface;

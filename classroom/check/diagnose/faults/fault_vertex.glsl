@@ -1,9 +1,9 @@
-// fault_vertex.glsl: the varyings, or the lighting where it is computed in the vertex shader.
+// fault_vertex.glsl: computes the varyings or, for lighting in the vertex shader, the lighting.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 #ifdef MAPS
-layout(location = 2) in vec4 tangent; // w: the sign of the bitangent
+layout(location = 2) in vec4 tangent; // w is the sign of the bitangent
 layout(location = 3) in vec2 texture_coordinate;
 out vec4 surface_tangent, surface_bitangent;
 out vec3 surface_point;
@@ -11,7 +11,7 @@ out vec2 surface_texture_coordinate;
 #endif
 
 uniform mat4 normal_matrix4; // inverse transpose of to_lighting
-uniform vec4 window;         // scale and offset that put every second pixel of a picture on the pixels of a smaller one
+uniform vec4 window;         // scale and offset that map every second pixel of a picture to the pixels of a smaller one
 
 #ifdef IN_VERTEX
 out vec4 vertex_color, vertex_color_back;
@@ -58,7 +58,7 @@ vec4 normal_of()
     return is(LONG_NORMAL_VERTEX) ? n : unit4(n);
 }
 
-// Tangent and bitangent in the space of the lighting, and the place on the maps.
+// Returns the tangent and the bitangent in the space of the lighting, and the texture coordinates.
 Frame frame_of(vec4 point)
 {
     Frame f = Frame(vec4(0.0), vec4(0.0), vec2(0.0), point.xyz);
@@ -71,7 +71,7 @@ Frame frame_of(vec4 point)
     }
     f.tangent = vec4(turn * tangent.xyz, tangent.w);
     f.bitangent = vec4(turn * (cross(normal, tangent.xyz) * (is(SIGN_LOST) ? 1.0 : tangent.w)), 0.0);
-    if (is(FRAME_INTERPOLATED)) { // unit at the vertices, and not again between them
+    if (is(FRAME_INTERPOLATED)) { // normalized at the vertices, but not after interpolation
         f.tangent.xyz = normalize(f.tangent.xyz);
         f.bitangent.xyz = cross(unit4(normal_of()).xyz, f.tangent.xyz) * tangent.w;
     }

@@ -118,7 +118,7 @@ static bool draw_behind(struct cpu_frame *cpu, struct behind *behind, struct buf
     return true;
 }
 
-// Draws the tile with the explained pixel once more, recording its values.
+// Draws the tile with the explained pixel once more, and records the pixel's values.
 static void record_tile(struct cpu_frame *cpu, struct recorder *recorder)
 {
     const lam_explanation *out = recorder->out;
@@ -174,7 +174,7 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
     }
 }
 
-// Prepares the environment light for physical materials: the prefiltered environment, or sample directions.
+// Prepares the environment light for physical materials: either the prefiltered environment, or directions to sample.
 static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->shade.frame;
@@ -188,7 +188,8 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
                                     frame->settings.reference, &memory->reference, cpu->call, error);
 }
 
-// Smaller pictures count as this large, because they take little time with any number of layers.
+// The work limit treats smaller pictures as if they were this large, because they take little time with any number of
+// layers.
 enum { WORK_PIXELS = 256 * 256 };
 
 static uint64_t work_limit(const lam_image *image, const struct call_control *call)

@@ -1,5 +1,5 @@
-// cube_sums.c: computes cubes whose texels are weighted means of all texels of a small copy of an environment, for
-// weights that vary slowly.
+// cube_sums.c: computes cubes whose texels are weighted means of all texels of a small copy of an environment. This
+// method suits weights that vary slowly with the direction.
 #include "environment_kernels.h"
 #include "fail.h"
 
@@ -33,7 +33,7 @@ struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *erro
         return NULL;
     }
     sums->count = count;
-    double total = 0; // sum of the solid angles, to normalise them: no sum exceeds the brightest light
+    double total = 0; // sum of the solid angles; they are divided by it, so that no mean exceeds the brightest light
     for (int t = 0; t < n; t++)
         for (int s = 0; s < n; s++)
             total += LAM_FACE_COUNT * (double)texel_weight(n, s, t);

@@ -27,7 +27,8 @@ struct animation_codec {
     // Makes the bytes of the file. It is called once, after at least one frame.
     bool (*finish)(void *state, const lam_save_params *params, lam_bytes *out, lam_error *error);
 
-    // Returns the bytes of the encoded frames in the writer, if it knows them: libwebpmux does not report them.
+    // Returns the size in bytes of the encoded frames in the writer, as far as it is known: libwebpmux does not report
+    // its memory.
     uint64_t (*held)(const void *state);
 
     void (*free)(void *state);

@@ -1,11 +1,11 @@
 // double_lanes.h: vectors of doubles that correspond to the floats of lanes.h.
 //
-//  dnum   DLANES doubles in one register, half as many as the floats of a num; DPARTS dnums cover LANES
-//  dmask  DLANES truth values, from comparisons
+//  dnum DLANES doubles in one register, half as many as a num has floats; DPARTS dnums have LANES doubles dmask DLANES
+//  truth values, the results of comparisons
 //
-// As in lanes.h, only + − × ÷ and comparisons are used, each correctly rounded, so every width gives the same bits.
-// (Vectors twice as wide as the registers would not have to be divided, but compilers split their comparisons into
-// scalar ones.)
+// As in lanes.h, only + − × ÷ and comparisons are used. Each is correctly rounded, so the results are bit-identical for
+// every width. One vector twice as wide as a register could replace the DPARTS vectors, but compilers would then use
+// scalar instructions for its comparisons.
 #ifndef DOUBLE_LANES_H
 #define DOUBLE_LANES_H
 

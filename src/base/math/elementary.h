@@ -1,4 +1,4 @@
-// elementary.h: exponentials, logarithms, powers and their relatives in double, with the same bits on every machine.
+// elementary.h: exponentials, logarithms, powers and related functions in double, bit-identical on every machine.
 //
 // They evaluate formulas that users write (src/shapes/formula.h). As in linear.h, the order of operations is fixed and
 // libm is not used. tests/unit/test_formula.c measures the errors against libm; they are relative to the result unless

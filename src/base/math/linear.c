@@ -10,7 +10,8 @@ double math_sqrt(double x) { return x > 0 ? __builtin_sqrt(x) : 0; }
 double math_radians(double degrees) { return degrees * (PI / 180); }
 double math_degrees(double radians) { return radians * (180 / PI); }
 
-// π/2 in three summands, the first two with 33 significant bits, so that their products with the quotient are exact.
+// π/2 in three summands, the first two with 33 significant bits, so that their products with a number of quarter turns
+// are exact.
 #define HALF_PI_1 1.57079632673412561417e+00
 #define HALF_PI_2 6.07710050630396597660e-11
 #define HALF_PI_3 2.02226624879595063154e-21
@@ -79,8 +80,8 @@ double math_cos(double x)
 
 double math_tan(double x) { return math_sin(x) / math_cos(x); }
 
-// Computes atan t for t in [0, 1]: t is halved twice by atan t = 2 atan(t / (1 + √(1 + t²))), then the series is used
-// for t ≤ tan(π/16).
+// Computes atan t for t in [0, 1]. The angle is halved twice by atan t = 2 atan(t / (1 + √(1 + t²))), then the series
+// is used, with t ≤ tan(π/16).
 static double arctangent(double t)
 {
     for (int i = 0; i < 2; i++)
@@ -116,7 +117,7 @@ double math_acos(double x)
     return math_atan2(math_sqrt((1 - x) * (1 + x)), x);
 }
 
-// The integral part is applied by doubling or halving; the fraction, at most ½, uses the series of e^(x ln 2).
+// The whole part of x is applied by doubling or halving. The rest, at most ½, is computed by the series of e^(x ln 2).
 double math_exp2(double x)
 {
     int whole = (int)(x < 0 ? x - 0.5 : x + 0.5);
@@ -237,7 +238,7 @@ lam_mat4 mat4_scale(double x, double y, double z)
     return m;
 }
 
-// Rodrigues' formula.
+// Rodrigues' rotation formula.
 lam_mat4 mat4_rotate(double radians, lam_vec3 axis)
 {
     lam_vec3 k = v3_unit(axis);

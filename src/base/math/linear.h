@@ -21,8 +21,8 @@ double v3_length(lam_vec3 a);
 lam_vec3 v3_unit(lam_vec3 a); // zero stays zero; no overflow or underflow
 bool v3_finite(lam_vec3 a);
 
-// Correctly rounded √ (the processor's instruction), and trigonometric functions within 2 units in the last place for
-// |x| ≤ 1e6.
+// math_sqrt is correctly rounded (it is a processor instruction). For |x| ≤ 1e6, the trigonometric functions are exact
+// to 2 units in the last place.
 double math_sqrt(double x);
 double math_sin(double x);
 double math_cos(double x);
@@ -47,7 +47,7 @@ lam_mat4 mat4_translate(double x, double y, double z);
 lam_mat4 mat4_scale(double x, double y, double z);
 lam_mat4 mat4_rotate(double radians, lam_vec3 axis);               // right-handed; the axis has any nonzero length
 lam_mat4 mat4_look_at(lam_vec3 eye, lam_vec3 target, lam_vec3 up); // world to eye space
-// OpenGL's projections: z from −1 at the near plane to 1 at the far one, distances positive.
+// The projection matrices of OpenGL: z is −1 at the near plane and 1 at the far plane. Both distances are positive.
 lam_mat4 mat4_perspective(double fovy_rad, double aspect, double near_plane, double far_plane);
 lam_mat4 mat4_orthographic(double half_height, double aspect, double near_plane, double far_plane);
 

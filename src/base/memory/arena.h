@@ -1,8 +1,8 @@
 // arena.h: memory that is freed all at once.
 //
-// Small requests are suballocated from blocks that grow up to a huge page; requests of 1 MiB and more get pages of
-// their own, advised to be huge pages, which makes the first touch three times as fast. Memory is not zeroed unless the
-// function's comment states it. Only one thread at a time may use an arena.
+// Small requests are allocated from shared blocks, whose size grows up to that of a huge page. Requests of 1 MiB and
+// more get pages of their own. The system is asked to make these huge pages, so that the first access is three times as
+// fast. Memory is not zeroed unless the function's comment states it. Only one thread at a time may use an arena.
 #ifndef ARENA_H
 #define ARENA_H
 
@@ -27,21 +27,21 @@ void arena_free(struct arena *arena); // frees everything; the arena is empty an
 struct arena *arena_new(struct call_control *call);
 void arena_delete(struct arena *arena);
 
-// Allocates memory aligned to 64 bytes for requests of 64 bytes or more, else to 16. Returns NULL if memory or the
-// call's budget is exhausted (call_memory_error reports which). Size 0 gives a valid pointer.
+// Allocates memory, aligned to 64 bytes for requests of 64 bytes or more, and to 16 bytes otherwise. Returns NULL if
+// memory or the call's budget is exhausted (call_memory_error reports which). For size 0 it returns a valid pointer.
 void *arena_alloc(struct arena *arena, size_t bytes);
 void *arena_alloc_zeroed(struct arena *arena, size_t bytes);
 
 // Allocates `count` items of `size` bytes. Also returns NULL if the product overflows.
 void *arena_array(struct arena *arena, size_t count, size_t size);
 
-// Copies a string (NULL gives NULL), copies the first `length` bytes as a string, or formats a string.
+// Copy a string (NULL gives NULL), copy the first `length` bytes of a text as a string, or format a string.
 char *arena_string(struct arena *arena, const char *text);
 char *arena_string_of(struct arena *arena, const char *text, size_t length);
 char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 
-// Makes the arena the owner of `held` bytes at `pages` (pages.h). `charged` is the amount charged to its call for them,
-// which is refunded with them. Returns false if memory runs out; the caller then still owns them.
+// Makes the arena the owner of `held` bytes at `pages` (pages.h). `charged` is the number of bytes charged to its call
+// for these pages; arena_free refunds it. Returns false if memory runs out; the caller then still owns the pages.
 bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged);
 
 // For tests: makes allocation number `countdown` of this thread fail once, 0 being the next. −1 disables this.

@@ -52,9 +52,10 @@ void *pages_get_sparse(size_t bytes, size_t *held)
     return map(*held);
 }
 
-// A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first touch,
-// which takes a third of the time of small pages. The remainder after the last whole huge page also gets a huge page if
-// this enlarges the block only slightly, which is faster than hundreds of small pages.
+// A block of at least one huge page is aligned to the size of huge pages. The kernel then uses huge pages from the
+// first access, which takes a third of the time of small pages. If the last huge page would be only partly used, it is
+// still allocated in full if this enlarges the block only slightly, because one huge page is faster than hundreds of
+// small pages.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)

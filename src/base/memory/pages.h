@@ -4,14 +4,15 @@
 
 #include <stddef.h>
 
-// Whether the system commits memory on first touch, so that reserving much more than is used uses no memory.
+// Whether the system provides memory only on first access. If so, a caller may reserve much more memory than it uses.
 #if defined(__wasm__)
 enum { PAGES_WHEN_TOUCHED = 0 };
 #else
 enum { PAGES_WHEN_TOUCHED = 1 };
 #endif
 
-// Allocates zeroed, page-aligned memory. `held` receives the size to free. Returns NULL if memory runs out.
+// Allocates zeroed, page-aligned memory. *held receives the size to pass to pages_free. Returns NULL if memory runs
+// out.
 void *pages_get(size_t bytes, size_t *held);
 // Allocates small pages, for sparsely used blocks.
 void *pages_get_sparse(size_t bytes, size_t *held);

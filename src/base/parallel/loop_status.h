@@ -9,7 +9,8 @@ struct loop_status {
     int stopped, out_of_memory; // set by any thread
 };
 
-// Returns false if the call was cancelled, its time is over, or memory is exhausted. Every task checks this first.
+// Returns false if the call was cancelled, its time is over, or memory is exhausted. Every task calls this function
+// first.
 static inline bool should_continue(struct loop_status *loop)
 {
     if (__atomic_load_n(&loop->stopped, __ATOMIC_RELAXED) || __atomic_load_n(&loop->out_of_memory, __ATOMIC_RELAXED))

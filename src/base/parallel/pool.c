@@ -10,7 +10,7 @@
 
 enum {
     THREADS_MAX = 1024,
-    WORKER_STACK = 1 << 20, // stack size in bytes; drawing uses less than 128 kB. The system's default would follow
+    WORKER_STACK = 1 << 20, // stack size in bytes; drawing uses less than 128 kB. The system's default would depend on
                             // `ulimit -s`.
 };
 

@@ -4,7 +4,7 @@
 
 #include <lambent/base.h>
 
-// A search for the known name that a typed word means, by lam_word_distance.
+// A search for the known name that a typed word most likely means, by lam_word_distance.
 struct spelling {
     const char *word;    // as typed
     const char *nearest; // the nearest word so far, or NULL
@@ -13,8 +13,8 @@ struct spelling {
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
 
-// Returns the word of `words` with the smallest edit distance to `word`, at most a third of its length, or NULL if none
-// is that near.
+// Returns the word of `words` with the smallest edit distance to `word`. Returns NULL if this distance exceeds a third
+// of the length of `word`.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
 // Returns the known name among `words` that a typed word means, or NULL if none is close enough.

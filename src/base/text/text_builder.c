@@ -10,7 +10,7 @@
 
 enum { ASK_EVERY = 256 << 10 }; // bytes
 
-// Returns false, with the text failed, if the call must stop.
+// Marks the text as failed and returns false if the call must stop.
 static bool may_grow(struct text *text, size_t more)
 {
     if (!text->call)

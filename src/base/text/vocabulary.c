@@ -7,7 +7,7 @@
 enum { LENGTH_MAX = 63 };
 
 // Common synonyms, separated by spaces, in lower case with '-' between words. The program suggests them, but does not
-// accept them. If a name occurs in several rows, the rows for the current context apply.
+// accept them. If a name occurs in several rows, only the rows for the current context are used.
 static const struct {
     const char *word, *others;
 } vocabulary[] = {

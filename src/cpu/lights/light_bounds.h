@@ -1,5 +1,5 @@
-// light_bounds.h: the lights of a frame in rows, for testing many of them at a time against the bounds of a part of the
-// picture (light_cull.inc).
+// light_bounds.h: the lights of a frame in rows, so that many lights at a time can be tested against the bounds of a
+// section of the picture (light_cull.inc).
 #ifndef LIGHT_BOUNDS_H
 #define LIGHT_BOUNDS_H
 
@@ -10,11 +10,11 @@ struct material_products;
 
 enum {
     LIGHTS_IN_GROUP = 16,   // neighbouring lights that are tested together
-    LIGHTS_ALL_SUMMED = 16, // frames with at most this many lights only drop lights that add nothing
+    LIGHTS_ALL_SUMMED = 16, // in frames with at most this many lights, only lights that add nothing are dropped
 };
 
-// Lights with a range come first, in Morton order (1966), followed by the others. Rows are padded to a multiple of
-// LIGHTS_IN_GROUP with lights that reach nothing.
+// Lights with a range come first, in Morton order (1966), followed by the others. The rows are padded to a multiple of
+// LIGHTS_IN_GROUP with lights that reach no point.
 struct light_bounds {
     int count, capacity;      // number of lights, without and with the padding of the last group
     const uint32_t *number;   // index in the frame
@@ -23,11 +23,11 @@ struct light_bounds {
     const float *axis[3];     // the axis of a spot light; otherwise 0
     const float *min_cosine;  // the cosine at which a spot's light ends; −2 if there is no cone
     const float *attenuation[3];
-    const float *inverse_range; // 0 if there is none
-    // `capacity` numbers per material. For the diffuse term, the largest channel of kd ⊙ Ld, which vertex colours tint
-    // (with gl1, plus the largest channel of ka ⊙ La); for the specular term, the largest channel of ks ⊙ Ls.
+    const float *inverse_range; // 0 if the light has no range
+    // `capacity` numbers per material. For the diffuse term, the largest channel of kd ⊙ Ld, before vertex colours tint
+    // it (with gl1, the largest channel of ka ⊙ La is added). For the specular term, the largest channel of ks ⊙ Ls.
     const float *max_diffuse, *max_specular;
-    // For each group: the bounding box of its lights and their maximum range; infinite if a light has none.
+    // For each group: the bounding box of its lights and their maximum range; infinite if a light has no range.
     int group_count, group_capacity;
     const float *group_low[3], *group_high[3], *group_reach;
     const uint32_t *all; // 0, 1, 2 … count − 1

@@ -18,8 +18,9 @@ struct fragments {
     float *color[4]; // r, g, b, a; not premultiplied
     // Translucent fragments, if the frame transmits light: the transmittance of each channel; otherwise NULL.
     float *through[3];
-    // For translucent fragments, if the frame refracts: the offset into the picture behind in pixels to the right and
-    // down, and the square of the blur width in pixels, or −1 if the surface does not transmit light.
+    // For translucent fragments, if the frame refracts: the offset, in pixels to the right and down, at which the
+    // picture behind is read. The third value is the square of the blur width in pixels, or −1 if the surface does not
+    // transmit light.
     float *bend[3];
     // Scratch memory of the current step: three words for each fragment.
     uint32_t *scratch;

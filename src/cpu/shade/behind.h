@@ -1,5 +1,5 @@
-// behind.h: the picture behind rough and thick glass: all surfaces that do not transmit, as linear light, in levels of
-// half the size each, so that a lookup can blur.
+// behind.h: the picture behind rough and thick glass: all surfaces that do not transmit light, as linear light. Each
+// level is half the size of the previous one, so that a lookup can blur the picture.
 #ifndef BEHIND_H
 #define BEHIND_H
 
@@ -8,7 +8,8 @@
 enum { BEHIND_LEVELS = 24 };
 
 // A texel is the mean of the pixels that it covers; all texels of a level have the same size, about 2^level pixels.
-// Beyond the border, the border texels are used. Four floats each: premultiplied light before exposure, and alpha.
+// Beyond the border, the border texels are used. Each texel is four floats: premultiplied light before exposure, and
+// alpha.
 struct behind {
     int levels;
     int width[BEHIND_LEVELS], height[BEHIND_LEVELS];
@@ -20,11 +21,12 @@ struct behind {
 bool behind_make(struct behind *behind, struct buffer *memory, int width, int height, size_t tiles,
                  struct call_control *call, lam_error *error);
 
-// Makes the other levels from the first.
+// Computes the other levels from the first one.
 void behind_fill(struct behind *behind);
 
 // Samples the picture at x and y, in pixels from the upper left corner, blurred over √`square` pixels. It interpolates
-// the two levels whose texels are about this wide, each with a cubic B-spline; the first level is sampled bilinearly.
+// between the two levels whose texels are about this wide. Each level is sampled with a cubic B-spline, except the
+// first, which is sampled bilinearly.
 void behind_look(const struct behind *behind, float x, float y, float square, float out[4]);
 
 #endif

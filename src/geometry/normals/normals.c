@@ -13,7 +13,7 @@
 
 enum {
     CHUNK = 1 << 16,    // corners or triangles per task
-    LANES_MAX = 1 << 8, // no limit except the processor's
+    LANES_MAX = 1 << 8, // no limit except that of the processor
 };
 
 static size_t chunks_of(size_t total) { return (total + CHUNK - 1) / CHUNK; }
@@ -30,7 +30,7 @@ struct numbering {
     struct visible_normals made;
     struct rank_bitset first_corners;
     float (*normals)[3]; // indexed by number
-    uint32_t *indices;   // per corner: elements of `made`, then numbers
+    uint32_t *indices;   // per corner: first elements of `made`, later numbers
     size_t corners;
 };
 

@@ -62,7 +62,7 @@ FILE *windows_fopen(const char *path, const char *mode)
     return stream;
 }
 
-// --- facts
+// --- file information
 
 static struct timespec time_of(uint64_t ticks)
 {
@@ -94,7 +94,7 @@ static int stat_handle(HANDLE handle, struct windows_stat *about)
     return 0;
 }
 
-// Opens a handle that only queries a file's attributes; returns INVALID_HANDLE_VALUE and sets errno on failure.
+// Opens a handle that can only query a file's attributes. Returns INVALID_HANDLE_VALUE and sets errno on failure.
 static HANDLE open_name(const char *path)
 {
     wchar_t *wide = wide_path(path);

@@ -5,7 +5,7 @@
 #include_next <fcntl.h>
 
 #define O_CLOEXEC _O_NOINHERIT
-// Windows has no such files, or needs no request for them.
+// Windows has no files to which these flags apply, or does not need the flag.
 #define O_NONBLOCK  0
 #define O_NOCTTY    0
 #define O_NOFOLLOW  0

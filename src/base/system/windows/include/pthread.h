@@ -1,4 +1,4 @@
-// pthread.h: extends the header of winpthreads, whose timed waits use only the time of day: here the deadline is a time
+// pthread.h: extends the header of winpthreads. Its timed waits use only the time of day; here the deadline is a time
 // of CLOCK_MONOTONIC.
 #ifndef WINDOWS_PTHREAD_H
 #define WINDOWS_PTHREAD_H

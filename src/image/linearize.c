@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-// Makes the table of linear values of the numbers 0 … last.
+// Makes a table of the linear values that correspond to the file's numbers 0 … last.
 static float *make_table(int last, lam_color_mode color, lam_error *error)
 {
     size_t bytes = ((size_t)last + 1) * sizeof(float);

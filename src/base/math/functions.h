@@ -2,7 +2,7 @@
 //
 // They use only + − × and integer operations on the bits (lanes.h), without libm, tables or divisions. Each function's
 // comment states its range and its error; tests/lighting/test_functions.c measures both. No function returns NaN, for
-// any argument, unless its comment says so.
+// any argument, unless its comment states it.
 #ifndef FUNCTIONS_H
 #define FUNCTIONS_H
 

@@ -360,7 +360,8 @@ static uint64_t round_decimal(const struct decimal *d, const struct format *form
 
 // --- the public functions
 
-// Parses "inf", "infinity", "nan", "nan(…)", in upper or lower case. *bits receives the format's bits without the sign.
+// Parses "inf", "infinity", "nan" and "nan(…)", in upper or lower case. *bits receives the format's bits without the
+// sign.
 static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, const struct format *format, bool *negative,
                                    uint64_t *bits)
 {

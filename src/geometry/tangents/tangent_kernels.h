@@ -12,7 +12,7 @@ enum triangle_flags {
     TRIANGLE_DEGENERATE = 4,  // two of its positions are equal
     TRIANGLE_HAS_A_GROUP = 8, // a corner has a group
 };
-enum { TRIANGLES_AFTER = 15 }; // number of flags after those of the last triangle that may be overwritten
+enum { TRIANGLES_AFTER = 15 }; // number of flags after the last triangle that may be overwritten
 
 struct tangent_kernels {
     // Sets the flags of the triangles from `first` to `end`, except TRIANGLE_HAS_A_GROUP.

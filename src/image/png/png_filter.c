@@ -1,4 +1,4 @@
-// png_filter.c: applies PNG's row filters, sixteen bytes at a time.
+// png_filter.c: applies the row filters of PNG, sixteen bytes at a time.
 #include "png_filter.h"
 
 #include <stdbool.h>
@@ -15,10 +15,10 @@ typedef u8x16 u8x16_memory __attribute__((aligned(1), may_alias));
 INLINE u8x16 load(const uint8_t *at) { return (u8x16) * (const u8x16_memory *)at; }
 INLINE u8x16 choose(u8x16 mask, u8x16 a, u8x16 b) { return (a & mask) | (b & ~mask); }
 INLINE u8x16 below(u8x16 a, u8x16 b) { return (u8x16)(a < b); }
-// Returns |a − b|, given a < b as a mask.
+// Returns |a − b|; `a_below` is the mask of a < b.
 INLINE u8x16 distance(u8x16 a, u8x16 b, u8x16 a_below) { return ((a - b) ^ a_below) - a_below; }
 
-// Returns the mean, rounded down, without a ninth bit.
+// Returns the mean, rounded down, with 8-bit arithmetic only.
 INLINE u8x16 average(u8x16 a, u8x16 b)
 {
     u16x8 half = (u16x8)((a ^ b) & 0xFE) >> 1; // clearing the lowest bit keeps bits from moving to the next byte
@@ -26,8 +26,8 @@ INLINE u8x16 average(u8x16 a, u8x16 b)
 }
 
 // Paeth's predictor in bytes. With p = a + b − c: |p − a| = |b − c|, |p − b| = |a − c|, and |p − c| is the difference
-// of these two if a and b are on different sides of c. On the same side it is their sum, which is never the smallest,
-// so 255 replaces it. Ties go to a, then b.
+// of these two if a and b are on different sides of c. If both are on the same side, it is their sum, which is never
+// the smallest of the three, so 255 is used instead. If distances are equal, a is preferred to b, and b to c.
 INLINE u8x16 paeth(u8x16 a, u8x16 b, u8x16 c)
 {
     u8x16 b_below = below(b, c), a_below = below(a, c);
@@ -55,8 +55,8 @@ INLINE u8x16 filtered(enum png_filter filter, u8x16 here, u8x16 left, u8x16 abov
 
 enum { VECTOR = 16, BLOCK = 4 * VECTOR, BLOCK_PIXELS = BLOCK / 4 };
 
-// Filters one vector at a time. The first vector, which has no left neighbour, and the last, which may be short, use
-// copies. `low` selects the bytes of a pixel that are kept; `gather` means that alpha follows red.
+// Filters one vector at a time. The first vector, which has no left neighbour, and the last, which may be incomplete,
+// are read from copies. `low` selects the bytes of a pixel that are kept; `gather` means that alpha follows red.
 INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
                        bool gather, uint32_t *out)
 {
@@ -66,7 +66,7 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
         if (at > 0 && at + VECTOR <= bytes) {
             result = filtered(filter, load(row + at), load(row + at - 4), load(above + at), load(above + at - 4));
         } else {
-            // this row and the one above, starting at the left pixel
+            // this row and the row above, starting at the left pixel
             uint8_t near[VECTOR + 4] = {0}, far[VECTOR + 4] = {0};
             const int before = at > 0 ? 4 : 0, after = bytes - at < VECTOR ? bytes - at : VECTOR;
             memcpy(near + 4 - before, row + at - before, (size_t)(before + after));
@@ -82,7 +82,7 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
     }
 }
 
-// The filter is a constant in each call, so that each loop is compiled for its filter.
+// Calls filter_row with a constant filter, so that the compiler makes one loop for each filter.
 INLINE void filter_row_by(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
                           bool gather, uint32_t *out)
 {

@@ -26,7 +26,7 @@ int windows_hostname(char *name, size_t size);
 // Returns the number of processors, or −1 if `name` asks for another value.
 long sysconf(int name);
 
-// Always fails: this program does not read links on Windows.
+// Always fails, because Lambent does not read links on Windows.
 static inline ssize_t readlink(const char *path, char *out, size_t size)
 {
     (void)path, (void)out, (void)size;

@@ -94,7 +94,7 @@ static void behind_task(void *user, size_t index, int thread)
     if (work_continues(&cpu->work))
         draw_tile(cpu, index, thread);
     cpu->target.behind->glass[index] = state->layers.glass;
-    if (state->layers.glass) // glass pixels are counted when they are drawn with glass
+    if (state->layers.glass) // pixels with glass are counted when the glass is drawn
         state->pixels_covered = covered;
 }
 

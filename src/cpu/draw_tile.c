@@ -147,7 +147,7 @@ static void take_behind(const struct behind *behind, struct thread_state *thread
                 thread->sums.sum[c][y * TILE + x] = from[4 * x + c];
     }
     thread->fragments.count = 0;
-    thread->samples.translucent_triangles = 1; // the sums are already started
+    thread->samples.translucent_triangles = 1; // the sums already contain values
 }
 
 void draw_tile(struct cpu_frame *cpu, size_t index, int number)

@@ -1,6 +1,6 @@
 // kernels.h: the table of performance-critical functions. The source is compiled once for each instruction set
-// (kernels.c), and all versions are bit-identical to `scalar`. A step accesses only its parameters; those that it only
-// reads are const.
+// (kernels.c). The results of all versions are bit-identical to those that `scalar` computes. A step accesses only its
+// parameters; those that it only reads are const.
 #ifndef KERNELS_H
 #define KERNELS_H
 
@@ -33,9 +33,9 @@ struct kernels {
     const char *name;
     int lanes;
 
-    // Writes the x, y and depth key of the task's vertices to raster->vertices. A vertex that needs clipping gets a NaN
-    // that encodes the planes (clip.h). Any threads may process the tasks in any order. Only indexed meshes have vertex
-    // tasks.
+    // Writes the x, y and depth key of the task's vertices to raster->vertices. For a vertex that needs clipping, x is
+    // a NaN that encodes the planes (clip.h). Any threads may process the tasks in any order. Only indexed meshes have
+    // vertex tasks.
     void (*vertex_transform)(const struct raster_frame *raster, const struct chunk *chunk);
 
     // Appends the task's triangles to the bins of the tiles that they touch, and clips triangles if necessary. Drops

@@ -25,7 +25,7 @@ struct vertex_colors {
     struct shade_frame shade;
     struct shading shading; // includes the counters, and the results in `vertices`
     struct light_pattern pattern;
-    struct work work; // limited only by the call
+    struct work work; // only the limits of the call apply
     enum failure failure;
     struct buffer storage, products;
     float decode_srgb[256], decode_linear[256];

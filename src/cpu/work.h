@@ -15,11 +15,11 @@ enum failure {
 // Units of work, about a nanosecond each with AVX2, measured with four samples per pixel.
 enum {
     WORK_LAYER = 96,    // a translucent fragment
-    WORK_LIGHT = 3,     // one light evaluated at one point
+    WORK_LIGHT = 3,     // one light that is evaluated at one point
     WORK_MASK = 24,     // a sample whose opacity is looked up before it becomes a layer
     WORK_OPAQUE = 3,    // an opaque triangle at a pixel
     WORK_SET_UP = 32,   // a triangle in a tile
-    WORK_STEP = 1 << 20 // units counted before they are added, a few milliseconds
+    WORK_STEP = 1 << 20 // units that a thread counts before it adds them to the frame's work: a few milliseconds
 };
 
 struct work {

@@ -9,14 +9,14 @@ struct cube_color {
     num r, g, b;
 };
 
-// The intersection of a direction with the cube, in texels of the bordered face, ½ … size + 1½. The zero vector gives
-// an arbitrary point.
+// The intersection of a direction with the cube, in texels of the bordered face, ½ … size + 1½. For the zero vector,
+// the point is arbitrary.
 struct cube_position {
     inum face;
     num s, t;
 };
 
-// A direction in the coordinates of its face. It meets the face at (across ÷ major, down ÷ major).
+// A direction in the coordinates of the face that it intersects, at (across ÷ major, down ÷ major).
 struct cube_side {
     inum face;
     num across, down, major;
@@ -35,7 +35,7 @@ LANE_FN struct cube_side cube_side(num x, num y, num z)
     return side;
 }
 
-// Returns the point on a face from −1 to 1; NaN for the zero vector.
+// Returns the point on a face; its coordinates are −1 to 1. For the zero vector they are NaN.
 LANE_FN struct cube_position cube_point(num x, num y, num z)
 {
     struct cube_side side = cube_side(x, y, z);

@@ -15,13 +15,13 @@ enum { CUBE_SIDE_MOST = 8192 };
 struct lam_environment {
     int references;                  // accessed atomically
     int size;                        // texels per side of a face, without the border
-    float *texels;                   // 6 faces of (size + 2)² times r, g, b; row t = −1 first
+    float *texels;                   // 6 faces of (size + 2)² texels of r, g and b; row t = −1 is first
     size_t held;                     // size in bytes of the pages that contain the texels
     struct environment_light *light; // the light on physical materials, made on first use (environment_light.h)
 };
 
 static inline size_t cube_row(const struct lam_environment *cube) { return (size_t)(cube->size + 2) * 3; }
-// Returns texel (s, t) of a face, −1 … size.
+// Returns texel (s, t) of a face; s and t are −1 … size.
 static inline float *cube_texel(const struct lam_environment *cube, int face, int s, int t)
 {
     return cube->texels + ((size_t)face * (size_t)(cube->size + 2) + (size_t)(t + 1)) * cube_row(cube) +

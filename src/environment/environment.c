@@ -230,7 +230,7 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
     return cube;
 }
 
-// Makes a cube from one linear picture. The aspect ratio of the picture tells its layout.
+// Makes a cube from one linear picture. The aspect ratio of the picture determines its layout.
 static struct lam_environment *cube_of_image(const lam_image *image, const char *name, struct call_control *call,
                                              lam_error *error)
 {

@@ -79,7 +79,7 @@ static void cut_lobe(struct lobe_cells *cells, int level, const struct cube_chai
     double far_l = FAR_TEXELS * PI / 2 / far_size(level); // radians
     cells->near = cells->count = 0;
     for (int ring = 0; inner < 1; ring++) {
-        if (outer * growth > 1) // beyond 45° the reflected directions are below the horizon of the axis
+        if (outer * growth > 1) // for h beyond 45°, the reflected directions are below the horizon
             outer = 1;
         add_ring(cells, alpha, inner, outer, ring, chain, &total);
         if (2 * inner < far_l)
@@ -238,7 +238,7 @@ int environment_light_rows(void)
     return (texels + ENVIRONMENT_LIGHT_WIDTH - 1) / ENVIRONMENT_LIGHT_WIDTH;
 }
 
-// Makes the struct with only level 0.
+// Makes the struct, which at first contains only level 0.
 static struct environment_light *start(const struct lam_environment *cube, lam_error *error)
 {
     struct environment_light *light = calloc(1, sizeof *light);

@@ -1,8 +1,8 @@
-// environment_light.h: an environment as the light of metallic-roughness materials: the two terms of the split sum
-// (Karis, "Real Shading in Unreal Engine 4", 2013) that depend only on the environment.
+// environment_light.h: converts an environment to the light that metallic-roughness materials receive: the two terms of
+// the split-sum approximation (Karis, "Real Shading in Unreal Engine 4", 2013) that depend only on the environment.
 //
-//  prefiltered the environment as the GGX microfacets reflect it around the mirrored direction r, seen along the normal
-//               (n = v = r), for ENVIRONMENT_LEVELS roughnesses:
+//  prefiltered  the environment as the GGX microfacets reflect it around the mirrored direction r, seen along the
+//               normal (n = v = r), for ENVIRONMENT_LEVELS roughnesses:
 //                   P(r) = sum over l of L(l) D(h) max(r.l, 0) / sum of D(h) max(r.l, 0),   h = unit(r + l)
 //  irradiance   the mean of the light from the half space above a surface, weighted by the cosine: irradiance / pi
 //
@@ -22,7 +22,8 @@ struct environment_light {
     struct lam_environment irradiance;
     float *texels; // all levels but level[0], in rows of ENVIRONMENT_LIGHT_WIDTH texels
     size_t held;   // bytes of their pages
-    unsigned made; // Bit i represents level i, and bit ENVIRONMENT_LEVELS the irradiance. Accessed atomically
+    unsigned made; // bit i is set if level i exists, bit ENVIRONMENT_LEVELS if the irradiance exists; accessed
+                   // atomically
     // See environment_lamp.h; both are NULL before the first use. `without_lamp` shares the levels of this struct.
     struct environment_lamp *lamp;
     struct environment_light *without_lamp;

@@ -74,7 +74,7 @@ static void sky_row(int face, int t, float *texels)
 struct lamp {
     double intensity;
     struct rgb color;
-    double center_s, center_t; // in room coordinates along the face's rows and columns
+    double center_s, center_t; // position along the face's rows and columns, in room coordinates
     double half_width, half_height;
 };
 #define WHITE {{1.00, 0.97, 0.92}}

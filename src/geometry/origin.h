@@ -24,7 +24,7 @@
 // enough for this decision; for the origin itself, call the function again with doubles.
 static inline bool origin_choose(const double minimum[3], const double maximum[3], double origin[3])
 {
-    // Halved, so that the size of a box from −1e308 to 1e308 does not overflow.
+    // The size is halved, so that it does not overflow for a box from −1e308 to 1e308.
     double half_size = 0.0;
     for (int axis = 0; axis < 3; axis++) {
         double half = 0.5 * maximum[axis] - 0.5 * minimum[axis];

@@ -40,7 +40,7 @@ struct corner {
     uint8_t level;           // LEVELS if it is in no queue
 };
 
-// A node's box around its points; `count` of them remain.
+// The bounding box of a node's points, of which `count` remain.
 struct box {
     int32_t min_x, min_y, max_x, max_y;
     uint32_t count;
@@ -52,7 +52,7 @@ struct clip {
     uint32_t *points;                     // corner numbers in Morton order
     struct box *boxes; // a complete binary tree: node i has the children 2i and 2i + 1; node `leaves` is the first leaf
     uint32_t leaves;   // a power of two; 0 means no points
-    uint64_t steps;    // nodes and points of the tree visited by tests
+    uint64_t steps;    // number of nodes and points of the tree that tests have visited
     uint64_t most;     // limit of `steps`
 };
 
@@ -164,7 +164,8 @@ static bool snap(const float *positions, const uint32_t *numbers, uint32_t count
 
     double side = high[across] - low[across] > high[up] - low[up] ? high[across] - low[across] : high[up] - low[up];
     double scale = (double)STEPS / side;
-    if (!(side > 0) || !(scale < 1e300)) // no extent, or larger than any float polygon with area
+    if (!(side > 0) || !(scale < 1e300)) // the polygon has no extent, or is larger than any polygon of floats with an
+                                         // area
         return false;
     __extension__ __int128 area = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -258,7 +259,8 @@ static void tree_remove(struct clip *clip, uint32_t i)
         clip->boxes[node].count--;
 }
 
-// Returns whether the whole box is to the right of a→b. Unless `touching` is set, points on a→b count as right of it.
+// Returns whether the whole box is to the right of a→b. Unless `touching` is set, a box that touches a→b is treated as
+// if it were to the right.
 static bool box_outside(const struct box *box, const struct corner *a, const struct corner *b, bool touching)
 {
     // The corner of the box that is farthest to the left of the edge.

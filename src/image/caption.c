@@ -268,7 +268,7 @@ bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double 
     return true;
 }
 
-#else // the build lacks FreeType's headers
+#else // FreeType's headers were missing at build time
 
 lam_font *lam_font_open(const char *path, lam_error *error)
 {

@@ -63,7 +63,7 @@ CODECS(CODEC)
 // formats, the extension of `name` (may be NULL) selects one.
 const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name);
 
-// Checks the parameters. Fails with LAM_BAD_ARGUMENT.
+// Checks the parameters. Fails with LAM_BAD_ARGUMENT if one of them is invalid.
 bool save_params_check(const lam_save_params *params, lam_error *error);
 
 // Returns the thread pool for encoding a picture; NULL means that the calling thread works alone. `threads` is as in
@@ -105,7 +105,7 @@ bool picture_decode_linear(const struct picture_file *file, lam_color_mode color
 bool picture_linearize(const struct picture_file *file, lam_image *image, bool wide, lam_color_mode color,
                        lam_error *error);
 
-// Lambent's own mark in a JPEG file.
+// The comment that Lambent writes to its JPEG files.
 #define JPEG_REMARK "lambent"
 
 // The functions that write JPEG and PNG. Their files are not the files that define codec_jpeg and codec_png.

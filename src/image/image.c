@@ -1,4 +1,4 @@
-// image.c: allocates pixels in memory.
+// image.c: allocates the pixels of pictures.
 #include "fail.h"
 #include "pages.h"
 #include "pixels.h"

@@ -13,7 +13,7 @@
 // reported only if memory can still be allocated.
 static bool blame_memory(lam_error *error)
 {
-    enum { SOME = 1 << 20 }; // larger than the small requests of such a library
+    enum { SOME = 1 << 20 }; // larger than the requests of such libraries
     if (error->code != LAM_CANNOT_READ && error->code != LAM_UNSUPPORTED)
         return false;
     void *volatile some = malloc(SOME); // volatile, so that the unused memory is really allocated

@@ -89,7 +89,7 @@ static lam_rgb times(lam_rgb c, double factor)
     return (lam_rgb){(float)((double)c.r * factor), (float)((double)c.g * factor), (float)((double)c.b * factor)};
 }
 
-// Multiplies the intensity of the scene's lights.
+// Multiplies the intensity of the scene's lights by a factor.
 static bool scale_lights(lam_scene *scene, double factor, lam_error *error)
 {
     for (int i = 0; i < lam_scene_light_count(scene); i++) {

@@ -1,4 +1,5 @@
-// call_control.h: enforces lam_control while a call runs: cancel flag, deadline, memory budget and progress.
+// call_control.h: enforces the cancel flag, the deadline and the memory budget of lam_control while a call runs, and
+// reports its progress.
 #ifndef CALL_CONTROL_H
 #define CALL_CONTROL_H
 
@@ -8,9 +9,9 @@ struct call_control {
     lam_control control; // a copy; if all fields are zero, there are no limits
     uint64_t start_ns;
     uint64_t memory_used; // accessed atomically
-    int over_memory;      // set when the memory budget has refused a request
-    int over_expansion;   // set when the budget derived from the file sizes has refused a request
-    // The latest request that a budget refused: the bytes in use, the bytes requested and the limit. Accessed
+    int over_memory;      // set when a request has exceeded the memory budget
+    int over_expansion;   // set when a request has exceeded the budget that is derived from the file sizes
+    // The latest request that exceeded a budget: the bytes in use, the requested bytes and the limit. Accessed
     // atomically.
     uint64_t refused_used, refused_bytes, refused_limit;
     // The total size in bytes of all files read so far; accessed atomically. If it is 0, no file was read, and no limit
@@ -71,10 +72,11 @@ bool call_check_expanded(const struct call_control *call, const char *name, uint
 // Checks that a file of this size may be read. Fails with LAM_LIMIT if the file is too large.
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
-// Calls the progress callback. It must run in the calling thread only. Reported shares never decrease.
+// Calls the progress callback. Only the thread that made the call may use this function. Reported shares never
+// decrease.
 void call_progress(struct call_control *call, double share, const char *step);
 
-// Returns the monotonic time.
+// Returns the time of the monotonic clock in nanoseconds.
 uint64_t now_ns(void);
 
 #endif

@@ -208,7 +208,7 @@ static bool read_stream(int file, const char *path, bool fresh, struct call_cont
         file_release(out);
         return false;
     }
-    // The unused bytes after the end stay zero, and are refunded to the call.
+    // The unused bytes after the end stay zero, and are no longer charged to the call.
     if (call)
         call_refund(call, out->size - used);
     call_add_input(call, fresh ? used : 0);

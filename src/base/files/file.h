@@ -57,8 +57,8 @@ bool file_read_part(const struct file_parts *parts, const char *path, size_t off
                     lam_error *error);
 void file_close_parts(struct file_parts *parts);
 
-// Allocate padded memory in the form that file_read returns: file_hold fills it with zeros, file_copy with a copy of
-// `bytes`.
+// Allocate padded memory in the form that file_read returns. file_hold fills it with zeros; file_copy fills it with a
+// copy of `bytes`.
 bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 

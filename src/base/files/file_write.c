@@ -7,7 +7,8 @@
 // cannot be blocked, but it leaves a temporary file only if it arrives within those microseconds.
 //
 // Other file systems (NFS, vfat, some FUSE file systems) need a temporary name from the start. Signals are blocked
-// while it exists, but are checked after each chunk: the file is removed before a fatal signal takes effect.
+// while the temporary file exists, but are checked after each chunk. The file is removed before a fatal signal takes
+// effect.
 #include "file.h"
 
 #include "fail.h"
@@ -128,15 +129,16 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
     return copy < 0 || close(copy) == 0;
 }
 
-// Returns the folder of a path, from malloc.
+// Returns the folder of a path, allocated with malloc.
 static char *folder_of(const char *path)
 {
     const char *name = path_name(path);
     return name == path ? strdup(".") : strndup(path, (size_t)(name - path));
 }
 
-// Returns an unused hidden name beside the target, from malloc. It contains the host name because several hosts may
-// write to one folder, and process numbers are not unique: in containers the number is often 1.
+// Returns an unused hidden file name in the folder of the target, allocated with malloc. The name contains the host
+// name, because several hosts may write to one folder. Process numbers are not unique; in containers the number is
+// often 1.
 static char *name_beside(const char *target)
 {
     char *name, host[65] = "";
@@ -173,7 +175,7 @@ static bool link_file(int file, const char *name)
            (errno != EEXIST && linkat(file, "", AT_FDCWD, name, AT_EMPTY_PATH) == 0); // if /proc is not mounted
 }
 
-// Links the file to a name beside the target and renames it over the target.
+// Links the file to a temporary name in the folder of the target, and renames it over the target.
 static bool link_over(int file, const char *target)
 {
     bool ok = false;
@@ -219,7 +221,7 @@ static bool write_unnamed(const struct writing *w, bool *possible)
 
 // --- a named file
 
-// Creates a temporary file beside the target, with the permissions that the umask allows.
+// Creates a temporary file in the folder of the target, with the permissions that the umask allows.
 static int open_beside(const char *target, char **name)
 {
     for (int attempt = 0; attempt < 100; attempt++) {
@@ -246,7 +248,7 @@ static bool write_named(const struct writing *w)
     bool ok = file >= 0 && fill(file, w, &before);
     int reason = errno;
     if (file >= 0)
-        close(file); // fill has reported the error
+        close(file); // fill has already reported the error
     if (ok && rename(name, w->target) != 0) {
         reason = errno;
         ok = false;

@@ -1,7 +1,7 @@
 // double_lanes.h: vectors of doubles that correspond to the floats of lanes.h.
 //
-//  dnum DLANES doubles in one register, half as many as a num has floats; DPARTS dnums have LANES doubles dmask DLANES
-//  truth values, the results of comparisons
+//  dnum   DLANES doubles in one register, half as many as a num has floats; DPARTS dnums have LANES doubles
+//  dmask  DLANES truth values, the results of comparisons
 //
 // As in lanes.h, only + − × ÷ and comparisons are used. Each is correctly rounded, so the results are bit-identical for
 // every width. One vector twice as wide as a register could replace the DPARTS vectors, but compilers would then use
@@ -89,7 +89,7 @@ LANE_FN unsigned dmask_bits(dmask m) // bit i is lane i
 }
 #endif
 
-// Minimum and maximum with the semantics of min_of and max_of.
+// The minimum and maximum, defined like min_of and max_of in lanes.h.
 #if LANES == 4 && defined(__SSE2__)
 LANE_FN dnum dmin_of(dnum a, dnum b) { return (dnum)_mm_min_pd((__m128d)a, (__m128d)b); }
 LANE_FN dnum dmax_of(dnum a, dnum b) { return (dnum)_mm_max_pd((__m128d)a, (__m128d)b); }

@@ -8,7 +8,7 @@
 
 #include "lanes.h"
 
-#define SMALLEST_NORMAL 1.17549435e-38f // 2⁻¹²⁶
+#define SMALLEST_NORMAL 1.17549435e-38f // = 2⁻¹²⁶
 
 // Splits normal x > 0 exactly into 2^exponent · (1 + rest) with |rest| ≤ 1/3.
 struct binary_parts {
@@ -23,7 +23,8 @@ LANE_FN struct binary_parts binary_parts_of(num x)
 }
 
 // Computes log₂(1 + z) − 1.5·z for |z| ≤ 1/3 by a minimax polynomial with an error of 1.2e-9 before rounding. The
-// result is at most 0.085, and 1.5·z is exact in a float, so the two together are some bits more precise than a float.
+// result is at most 0.085, and 1.5·z is exact in a float, so the result and 1.5·z together are more precise than one
+// float.
 LANE_FN num log2_remainder(num z)
 {
     num z2 = z * z, z4 = z2 * z2;
@@ -33,7 +34,7 @@ LANE_FN num log2_remainder(num z)
     return z * (a + z4 * (b + z4 * c));
 }
 
-// Computes 2^f for |f| ≤ 0.5005 with a relative error of 1e-7 before rounding; exactly 1 at 0.
+// Computes 2^f for |f| ≤ 0.5005 with a relative error of 1e-7 before rounding. The result is exactly 1 at 0.
 LANE_FN num exp2_fraction(num f)
 {
     num f2 = f * f;
@@ -130,8 +131,8 @@ LANE_FN num power(num base, num exponent)
     struct two_parts y = scaled_log2(binary_parts_of(base), min_of(exponent, num_of(1.0e30f)));
     num sum = y.head + y.tail;
     struct whole_power w = whole_power_of(min_of(sum, num_of(127.0f)));
-    num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // it may slightly exceed ½, because the sum was
-                                                                       // rounded
+    num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // the fraction may slightly exceed ½, because
+                                                                       // the sum was rounded
     mask some = both(base >= min_base(exponent), sum >= -126.0f);
     return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }

@@ -1,6 +1,6 @@
 // lanes.h: SIMD values of LANES numbers. Define LANES as 1, 4, 8 or 16 before including it.
 //
-//  num LANES floats inum LANES 32-bit integers mask LANES truth values (from comparisons)
+//  num    LANES floats          inum   LANES 32-bit integers          mask   LANES truth values (from comparisons)
 //
 // If LANES is 1, a num is a float and the same source is ordinary C. Otherwise a num is a GCC/Clang vector type, which
 // compiles for any instruction set; it occupies several registers if it is wider than one. Every width therefore runs
@@ -96,7 +96,7 @@ LANE_FN num num_of_bits(inum i)
     memcpy(&x, &i, 4);
     return x;
 }
-LANE_FN num pick(mask m, num a, num b) { return m ? a : b; } // selects a if m is set, else b
+LANE_FN num pick(mask m, num a, num b) { return m ? a : b; } // selects a if m is set, otherwise b
 LANE_FN inum ipick(mask m, inum a, inum b) { return m ? a : b; }
 LANE_FN mask both(mask a, mask b) { return a & b; }
 LANE_FN mask either(mask a, mask b) { return a | b; }
@@ -372,7 +372,7 @@ LANE_FN float min_lane(num x)
 #endif
 }
 
-// Loads the lower half of the lanes from one address, the upper half from another.
+// Loads the lower half of the lanes from one address, and the upper half from another.
 LANE_FN num num_load_halves(const float *low, const float *high)
 {
 #if LANES == 1

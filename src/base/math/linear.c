@@ -31,7 +31,7 @@ static double reduce(double x, int *quarter)
     return ((x - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3;
 }
 
-// Sums the Taylor series; the first omitted term is below 2⁻⁵³ of the result for |x| ≤ π/4.
+// Sums the Taylor series of the sine. For |x| ≤ π/4, the first omitted term is below 2⁻⁵³ of the result.
 static double sine_series(double x)
 {
     double z = x * x;
@@ -238,7 +238,7 @@ lam_mat4 mat4_scale(double x, double y, double z)
     return m;
 }
 
-// Rodrigues' rotation formula.
+// Uses Rodrigues' rotation formula.
 lam_mat4 mat4_rotate(double radians, lam_vec3 axis)
 {
     lam_vec3 k = v3_unit(axis);

@@ -27,7 +27,7 @@ double math_sqrt(double x);
 double math_sin(double x);
 double math_cos(double x);
 double math_tan(double x);
-double math_acos(double x); // argument clamped to −1…1; result 0…π
+double math_acos(double x); // the argument is clamped to −1…1; the result is 0…π
 double math_atan2(double y, double x);
 double math_exp2(double x); // 2^x, |x| ≤ 1000; exact for whole numbers
 double math_radians(double degrees);
@@ -38,7 +38,7 @@ lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b);    // a·b, which appli
 lam_vec3 mat4_point(const lam_mat4 *m, lam_vec3 p);         // affine: w = 1, last row ignored
 lam_vec3 mat4_vector(const lam_mat4 *m, lam_vec3 v);        // upper 3×3 only
 double mat4_determinant3(const lam_mat4 *m);                // the determinant of the upper 3×3
-bool mat4_inverse_affine(const lam_mat4 *m, lam_mat4 *out); // false if the 3×3 is singular
+bool mat4_inverse_affine(const lam_mat4 *m, lam_mat4 *out); // false if the upper 3×3 is singular
 // Computes the cofactors of the upper 3×3, which are the inverse transpose times the determinant. They transform
 // normals; the caller handles the sign of the determinant (a mirror reverses the winding, not the normal).
 void mat4_normal_matrix(const lam_mat4 *m, double out[3][3]);

@@ -1,4 +1,4 @@
-// triples.h: loads and stores points stored as x y z x y z ….
+// triples.h: loads and stores points that are stored as x y z x y z ….
 //
 // Points are loaded and stored four floats at a time and transposed in registers, which is several times faster than
 // one float at a time.

@@ -74,7 +74,7 @@ void arena_free(struct arena *arena)
 
 static void link_block(struct arena *arena, struct arena_block *block)
 {
-    // The block that serves small requests stays first in the list.
+    // The block from which small requests are allocated remains the first in the list.
     if (block->whole && arena->blocks) {
         block->next = arena->blocks->next;
         arena->blocks->next = block;

@@ -15,7 +15,7 @@
 struct arena_block;
 struct arena {
     struct arena_block *blocks;
-    struct call_control *call; // charged for allocations; may be NULL
+    struct call_control *call; // allocations are charged to it; may be NULL
     size_t total;              // bytes allocated
     bool large;                // the first block has the largest size
 };
@@ -23,8 +23,8 @@ struct arena {
 void arena_start(struct arena *arena, struct call_control *call);
 void arena_start_large(struct arena *arena, struct call_control *call); // Starts with a block of the largest size.
 void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
-// Make and free an arena on the heap. arena_new returns NULL if memory runs out; arena_delete frees everything in it
-// and accepts NULL.
+// Make and free an arena on the heap. arena_new returns NULL if memory runs out; arena_delete frees everything in the
+// arena and accepts NULL.
 struct arena *arena_new(struct call_control *call);
 void arena_delete(struct arena *arena);
 
@@ -45,7 +45,7 @@ char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 // for these pages; arena_free refunds it. Returns false if memory runs out; the caller then still owns the pages.
 bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged);
 
-// For tests: makes allocation number `countdown` of this thread fail once, 0 being the next. −1 disables this.
+// For tests: makes allocation number `countdown` of this thread fail once; 0 is the next allocation. −1 disables this.
 void arena_fail_after(long countdown);
 
 #endif

@@ -1,4 +1,4 @@
-// pages.c: large blocks from the operating system, in huge pages where available.
+// pages.c: large blocks from the operating system, in huge pages if they are available.
 #include "pages.h"
 
 #include <stdint.h>

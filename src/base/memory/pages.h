@@ -1,4 +1,4 @@
-// pages.h: large blocks from the operating system, in huge pages where available.
+// pages.h: large blocks from the operating system, in huge pages if they are available.
 #ifndef PAGES_H
 #define PAGES_H
 
@@ -17,11 +17,11 @@ void *pages_get(size_t bytes, size_t *held);
 // Allocates small pages, for sparsely used blocks.
 void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
-// Releases the pages after the first `bytes`, if the system supports it.
+// Releases the pages after the first `bytes` bytes, if the system supports this.
 void pages_trim(void *pages, size_t *held, size_t bytes);
 
-// Returns the size of the machine's memory in bytes, or SIZE_MAX if it is unknown. The system overcommits and kills
-// processes that use too much memory, so check this before a large allocation.
+// Returns the size of the machine's memory in bytes, or SIZE_MAX if it is unknown. The system grants more memory than
+// it has and kills processes that use too much, so check this size before a large allocation.
 size_t pages_of_machine(void);
 
 #endif

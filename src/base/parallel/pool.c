@@ -15,7 +15,7 @@ enum {
 };
 
 struct pool {
-    int threads; // the caller included
+    int threads; // number of threads, including the caller
     pthread_mutex_t lock;
     pthread_cond_t work, done;
     unsigned round; // incremented by each pool_run

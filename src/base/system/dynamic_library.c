@@ -1,4 +1,4 @@
-// dynamic_library.c: dlopen and dlsym.
+// dynamic_library.c: opens libraries with dlopen and dlsym.
 #include "dynamic_library.h"
 
 #include <stddef.h>

@@ -22,7 +22,7 @@ struct decimal {
 // The floating-point format of the result.
 struct format {
     int mantissa_bits;         // stored bits
-    int min_exponent_field;    // exponent of field 0, minus one: −bias
+    int min_exponent_field;    // the exponent that exponent field 0 would have: −bias
     int infinite;              // the exponent field of infinity
     int even_first, even_last; // range of powers of ten for which a product can be a midpoint
     int min_power, max_power;  // powers of ten: for any 19 digits, the result is 0 below and infinity above

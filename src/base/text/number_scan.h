@@ -85,7 +85,8 @@ static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t
     const uint8_t *digits = at + negative;
     uint64_t eight = number_load8(digits);
     unsigned whole = 1, fraction = 0;
-    uint64_t value = (unsigned)(*digits - '0'); // models of about unit size have one digit before the point
+    uint64_t value = (unsigned)(*digits - '0'); // in models of about unit size, most numbers have one digit before the
+                                                // point
     if (digits[1] != '.' || value > 9) {
         whole = number_digit_count(eight);
         value = number_digits_value(eight, whole);

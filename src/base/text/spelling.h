@@ -1,4 +1,4 @@
-// spelling.h: suggestions for mistyped words.
+// spelling.h: suggests known names for mistyped words.
 #ifndef SPELLING_H
 #define SPELLING_H
 
@@ -7,8 +7,8 @@
 // A search for the known name that a typed word most likely means, by lam_word_distance.
 struct spelling {
     const char *word;    // as typed
-    const char *nearest; // the nearest word so far, or NULL
-    int limit;           // a nearer word has a distance below this
+    const char *nearest; // the most similar word so far, or NULL
+    int limit;           // a word must have a smaller distance to replace `nearest`
 };
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);

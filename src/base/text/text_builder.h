@@ -1,4 +1,4 @@
-// text_builder.h: a string builder.
+// text_builder.h: a string that grows as text is added.
 #ifndef TEXT_BUILDER_H
 #define TEXT_BUILDER_H
 

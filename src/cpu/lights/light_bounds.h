@@ -21,7 +21,7 @@ struct light_bounds {
     const float *position[3]; // position in eye space, or the direction to a directional light
     const int32_t *far;       // −1 for a directional light, otherwise 0
     const float *axis[3];     // the axis of a spot light; otherwise 0
-    const float *min_cosine;  // the cosine at which a spot's light ends; −2 if there is no cone
+    const float *min_cosine;  // the cosine of the angle at which the cone of a spot light ends; −2 if there is no cone
     const float *attenuation[3];
     const float *inverse_range; // 0 if the light has no range
     // `capacity` numbers per material. For the diffuse term, the largest channel of kd ⊙ Ld, before vertex colours tint
@@ -31,7 +31,7 @@ struct light_bounds {
     int group_count, group_capacity;
     const float *group_low[3], *group_high[3], *group_reach;
     const uint32_t *all; // 0, 1, 2 … count − 1
-    // The sum of the lights dropped at a point is below this, in linear light.
+    // The sum of the lights that are dropped at a point is below this value, in linear light.
     float cutoff;
 };
 
@@ -39,7 +39,7 @@ struct light_bounds {
 bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const struct frame *frame,
                        const struct material_products *materials, struct call_control *call, lam_error *error);
 
-// Returns whether the frame has enough lights for culling to pay off.
+// Returns whether the frame has so many lights that culling saves time.
 static inline bool light_culling_wanted(const struct frame *frame)
 {
     return frame->light_count > (frame->settings.shading == LAM_SHADING_PHONG ? 4 : LIGHTS_ALL_SUMMED);

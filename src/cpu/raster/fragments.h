@@ -26,7 +26,7 @@ struct fragments {
     uint32_t *scratch;
 };
 
-// Finds the group of each fragment, and the order by group.
+// Finds the group of each fragment, and sorts the fragments by group.
 void group_fragments(const struct frame *frame, struct fragments *fragments);
 
 #endif

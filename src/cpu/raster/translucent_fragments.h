@@ -10,7 +10,7 @@ struct layer_rows {
     float *keys;       // for each fragment, a depth key for each sample
     // Some triangles were clipped into several triangles, of which two may share a pixel.
     bool clipped;
-    bool masked; // some samples were omitted because of the opacity of a surface
+    bool masked; // some samples were removed because of the opacity of a surface
     // Triangles that transmit light were omitted (raster_frame.without_glass). translucent_fragments sets this flag and
     // never clears it.
     bool glass;

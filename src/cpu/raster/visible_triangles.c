@@ -53,8 +53,8 @@ static void range_of_triangles(const struct fragments *fragments, uint32_t *lowe
     *highest = (uint32_t)high;
 }
 
-// Adds the triangles of the fragments to `set`. Whether a fragment's triangle differs from the previous one is
-// unpredictable, so the test is branchless.
+// Adds the triangles of the fragments to `set`. The processor cannot predict whether a fragment's triangle differs from
+// the previous one, so the test has no branch.
 static void add_triangles(struct rank_bitset *set, const struct fragments *fragments)
 {
     uint32_t *ids = fragments->order; // not used yet

@@ -1,6 +1,6 @@
 // blend.c: sorts a pixel's translucent fragments by depth at every sample, and blends them.
 //
-// One layer over another:
+// The formula for one layer over another is:
 //
 //  color = src·a + dst·(1 − a)
 //  alpha = a + A·(1 − a)
@@ -203,7 +203,7 @@ static float mean_of(const float left[3]) { return (left[0] + left[1] + left[2])
 
 // Sums the layers of a sample with a transmittance per channel. A fragment with opacity a, colour C and transmittance T
 // changes the light L behind it to C a + L (1 - a (1 - T)). Behind a surface that refracts, opaque surfaces are
-// omitted, because they are in the picture behind that this surface shows.
+// omitted, because the picture behind, which this surface shows, already contains them.
 static struct layer_sum sum_layers(const struct fragments *fragments, const struct layer_rows *rows,
                                    const struct layer *layers, uint32_t count, int sample, struct recorder *recorder,
                                    int pixel, float share)

@@ -11,7 +11,7 @@
 void output_tile(const struct resolve_target *target, const struct fragments *fragments,
                  const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
 
-// Sets the value of a pixel without fragments.
+// Sets target->empty_pixel, the value of a pixel without fragments.
 void output_empty(struct resolve_target *target);
 
 #endif

@@ -23,7 +23,7 @@ struct triangle_runs {
     int count;
     uint32_t triangle[BATCH_MAX + LANES_MAX];
     int32_t first[BATCH_MAX];  // for each group of LANES fragments, the run of the first
-    int32_t offset[BATCH_MAX]; // for each fragment, its run relative to that run
+    int32_t offset[BATCH_MAX]; // for each fragment, the number of its run minus that run
     float row[RUN_ROWS][BATCH_MAX + LANES_MAX];
 };
 

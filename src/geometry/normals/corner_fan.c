@@ -10,9 +10,9 @@
 
 // One of the two edges of a corner that meet at the position.
 struct fan_edge {
-    uint32_t end[3]; // bits of the position at the other end
+    uint32_t end[3]; // bits of the position of the edge's other end
     uint32_t corner;
-    uint32_t incoming; // 0 means the triangle runs from the position to the end; 1 means from the end to the position
+    uint32_t incoming; // 0: the triangle's edge starts at the position; 1: the edge ends at the position
 };
 _Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
                "a fan's sum must fit into the memory of a corner's edges");

@@ -82,7 +82,7 @@ static void fetch(struct corner_fan_block *b, const lam_mesh *mesh)
     }
 }
 
-// Does the same as look() in corner_fan.c, with the same operations in the same order. 0 and −0 are the same position.
+// Does the same as look() in corner_fan.c, with the same operations in the same order. Coordinates 0 and −0 are equal.
 static void look(struct corner_fan_block *b)
 {
     memset(b->flat, 0, sizeof b->flat);

@@ -26,7 +26,7 @@ struct facet_loop {
     struct visible_normals *visible;
     struct loop_status loop;
     size_t first, end, first_word; // numbers in the set
-    uint32_t before;               // members of the set in earlier meshes
+    uint32_t before;               // number of members of the set that belong to earlier meshes
     uint32_t element;              // element of the first member that belongs to the mesh
 };
 

@@ -1,4 +1,4 @@
-// hdr.c: reads Radiance pictures (.hdr, RGBE): three mantissas and one exponent per pixel, linear light.
+// hdr.c: reads Radiance pictures (.hdr, RGBE), which store linear light as three mantissas and one exponent per pixel.
 //
 // The file consists of lines of text that end with an empty line, a line with the size ("-Y 512 +X 1024"), and rows of
 // pixels. Each row is encoded by one of three methods:
@@ -32,7 +32,7 @@ static const uint8_t *line_end(const uint8_t *at, const uint8_t *end)
     return found;
 }
 
-// Parses a number such as " 512" and moves *at behind it. Returns −1 if the number is not 1 … 65535.
+// Parses a number such as " 512" and moves *at to its end. Returns −1 if the number is not 1 … 65535.
 static int side_at(const uint8_t **at, const uint8_t *end)
 {
     int value = 0;

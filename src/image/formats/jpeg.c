@@ -23,7 +23,7 @@ struct reader {
     const struct picture_file *file;
     bool rgb;           // decodes to LAM_RGB8 instead of LAM_RGBA8, except for CMYK files
     bool stopped;       // the call must stop
-    bool out_of_memory; // in libjpeg
+    bool out_of_memory; // libjpeg ran out of memory
     size_t charged;     // number of bytes charged for libjpeg's coefficients
 };
 

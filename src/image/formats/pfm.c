@@ -1,5 +1,5 @@
-// pfm.c: reads and writes PFM (Debevec's portable float map): a header of three lines, then floats, the bottom row
-// first.
+// pfm.c: reads and writes PFM files (Debevec's portable float map). They consist of a header of three lines and of
+// floats, with the bottom row first.
 //
 // The header contains "PF", the width and the height, and a number. The sign of this number is the byte order: negative
 // means little-endian. Its absolute value is the scale, about which programs do not agree, so Lambent writes 1 and

@@ -20,7 +20,7 @@ struct box {
 };
 
 struct apng_frame {
-    lam_bytes png; // contains only the box
+    lam_bytes png; // the PNG of the box
     struct box box;
     int channels; // enum png_channels
 };

@@ -111,8 +111,8 @@ static inline bool chunk_repeats(const uint32_t *row, int x)
 // The tokens of a chunk's pixels, computed from each pixel and its neighbours.
 struct chunk {
     uint64_t literal[CHUNK]; // the pixel's bytes as a token
-    uint32_t in_run[CHUNK];  // all bits set if the pixel belongs to a run; else 0
-    int32_t step[CHUNK];     // 0 if the run continues after the pixel; else 1
+    uint32_t in_run[CHUNK];  // all bits are set if the pixel belongs to a run; otherwise 0
+    int32_t step[CHUNK];     // 0 if the run continues after the pixel; otherwise 1
 };
 
 // Computes the tokens of a chunk. A run repeats the previous pixel at least twice.
@@ -138,8 +138,8 @@ static inline __attribute__((always_inline)) void examine(struct chunk *chunk, c
 }
 
 // Finds the runs of a row. For every pixel, the next token is written, but it is kept only for a literal or for the
-// last pixel of a run. Therefore the only branch is that for chunks of a single colour. A run that is pending at the
-// start of a chunk is shorter than a chunk, so one match can represent it.
+// last pixel of a run. Therefore the only branch is the check for chunks of a single colour. A run that is pending at
+// the start of a chunk is shorter than a chunk, so one match can represent it.
 static inline __attribute__((always_inline)) void find_runs(struct deflate *deflate, unsigned bytes_per_pixel,
                                                             int first, int end)
 {

@@ -1,9 +1,10 @@
 // deflate.h: converts rows of filtered pixels to deflate blocks (RFC 1951).
 //
 // After a row filter, a lit picture consists of runs of one pixel (the background, flat areas) and noise of a few small
-// numbers. There are two methods of finding matches: runs only the previous pixel, repeated at least twice. Coloured
-//  noise is smallest as Huffman codes; matches over a distance make the file larger (measured: 5–20 %).
-//  matches also the last position of the same few pixels. The caller uses this method for grey pictures and for grey
+// numbers. There are two methods of finding matches:
+//  runs     only the previous pixel, repeated at least twice. Coloured noise is smallest as Huffman codes; matches over
+//           a distance make the file larger (measured: 5–20 %).
+//  matches  also the last position of the same few pixels. The caller uses this method for grey pictures and for grey
 //           strips of coloured pictures. In such strips, the three channels are equal, which codes of single bytes
 //           cannot exploit (measured: 20 % smaller).
 // Matches never leave the strip, so each strip can be encoded separately, with Huffman codes from its own counts.
@@ -18,9 +19,9 @@
 #include <stdint.h>
 
 enum {
-    DEFLATE_SHORTEST = 3, // bytes of a match
+    DEFLATE_SHORTEST = 3, // the shortest match in bytes
     DEFLATE_LONGEST = 258,
-    DEFLATE_FARTHEST = 32768, // bytes back
+    DEFLATE_FARTHEST = 32768, // the largest distance in bytes
     // A quarter of a token is one of these: a byte; the length of a match, 3 … 258 bytes; the symbol of a match's
     // distance; or n ≤ 8 raw bits with the value v, represented as DEFLATE_BITS + 2ⁿ + v.
     DEFLATE_MATCH = 256, // + length − 3

@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum {
-    LITERALS = 286, // bytes 0…255, end of block, lengths 257…285
+    LITERALS = 286, // symbols: bytes 0…255, the end of the block, and lengths 257…285
     END_OF_BLOCK = 256,
     FIRST_LENGTH = 257,
     DISTANCES = 30,

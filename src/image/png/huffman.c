@@ -39,7 +39,7 @@ static void tree_depths(const uint32_t *weights, int leaves, uint8_t *depths)
     }
     depth[nodes - 1] = 0;
     for (int node = nodes - 2; node >= 0; node--)
-        // below 40, because counts grow like Fibonacci numbers with depth
+        // the depth is below 40, because the counts for a deep tree grow like Fibonacci numbers
         depth[node] = (uint8_t)(depth[parent[node]] + 1);
     memcpy(depths, depth, (size_t)leaves);
 }

@@ -1,4 +1,4 @@
-// png_fast.c: the default compression: one filter for each strip, then deflate.h.
+// png_fast.c: implements the default compression: one filter for each strip, then the compression of deflate.h.
 #include "deflate.h"
 #include "fail.h"
 #include "png_encoding.h"

@@ -65,8 +65,8 @@ static size_t find_pixels(const struct picture_file *file)
     return 0;
 }
 
-// Joins the compressed bytes of the pixel chunks and returns their number. Returns 0 if another chunk than the end of
-// the file follows them.
+// Joins the compressed bytes of the pixel chunks and returns their number. Returns 0 if they are not followed by the
+// end chunk.
 static size_t join_pixels(const struct inflater *d, const struct picture_file *file, size_t at, uint8_t *joined)
 {
     size_t used = 0;

@@ -136,7 +136,7 @@ int windows_access(const char *path, int mode)
 
 char *realpath(const char *path, char *buffer)
 {
-    enum { SIZE = 32768 }; // the longest path in Windows
+    enum { SIZE = 32768 }; // the length of the longest path in Windows
     HANDLE handle = open_name(path);
     wchar_t *wide = handle != INVALID_HANDLE_VALUE ? malloc(SIZE * sizeof *wide) : NULL;
     DWORD length = wide ? GetFinalPathNameByHandleW(handle, wide, SIZE, FILE_NAME_NORMALIZED) : 0;

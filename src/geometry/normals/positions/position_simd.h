@@ -33,8 +33,8 @@ static inline int same_position(const uint32_t a[3], const uint32_t b[3])
     return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
 }
 
-// Returns a hash of a position's bits. In the bits of round numbers, only the upper bits are set, so they are first
-// combined with the lower bits.
+// Returns a hash of a position's bits. Round numbers have only upper bits set, so the upper bits are first combined
+// with the lower bits.
 static inline uint32_t hash_position(const uint32_t bits[3])
 {
     uint32_t h = (bits[0] ^ bits[0] >> 16) * 0x9e3779b1u;

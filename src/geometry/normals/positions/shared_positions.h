@@ -24,7 +24,7 @@ struct position_search {
     const lam_mesh *mesh;
     const struct rank_bitset *triangles;
     uint32_t first;               // number of the mesh's triangle 0 in the set
-    uint32_t triangles_of_others; // members of the set in earlier meshes
+    uint32_t triangles_of_others; // number of members of the set that belong to earlier meshes
     const struct position_simd *simd;
     struct pool *pool;
     struct loop_status loop;

@@ -1,4 +1,4 @@
-// cpu_device.c: the software device, and the sequence of steps of a frame.
+// cpu_device.c: implements the software device, and runs the steps of a frame in order.
 #include "device_type.h"
 
 #include "behind.h"
@@ -98,7 +98,8 @@ static void behind_task(void *user, size_t index, int thread)
         state->pixels_covered = covered;
 }
 
-// Draws the picture behind rough and thick glass before the tiles of the frame, because glass may show any part of it.
+// Draws the picture behind rough and thick glass before the tiles of the frame, because glass in any tile may show any
+// region of this picture.
 static bool draw_behind(struct cpu_frame *cpu, struct behind *behind, struct buffer *memory, lam_error *error)
 {
     const lam_image *image = cpu->target.image;
@@ -212,7 +213,8 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
                    .work = &cpu.work,
                    .tiles_across = (image->width + TILE - 1) / TILE,
                    .tiles_down = (image->height + TILE - 1) / TILE,
-                   // 65536 pixels on each side of the window's centre, so that snapped coordinates fit 26 bits.
+                   // The guard band extends 65536 pixels on each side of the window's centre, so that snapped
+                   // coordinates fit into 26 bits.
                    .guard = {65536.0f, 65536.0f},
                    .bins = device->bins,
                    .thread_count = device->thread_count},

@@ -24,7 +24,7 @@
 #include "shade_frame.h"
 #include "shading_batch.h"
 
-// A thread's own state. Its bins are stored elsewhere (struct raster_frame), because all threads read them.
+// The state of one thread. The thread's bins are stored elsewhere (struct raster_frame), because all threads read them.
 struct thread_state {
     struct tile_samples samples;
     struct fragments fragments; // fragments of translucent surfaces first, then of opaque ones

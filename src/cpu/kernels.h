@@ -64,11 +64,11 @@ struct kernels {
     uint64_t (*visibility_resolve)(const struct sample_pattern *pattern, const struct tile_samples *samples,
                                    struct fragments *fragments, const struct tile *tile);
 
-    // Stores the fragments from visibility_resolve in memory of the arena. Their triangle numbers are between
-    // store->lowest and `highest`. Returns false if memory runs out.
+    // Stores the fragments from visibility_resolve in memory of the arena. The triangle numbers of the fragments are
+    // between store->lowest and `highest`. Returns false if memory runs out.
     bool (*save_fragments)(struct fragment_store *store, const struct fragments *fragments, int samples,
                            uint32_t highest, struct arena *arena);
-    // Restores the stored fragments: id, pixel, weight and sample.
+    // Restores the rows id, pixel, weight and sample of the stored fragments.
     void (*load_fragments)(const struct fragment_store *store, struct fragments *fragments, int samples);
 
     // Fills in the colours of grouped fragments.

@@ -1,5 +1,5 @@
-// vertex_colors.h: computes the lighting of vertices with the shading code of the CPU device. It is for a device that
-// interpolates the colours itself (the stage `application` of the OpenGL device).
+// vertex_colors.h: computes the lighting of vertices with the shading code of the CPU device. The module is for a
+// device that interpolates the colours itself (the stage `application` of the OpenGL device).
 #ifndef VERTEX_COLORS_H
 #define VERTEX_COLORS_H
 
@@ -9,8 +9,9 @@
 
 enum { VERTEX_RUN_MAX = 3072 }; // a multiple of 3
 
-// Consecutive vertices for one side of a range. They are corners of the triangles of the range's draw. If one index is
-// used for all attributes, `shared` is true and they are vertices of the mesh. With flat shading, they are triangles.
+// Consecutive vertices for one side of a range. Usually the vertices are the corners of the triangles of the range's
+// draw. If one index is used for all attributes, `shared` is true and the vertices are the mesh's vertices. With flat
+// shading, triangles replace the vertices.
 struct vertex_run {
     uint32_t range, first, count;
     bool back, shared;

@@ -1,5 +1,5 @@
 // work.h: counts the work of a frame that grows with the number of layers, lights and opaque surfaces per pixel, so
-// that a small file cannot cause hours of drawing. It also stops the frame if the call must stop.
+// that a small file cannot cause hours of drawing. The module also stops the frame if the call must stop.
 #ifndef WORK_H
 #define WORK_H
 

@@ -18,7 +18,8 @@ float texel_weight(int size, int s, int t)
     return 1.0f / (square * __builtin_sqrtf(square));
 }
 
-// Returns the fraction of source texel `i` of `n` that is inside texel `k` of `m`.
+// A row of `n` source texels is divided into `m` texels. Returns the fraction of source texel `i` that is inside texel
+// `k`.
 static float overlap(int i, int n, int k, int m)
 {
     int64_t low = (int64_t)i * m, high = low + m, from = (int64_t)k * n, to = from + n; // in units of 1 / (n m)

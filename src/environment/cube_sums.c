@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-enum { SOURCE_SIZE = 20 }; // approximate texels per side of the copy
+enum { SOURCE_SIZE = 20 }; // approximate number of texels per side of the copy
 
 static void unit(const double d[3], float out[3])
 {

@@ -146,7 +146,7 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
             n[c][s] = d[c];
     }
     // With c = cos(angle) and (n.h)² = (1 + c) / 2, the GGX lobe is proportional to D(h) c ~ c / (1 − q (1 + c))² with
-    // q = (1 − alpha²) / 2. It is multiplied by alpha⁴, so that it is at most 1.
+    // q = (1 − alpha²) / 2. The lobe is multiplied by alpha⁴, so that its maximum is 1.
     float q = alpha < 0 ? 0 : (float)((1 - alpha * alpha) / 2), square = (float)(alpha * alpha);
     for (int s = 0; s < cube->size; s += LANES) {
         num x = num_load(n[0] + s), y = num_load(n[1] + s), z = num_load(n[2] + s);

@@ -33,7 +33,7 @@ struct environment_kernels {
     void (*prefilter_row)(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t);
     // Computes row t of a face of `out` from all texels of a small copy. If `alpha` is below 0, the row contains the
-    // irradiance. Otherwise it contains the environment prefiltered with the GGX lobe, with alpha = roughness².
+    // irradiance. Otherwise the row contains the environment prefiltered with the GGX lobe, with alpha = roughness².
     void (*cube_sums_row)(const struct cube_sums *sums, double alpha, struct lam_environment *out, int face, int t);
 };
 

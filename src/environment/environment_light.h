@@ -6,7 +6,7 @@
 //                   P(r) = sum over l of L(l) D(h) max(r.l, 0) / sum of D(h) max(r.l, 0),   h = unit(r + l)
 //  irradiance   the mean of the light from the half space above a surface, weighted by the cosine: irradiance / pi
 //
-// Both are sums over fixed directions in a fixed order, computed with + − × ÷ √ only. Therefore the texels are
+// Both terms are sums over fixed directions in a fixed order, computed with + − × ÷ √ only. Therefore the texels are
 // identical on every machine and with any number of threads.
 #ifndef ENVIRONMENT_LIGHT_H
 #define ENVIRONMENT_LIGHT_H
@@ -36,9 +36,9 @@ unsigned environment_light_parts(float first, float last);
 
 int prefiltered_size(int level); // texels per side, for levels from 1
 // `texels` contains the levels, starting with level 1, and then the irradiance, each as six faces with their borders
-// (cube_map.h). The first function returns the index of the first texel of a level, or of the irradiance if `level` is
-// ENVIRONMENT_LEVELS. The second returns the number of rows, each of ENVIRONMENT_LIGHT_WIDTH texels, of a texture that
-// contains all of them.
+// (cube_map.h). environment_light_first returns the index of the first texel of a level, or of the irradiance if
+// `level` is ENVIRONMENT_LEVELS. environment_light_rows returns the number of rows of a texture that is
+// ENVIRONMENT_LIGHT_WIDTH texels wide and contains all of these texels.
 enum { ENVIRONMENT_LIGHT_WIDTH = 1024 };
 int environment_light_first(int level);
 int environment_light_rows(void);
@@ -73,7 +73,7 @@ const struct lam_environment *cube_chain_near(const struct cube_chain *chain, do
 // Returns the solid angle of a texel, except for a constant factor.
 float texel_weight(int size, int s, int t);
 
-// Sums over all texels of a small copy of a cube. They compute the irradiance, or the environment prefiltered for a
+// Sums over all texels of a small copy of a cube. The sums give the irradiance, or the environment prefiltered for a
 // wide lobe.
 struct cube_sums;
 struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *error);

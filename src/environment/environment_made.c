@@ -67,10 +67,10 @@ static void sky_row(int face, int t, float *texels)
 
 // The studio for physical materials is a cubic room around the origin. The brightest lamp, at the ceiling, lights the
 // tops of objects, which cast short soft shadows on a ground. A large lamp in front and above lights the sides that
-// face the viewer, and a dim lamp at the right lights the third side, so that the three faces of a cube differ. Metals
-// mirror a bright horizon between a dark floor and dim walls. The lamp behind the object brightens the rims of black
-// objects. A horizontal white surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face of the
-// cube map is a wall of the room.
+// face the viewer. A dim lamp at the right lights the third side, so that the three visible faces of a cube differ.
+// Metals mirror a bright horizon between a dark floor and dim walls. The lamp behind the object brightens the rims of
+// black objects. A horizontal white surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face
+// of the cube map is a wall of the room.
 struct lamp {
     double intensity;
     struct rgb color;
@@ -105,7 +105,7 @@ static struct rgb wall_at(double height)
     return light;
 }
 
-// All texels of a row have the same height.
+// Computes a row of the studio. All texels of a row have the same height.
 static void studio_row(int face, int t, float *texels)
 {
     const struct lamp *lamp = &lamps[face];

@@ -1,5 +1,5 @@
-// aabb_tree.h: a tree of boxes around a mesh's vertices. It finds the farthest vertex in a direction without visiting
-// most of the vertices.
+// aabb_tree.h: a tree of boxes around a mesh's vertices. The tree helps to find the farthest vertex in a direction
+// without visiting most of the vertices.
 #ifndef AABB_TREE_H
 #define AABB_TREE_H
 

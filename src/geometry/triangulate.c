@@ -2,11 +2,12 @@
 //
 // Ear clipping (Meisters 1975): a corner is an ear if it is convex and its triangle contains no other corner. Cutting
 // an ear changes only its two neighbours, so each corner is tested about three times. Only corners that are not convex
-// can be inside an ear; they are kept in a tree of boxes over their Morton order, so that a test takes about √count
-// steps even for long thin ears, regardless of the distribution of the corners.
+// can be inside an ear. Such corners are stored in a tree of boxes over their Morton order. Therefore a test takes
+// about √count steps even for long thin ears, for any distribution of the corners.
 //
 // Decisions are exact. The corners are projected along the largest axis of the polygon's normal and snapped to
-// integers, with 2^30 steps along the longer side. This is finer than a float, and a cross product fits into 64 bits.
+// integers, with 2^30 steps along the longer side. The grid is finer than a float, and a cross product fits into 64
+// bits.
 #include "triangulate.h"
 
 #include <string.h>
@@ -20,8 +21,8 @@ enum {
     STEPS = 1 << 30, // grid steps along the polygon's longer side
 };
 
-// The conditions for cutting a corner. A corner that fails the test of a level is moved to the next level. It is tested
-// again only when the queues of all earlier levels are empty. Simple polygons use only the first two levels.
+// The conditions for cutting a corner. A corner that fails the test of a level is moved to the next level. The corner
+// is tested again only when the queues of all earlier levels are empty. Simple polygons use only the first two levels.
 enum level {
     LEVEL_EAR,    // convex, and its triangle contains no other corner, not even on its edges
     LEVEL_FLAT,   // as above, or its triangle has no area: the corner is collinear with its neighbours, a spike, or a
@@ -322,7 +323,8 @@ static bool blocked(struct clip *clip, uint32_t i, bool touching)
         }
         clip->steps += LEAF;
         for (uint32_t slot = (node - clip->leaves) * LEAF; slot < (node - clip->leaves + 1) * LEAF; slot++) {
-            // Slots after the last point are unused. Their leaf has the count 0, or is the last leaf with points.
+            // Slots after the last point are unused. The leaf of such slots has the count 0, or is the last leaf with
+            // points.
             if (clip->points[slot] != NONE && point_inside(triangle, &clip->corners[clip->points[slot]], touching))
                 return true;
         }

@@ -24,7 +24,7 @@ struct animation_codec {
     bool (*add)(void *state, const lam_image *frame, const lam_save_params *params, struct pool *pool,
                 lam_error *error);
 
-    // Makes the bytes of the file. It is called once, after at least one frame.
+    // Makes the bytes of the file. This function is called once, after at least one frame.
     bool (*finish)(void *state, const lam_save_params *params, lam_bytes *out, lam_error *error);
 
     // Returns the size in bytes of the encoded frames in the writer, as far as it is known: libwebpmux does not report

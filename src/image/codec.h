@@ -70,12 +70,12 @@ bool save_params_check(const lam_save_params *params, lam_error *error);
 // lam_save_params.
 struct pool *encoding_pool(const lam_image *image, int threads);
 
-// Checks that a picture of this size may be read. It is called before memory is allocated for the picture. Fails with
-// LAM_LIMIT (lam_control.pixel_limit).
+// Checks that a picture of this size may be read. This check is made before memory is allocated for the picture. Fails
+// with LAM_LIMIT (lam_control.pixel_limit).
 bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error);
 
-// Allocates a picture of a checked size for a codec to fill. Its bytes are charged to the file's call. Fails with
-// LAM_LIMIT.
+// Allocates a picture of a checked size for a codec to fill. The bytes of the picture are charged to the file's call.
+// Fails with LAM_LIMIT.
 bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                   lam_image *image, lam_error *error);
 
@@ -108,7 +108,7 @@ bool picture_linearize(const struct picture_file *file, lam_image *image, bool w
 // The comment that Lambent writes to its JPEG files.
 #define JPEG_REMARK "lambent"
 
-// The functions that write JPEG and PNG. Their files are not the files that define codec_jpeg and codec_png.
+// The functions that write JPEG and PNG. Other files define codec_jpeg and codec_png.
 bool jpeg_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                 lam_error *error);
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-// Returns log10 of a positive finite number, without libm. It splits x = m·2^e with m near 1, and uses ln m =
+// Returns log10 of a positive finite number, without libm. The function splits x = m·2^e with m near 1, and uses ln m =
 // 2·artanh((m − 1)/(m + 1)).
 static double log10_of(double x)
 {

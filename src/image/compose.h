@@ -6,7 +6,7 @@
 
 // Composes the channels of a picture over a background, in linear light unless the picture's numbers are raw.
 struct compose {
-    double linear[256];   // linear values of all bytes
+    double linear[256];   // the linear value of each byte
     double from[256];     // for i > 0, the smallest linear number that rounds to byte i, which is the linear value of
                           // (i − ½)/255
     double background[3]; // linear

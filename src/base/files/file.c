@@ -236,9 +236,9 @@ bool file_check_regular(const char *path, lam_error *error)
 
 enum { OPEN_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
 
-// Opens a path whose first `folder` bytes name a folder. The rest is opened below that folder, so that a link created
-// after the path was checked cannot point outside. Kernels before 5.6 do not support openat2; there the checked path is
-// opened directly.
+// Opens a path whose first `folder` bytes name a folder. The rest of the path is opened below that folder, so that a
+// link created after the path was checked cannot point outside the folder. Kernels before 5.6 do not support openat2;
+// there the checked path is opened directly.
 static int open_beneath(const char *path, size_t folder)
 {
 #ifdef SYS_openat2
@@ -271,7 +271,7 @@ static int open_regular(const char *path, size_t folder, const char *shown, stru
     bool found = stat(path, about) == 0;
     if (found && !kind_of(about->st_mode)) {
         file = folder ? open_beneath(path, folder) : open(path, OPEN_FLAGS);
-        found = file >= 0 && fstat(file, about) == 0; // check again: another file may have replaced it
+        found = file >= 0 && fstat(file, about) == 0; // check again, because another file may have replaced it
     }
     if (!found)
         fail_system(error, LAM_CANNOT_READ, shown, "open");

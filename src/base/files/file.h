@@ -6,9 +6,10 @@
 #include "call_control.h"
 #include "pool.h"
 
-// Files are read into memory in parallel chunks. They are not mapped, because SIGBUS would kill the process if another
-// program shortened a mapped file. Copying from the page cache into huge pages also takes no longer than the page
-// faults of a mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may read past the end.
+// Files are read into memory in parallel chunks. Files are not mapped into memory, because SIGBUS would kill the
+// process if another program shortened a mapped file. Copying from the page cache into huge pages also takes no longer
+// than the page faults of a mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may read past
+// the end.
 enum { FILE_PADDING = 64 };
 
 struct file_bytes {
@@ -69,11 +70,11 @@ void file_release(struct file_bytes *bytes);
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
 // Writes a file completely or not at all, and leaves no temporary file, even if a signal ends the process during the
-// call (file_write.c). It keeps the read and write permissions of an existing file but removes execute permission. A
-// symbolic link is kept, and its target is replaced. A path that is not a regular file (/dev/stdout, a pipe) is written
-// directly. With `durable`, the file and its folder are on disk when the call returns, so that after a power failure
-// either the old file or the new file is complete. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the errors of
-// `call`: LAM_CANCELLED, LAM_LIMIT.
+// call (file_write.c). The function keeps the read and write permissions of an existing file, but removes the execute
+// permission. A symbolic link is kept, and its target is replaced. A path that is not a regular file (/dev/stdout, a
+// pipe) is written directly. With `durable`, the file and its folder are on disk when the call returns, so that after a
+// power failure either the old file or the new file is complete. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the
+// errors of `call`: LAM_CANCELLED, LAM_LIMIT.
 bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
                 lam_error *error);
 

@@ -3,9 +3,9 @@
 //  dnum   DLANES doubles in one register, half as many as a num has floats; DPARTS dnums have LANES doubles
 //  dmask  DLANES truth values, the results of comparisons
 //
-// As in lanes.h, only + − × ÷ and comparisons are used. Each is correctly rounded, so the results are bit-identical for
-// every width. One vector twice as wide as a register could replace the DPARTS vectors, but compilers would then use
-// scalar instructions for its comparisons.
+// As in lanes.h, only + − × ÷ and comparisons are used. Each operation is correctly rounded, so the results are
+// bit-identical for every width. One vector twice as wide as a register could replace the DPARTS vectors, but compilers
+// would then use scalar instructions for its comparisons.
 #ifndef DOUBLE_LANES_H
 #define DOUBLE_LANES_H
 

@@ -1,6 +1,6 @@
-// eights.h: vectors of eight floats, independent of LANES. They are for data structures that are the same on all
-// instruction sets and are read eight floats at a time. As in lanes.h, all operations are correctly rounded and written
-// with C operators.
+// eights.h: vectors of eight floats, independent of LANES. These vectors are for data structures that are the same on
+// all instruction sets and are read eight floats at a time. As in lanes.h, all operations are correctly rounded and
+// written with C operators.
 #ifndef EIGHTS_H
 #define EIGHTS_H
 

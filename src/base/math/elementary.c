@@ -67,8 +67,9 @@ static struct two_doubles exact_sum(double a, double b)
     return (struct two_doubles){sum, (a - (sum - part)) + (b - part)};
 }
 
-// Computes ln x for finite x > 0 with ten more bits of precision than a double. It splits x = 2^n · m with m in [√½,
-// √2) and uses ln m = 2 artanh s with s = (m − 1)/(m + 1). The tail of the result contains the rounding error of s.
+// Computes ln x for finite x > 0 with ten more bits of precision than a double. The function splits x = 2^n · m with m
+// in [√½, √2) and uses ln m = 2 artanh s with s = (m − 1)/(m + 1). The tail of the result contains the rounding error
+// of s.
 static struct two_doubles logarithm(double x)
 {
     int n = 0;

@@ -1,8 +1,8 @@
 // functions.h: powers, logarithms and inverse square roots, many at a time, bit-identical on every machine.
 //
-// They use only + − × and integer operations on the bits (lanes.h), without libm, tables or divisions. Each function's
-// comment states its range and its error; tests/lighting/test_functions.c measures both. No function returns NaN, for
-// any argument, unless its comment states it.
+// The functions use only + − × and integer operations on the bits (lanes.h), without libm, tables or divisions. Each
+// function's comment states its range and its error; tests/lighting/test_functions.c measures both. No function returns
+// NaN, for any argument, unless its comment states it.
 #ifndef FUNCTIONS_H
 #define FUNCTIONS_H
 
@@ -131,8 +131,7 @@ LANE_FN num power(num base, num exponent)
     struct two_parts y = scaled_log2(binary_parts_of(base), min_of(exponent, num_of(1.0e30f)));
     num sum = y.head + y.tail;
     struct whole_power w = whole_power_of(min_of(sum, num_of(127.0f)));
-    num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // the fraction may slightly exceed ½, because
-                                                                       // the sum was rounded
+    num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // may slightly exceed ½ because of rounding
     mask some = both(base >= min_base(exponent), sum >= -126.0f);
     return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }

@@ -16,8 +16,8 @@ double math_degrees(double radians) { return radians * (180 / PI); }
 #define HALF_PI_2 6.07710050630396597660e-11
 #define HALF_PI_3 2.02226624879595063154e-21
 
-// Splits x into quarter·π/2 + rest with |rest| ≤ π/4 (slightly more by rounding). It is accurate enough for |x| ≤ 1e6.
-// Larger angles are not reduced: they do not occur in practice, and the result stays finite.
+// Splits x into quarter·π/2 + rest with |rest| ≤ π/4 (slightly more because of rounding). The split is accurate enough
+// for |x| ≤ 1e6. Larger angles are not reduced: they do not occur in practice, and the result stays finite.
 static double reduce(double x, int *quarter)
 {
     if (!(x > -1e9 && x < 1e9)) {
@@ -117,7 +117,8 @@ double math_acos(double x)
     return math_atan2(math_sqrt((1 - x) * (1 + x)), x);
 }
 
-// The whole part of x is applied by doubling or halving. The rest, at most ½, is computed by the series of e^(x ln 2).
+// The whole part of x is applied by doubling or halving. For the rest of x, at most ½, the series of e^(x ln 2) is
+// used.
 double math_exp2(double x)
 {
     int whole = (int)(x < 0 ? x - 0.5 : x + 0.5);

@@ -39,15 +39,16 @@ lam_vec3 mat4_point(const lam_mat4 *m, lam_vec3 p);         // affine: w = 1, la
 lam_vec3 mat4_vector(const lam_mat4 *m, lam_vec3 v);        // upper 3×3 only
 double mat4_determinant3(const lam_mat4 *m);                // the determinant of the upper 3×3
 bool mat4_inverse_affine(const lam_mat4 *m, lam_mat4 *out); // false if the upper 3×3 is singular
-// Computes the cofactors of the upper 3×3, which are the inverse transpose times the determinant. They transform
-// normals; the caller handles the sign of the determinant (a mirror reverses the winding, not the normal).
+// Computes the cofactors of the upper 3×3, which are the inverse transpose times the determinant. Cofactors transform
+// normals. The caller handles the sign of the determinant (a mirror reverses the winding, not the normal).
 void mat4_normal_matrix(const lam_mat4 *m, double out[3][3]);
 
 lam_mat4 mat4_translate(double x, double y, double z);
 lam_mat4 mat4_scale(double x, double y, double z);
 lam_mat4 mat4_rotate(double radians, lam_vec3 axis);               // right-handed; the axis has any nonzero length
 lam_mat4 mat4_look_at(lam_vec3 eye, lam_vec3 target, lam_vec3 up); // world to eye space
-// The projection matrices of OpenGL: z is −1 at the near plane and 1 at the far plane. Both distances are positive.
+// The projection matrices of OpenGL: z is −1 at the near plane and 1 at the far plane. The distances of both planes are
+// positive.
 lam_mat4 mat4_perspective(double fovy_rad, double aspect, double near_plane, double far_plane);
 lam_mat4 mat4_orthographic(double half_height, double aspect, double near_plane, double far_plane);
 

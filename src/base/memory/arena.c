@@ -19,7 +19,7 @@ struct arena_block {
     uint8_t *memory;
     size_t capacity, used;
     bool whole;     // serves one request; nothing else is allocated from it
-    size_t held;    // if above 0, the bytes of the pages at `memory`, which pages_free releases
+    size_t held;    // if above 0, the size in bytes of the pages at `memory`, which pages_free must release
     size_t charged; // bytes charged to the call
 };
 

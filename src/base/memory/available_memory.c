@@ -80,8 +80,8 @@ static bool names_memory(const char *list, size_t length)
     return false;
 }
 
-// Returns the limit for a line of /proc/self/cgroup, "number:controllers:path"; cgroup v2 has number 0 and no
-// controllers.
+// Returns the limit for the group in a line of /proc/self/cgroup. The line has the form "number:controllers:path"; for
+// cgroup v2, the number is 0 and there are no controllers.
 static uint64_t limit_of_line(const char *root, char *line)
 {
     char *list = strchr(line, ':'), *path = list ? strchr(list + 1, ':') : NULL;

@@ -76,8 +76,8 @@ void *library_open(const char *name, bool resident, const char **reason)
     return library;
 }
 
-// The folders to search, relative to the folder of this library or program. That folder is the build folder, its
-// subfolder for tests, the system's library folder, or the program folder beside it.
+// The folders to search, relative to the folder of this library or program. This library or program may be in the build
+// folder, in its subfolder for tests, in the system's library folder, or in the program folder beside it.
 static const char *const own_folders[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
 
 static void *open_beside(const char *file, const char *name)

@@ -8,9 +8,9 @@
 // loader's error message in *reason (`reason` may be NULL). With `resident`, the library stays loaded until the process
 // ends; drivers that start threads need this.
 void *library_open(const char *name, bool resident, const char **reason);
-// Opens a shared object that is installed with this library or program, for example "lambent-draco.so". It is in the
-// subfolder lambent of the library folder, or in the build folder. The shared object stays loaded until the process
-// ends. Returns NULL if the shared object or a library that it needs is missing.
+// Opens a shared object that is installed with this library or program, for example "lambent-draco.so". The shared
+// object is in the subfolder lambent of the library folder, or in the build folder. The shared object stays loaded
+// until the process ends. Returns NULL if the shared object or a library that it needs is missing.
 void *library_open_own(const char *name);
 void library_close(void *library); // NULL is allowed
 

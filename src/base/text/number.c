@@ -1,6 +1,6 @@
 // number.c: parses numbers in text, correctly rounded, in any locale.
 //
-// There are three methods. Each is used if the previous one cannot guarantee the last bit:
+// There are three methods. Each method is used if the previous method cannot guarantee the last bit:
 //  1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers
 //     Accurately", 1990); for floats, a product in double, unless the product is near the midpoint of two floats.
 //  2. One or two 64×64-bit products with a 128-bit power of five (Lemire, "Number Parsing at a Gigabyte per
@@ -187,8 +187,8 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
 
 // --- method 3: big integers
 
-// Unsigned big integers, lowest limb first. They are large enough for 770 digits times 10^308, or 10^(342 + 770) and
-// its multiples by 2^64.
+// Unsigned big integers, lowest limb first. These integers are large enough for 770 digits times 10^308, or 10^(342 +
+// 770) and its multiples by 2^64.
 enum { LIMBS = 160, DIGITS_MAX = 770 };
 struct big {
     uint32_t limb[LIMBS];

@@ -29,8 +29,8 @@ static inline unsigned number_digit_count(uint64_t eight)
 // Returns the value of the first `count` of eight bytes, all of which must be digits.
 static inline uint64_t number_digits_value(uint64_t eight, unsigned count)
 {
-    // The digits are shifted to the end, with zeros before them. This is done in two steps, because a shift by 64 is
-    // undefined.
+    // The digits are shifted to the end, with zeros before them. The shift is done in two steps, because a shift by 64
+    // is undefined.
     uint64_t v = (eight - 0x3030303030303030u) << 4 * (8 - count) << 4 * (8 - count);
     // Neighbouring digits are joined as ten times the first plus the second: 8 digits become 4 pairs, then 2 groups of
     // four, then 1 number. One product does both steps, because the factor 10 · 2⁸ + 1 adds ten times the lower byte to

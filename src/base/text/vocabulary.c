@@ -111,7 +111,7 @@ static const struct {
     {"teapot", "utah"},
 };
 
-// Converts a word to lower case, and replaces '_' and ' ' with '-'. Returns false if it is too long.
+// Converts a word to lower case, and replaces '_' and ' ' with '-'. Returns false if the word is too long.
 static bool simplify(const char *word, char out[LENGTH_MAX + 1])
 {
     size_t length = strnlen(word, LENGTH_MAX + 1);

@@ -10,7 +10,8 @@
 
 enum { KEY_BITS = 10, PASS_BITS = 11 };
 
-// The maximum slope of the sRGB curve, which is at black. It limits how much a small amount of light changes a byte.
+// The maximum slope of the sRGB curve, which is at black. This slope limits how much a small amount of light changes a
+// byte.
 #define SRGB_SLOPE 12.92f
 
 // The sort key of a light.
@@ -36,7 +37,7 @@ static uint32_t quantize(float x, float low, float high)
 
 static bool has_range(const struct frame_light *light) { return light->falloff == FALLOFF_RANGE; }
 
-// Computes Morton codes: the bits of the three coordinates interleaved. Lights without a range come last.
+// Computes Morton codes, which interleave the bits of the three coordinates. Lights without a range come last.
 static void make_keys(const struct frame *frame, struct sort_key *keys)
 {
     float low[3], high[3];

@@ -35,7 +35,7 @@ struct light_bounds {
     float cutoff;
 };
 
-// Fills the table; `storage` owns its rows. Returns false if memory runs out.
+// Fills the table; `storage` owns the table's rows. Returns false if memory runs out.
 bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const struct frame *frame,
                        const struct material_products *materials, struct call_control *call, lam_error *error);
 

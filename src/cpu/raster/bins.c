@@ -65,7 +65,7 @@ struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread
     return slab_take(raster, &bins->blocks, sizeof(struct bin_block));
 }
 
-// This is a power of two, so that shifting a clipped triangle's index gives its slab.
+// CLIPPED_PER_SLAB is a power of two, so that the slab of a clipped triangle is found by shifting its index.
 enum { CLIPPED_PER_SLAB = SLAB / 64 };
 _Static_assert(sizeof(struct clipped_triangle) <= 64, "a clipped triangle fits 64 bytes");
 

@@ -47,8 +47,8 @@ struct thread_bins {
     uint64_t work; // units of work that have not been added yet
 };
 
-// Allocate a block for one more bin, or memory for one more clipped triangle. They return NULL if memory runs out; the
-// frame is then marked as failed.
+// Allocate a block for one more bin, or memory for one more clipped triangle. Both functions return NULL if memory runs
+// out; the frame is then marked as failed.
 struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread_bins *bins);
 struct clipped_triangle *new_clipped_triangle(const struct raster_frame *raster, struct thread_bins *bins,
                                               uint32_t *number);

@@ -101,7 +101,7 @@ void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, 
     struct clipped_triangle triangle = {.id = id};
     float x[CORNERS_MAX], y[CORNERS_MAX], key[CORNERS_MAX];
     for (int i = 0; i < count; i++) {
-        // These are the same operations as in vertex_transform.inc, so that an unclipped corner snaps to the same point
+        // The operations are the same as in vertex_transform.inc, so that an unclipped corner snaps to the same point
         // in every triangle.
         float inverse = 1.0f / polygon[i].w;
         x[i] = polygon[i].x * inverse;

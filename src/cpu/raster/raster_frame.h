@@ -20,11 +20,11 @@ struct raster_frame {
     struct work *work; // every worker adds to it
     int tiles_across, tiles_down;
     bool without_glass; // surfaces that transmit light are omitted, to draw the picture behind them
-    // The guard band: the largest |x| and |y| of a vertex for which a triangle needs no clipping. They are measured
+    // The guard band: the largest |x| and |y| of a vertex for which a triangle needs no clipping. x and y are measured
     // from the window's centre, in multiples of w.
     float guard[2];
-    // x, y, key of each vertex of the indexed meshes: pixels (y down, not snapped); larger keys are nearer. Corners of
-    // other meshes are transformed on demand (corners.inc).
+    // x, y and key of each vertex of the indexed meshes. x and y are in pixels (y down, not snapped); larger keys are
+    // nearer. Corners of other meshes are transformed on demand (corners.inc).
     float *vertices;
     const uint32_t *first_vertex;   // the first vertex of each indexed draw
     const struct thread_bins *bins; // the bins of each thread

@@ -1,5 +1,5 @@
-// visible_triangles.h: covers the whole picture before lighting, for frames that compute normals (frame.h) or have
-// ambient occlusion.
+// visible_triangles.h: finds the visible triangles of the whole picture before lighting, for frames that compute
+// normals (frame.h) or have ambient occlusion.
 #ifndef VISIBLE_TRIANGLES_H
 #define VISIBLE_TRIANGLES_H
 

@@ -47,8 +47,8 @@ static const float *texel_at(const struct behind *behind, int level, int x, int 
 }
 
 // Texel `i` of the next level, which has `count` texels, covers several texels of a level. Returns these texels, with
-// the covered fraction of each as its weight. There are two texels. If the size is odd, there are three, and the outer
-// two are covered partly.
+// the covered fraction of each as its weight. A texel covers two texels, or three if the size is odd; the outer two of
+// three are covered only partly.
 static struct taps covered_taps(int i, int count, int size)
 {
     if (size == 1)

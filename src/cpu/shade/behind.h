@@ -14,19 +14,20 @@ struct behind {
     int levels;
     int width[BEHIND_LEVELS], height[BEHIND_LEVELS];
     float *texels[BEHIND_LEVELS];
-    uint8_t *glass; // for each tile of the picture, whether it has omitted surfaces
+    uint8_t *glass; // for each tile of the picture, whether surfaces were omitted in it
 };
 
-// Reserves all levels for a picture, and clears the first level and the tiles' flags. Returns false if memory runs out.
+// Allocates all levels for a picture, and clears the first level and the flags of the tiles. Returns false if memory
+// runs out.
 bool behind_make(struct behind *behind, struct buffer *memory, int width, int height, size_t tiles,
                  struct call_control *call, lam_error *error);
 
 // Computes the other levels from the first one.
 void behind_fill(struct behind *behind);
 
-// Samples the picture at x and y, in pixels from the upper left corner, blurred over √`square` pixels. It interpolates
-// between the two levels whose texels are about this wide. Each level is sampled with a cubic B-spline, except the
-// first, which is sampled bilinearly.
+// Samples the picture at x and y, in pixels from the upper left corner, blurred over √`square` pixels. The function
+// interpolates between the two levels whose texels are about as wide as the blur. Each level is sampled with a cubic
+// B-spline, except the first, which is sampled bilinearly.
 void behind_look(const struct behind *behind, float x, float y, float square, float out[4]);
 
 #endif

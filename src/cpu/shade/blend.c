@@ -28,7 +28,7 @@ static void sort_by_pixel(const struct fragments *fragments, struct blend_scratc
     }
     for (int i = 0; i < fragments->count; i++)
         scratch->order[start[fragments->pixel[i]]++] = (uint32_t)i;
-    // Each start has been advanced to the next pixel's start.
+    // Each pixel's start has been advanced to the start of the next pixel.
     memmove(start + 1, start, TILE * TILE * sizeof *start);
     start[0] = 0;
 }
@@ -45,7 +45,7 @@ static void insertion_sort(struct layer *layers, uint32_t count)
     }
 }
 
-// Sifts the layer at `at` down in a heap with the smallest rank on top.
+// Moves the layer at index `at` down to its position in a heap whose top has the smallest rank.
 static void sift_down(struct layer *heap, uint32_t count, uint32_t at)
 {
     struct layer moved = heap[at];

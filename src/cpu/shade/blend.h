@@ -23,7 +23,7 @@ struct blend_scratch {
     struct layer *layers; // the layers of one pixel
 };
 
-// First joins the fragments that belong to the same clipped triangle and the same pixel. Then sorts a tile's
+// Joins the fragments of a tile that belong to the same clipped triangle and the same pixel. Then sorts the tile's
 // translucent fragments by pixel. Call this function before the fragments are grouped and shaded.
 void sort_layers(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows,
                  struct blend_scratch *scratch);

@@ -26,7 +26,7 @@ struct pixel_sums {
     // the channels. Otherwise NULL.
     float *tint[3];
     const float *background;     // the background behind layers that transmit light (frame.glass_background)
-    const struct behind *behind; // NULL if nothing is blurred or refracted, or if this is the picture behind
+    const struct behind *behind; // NULL if nothing is blurred or refracted, or while the picture behind itself is drawn
 };
 
 // Returns the number of bytes per pixel of a working format. Both results are constants, so that the compiler inlines

@@ -29,7 +29,7 @@ struct material_products {
     float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere light
 };
 
-// Multiplies all materials by all lights, once per frame. The storage owns the products. Returns NULL on failure.
+// Multiplies all materials by all lights, once per frame. `storage` owns the products. Returns NULL on failure.
 struct material_products *products_make(struct buffer *storage, const struct frame *frame, struct call_control *call,
                                         lam_error *error);
 

@@ -164,9 +164,9 @@ static int compare_edges(const void *left, const void *right)
     return a->corner < b->corner ? -1 : a->corner > b->corner;
 }
 
-// Sorts the edges first, and is used for many corners. If very many triangles share an edge, there would be too many
-// pairs. Then each outgoing edge is tested only against the incoming edge of the same rank; no real surface has such an
-// edge.
+// Sorts the edges first; this function is used for many corners. If very many triangles share an edge, there would be
+// too many pairs. In this case, each outgoing edge is tested only against the incoming edge of the same rank. No real
+// surface has such an edge.
 static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_t count, double min_cosine)
 {
     enum { PAIRS_MAX = 256 };

@@ -18,7 +18,7 @@ struct fan_corner {
                       // its fan
 };
 
-// Scratch memory of one thread. It grows to fit the position with the most corners.
+// Scratch memory of one thread. The memory grows to fit the position with the most corners.
 struct corner_fan_scratch {
     struct arena arena;
     uint32_t *numbers; // input: the corners at the position
@@ -38,7 +38,7 @@ bool corner_fan_scratch_reserve(struct corner_fan_scratch *scratch, uint32_t cou
 uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corner_fan_scratch *scratch,
                             uint32_t count);
 
-// Sorts corners. It is fast if the corners are nearly in order.
+// Sorts corners. The function is fast if the corners are nearly in order.
 void sort_corners(uint32_t *corners, uint32_t count);
 
 // Converts the crease angle to the smallest cosine between the normals of two faces that corner_fan_normals joins.

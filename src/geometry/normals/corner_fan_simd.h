@@ -42,9 +42,9 @@ struct corner_fan_simd {
     int lanes; // floats in a register
     // Computes the fans from count, positions and corners.
     void (*make)(struct corner_fan_block *block, const lam_mesh *mesh, double min_cosine);
-    // Fills `elements`. It must be called after `make`. Only corners of triangles in the set remain members; the number
-    // of the mesh's triangle 0 in the set is `first`. Corners of open vertices, and of vertices whose bits are set in
-    // `done` (may be NULL), are removed. Returns the number of fans that have members.
+    // Fills `elements`. This function must be called after `make`. Only corners of triangles in the set remain members;
+    // the number of the mesh's triangle 0 in the set is `first`. Corners of open vertices, and of vertices whose bits
+    // are set in `done` (may be NULL), are removed. Returns the number of fans that have members.
     uint32_t (*locate)(struct corner_fan_block *block, const lam_mesh *mesh, const struct rank_bitset *triangles,
                        uint32_t first, const uint64_t *done);
 };

@@ -29,8 +29,8 @@ static inline bool rank_bitset_has(const struct rank_bitset *set, size_t number)
     return set->bits[number / 64] >> number % 64 & 1;
 }
 
-// Returns the number of set bits. They are summed in pairs, in fours, and in bytes, because the baseline processor has
-// no instruction that counts bits.
+// Returns the number of set bits. The bits are summed in pairs, in fours, and in bytes, because the baseline processor
+// has no instruction that counts bits.
 static inline uint32_t count_bits(uint64_t x)
 {
     x -= x >> 1 & UINT64_C(0x5555555555555555);

@@ -1,11 +1,11 @@
 // visible_normals.c: computes smooth normals for some or all triangles of a mesh.
 //
-// Closed vertices (normals.h) are processed first. They need no search, because the corners that use each vertex are
-// simply collected. All other vertices are processed in three steps. First (shared_positions.c), every vertex at one of
-// their positions gets the number of the position. Second (position_bins.c), the corners at these positions are sorted
-// into bins, one for each range of positions. Third (corner_fan.c), the corners of each bin are sorted by position, and
-// the normals are computed. Positions with the same small number of corners are collected until 32 of them can be
-// computed in parallel lanes (corner_fan_simd.c).
+// Closed vertices (normals.h) are processed first. Closed vertices need no search, because the corners that use each
+// vertex are simply collected. All other vertices are processed in three steps. First (shared_positions.c), every
+// vertex at one of their positions gets the number of the position. Second (position_bins.c), the corners at these
+// positions are sorted into bins, one for each range of positions. Third (corner_fan.c), the corners of each bin are
+// sorted by position, and the normals are computed. Positions with the same small number of corners are collected until
+// 32 of them can be computed in parallel lanes (corner_fan_simd.c).
 #include "visible_normals.h"
 
 #include "corner_fan.h"

@@ -1,7 +1,8 @@
 // visible_normals.h: computes normals for some or all triangles of a mesh.
 //
 // A picture of a large model shows only few of the model's triangles. Only the corners at the positions of visible
-// triangles are searched. Their normals are bit-identical to those that are computed for the whole mesh.
+// triangles are searched. The normals at these corners are bit-identical to the normals that are computed for the whole
+// mesh.
 #ifndef VISIBLE_NORMALS_H
 #define VISIBLE_NORMALS_H
 
@@ -17,7 +18,7 @@ struct visible_normals {
     struct rank_bitset triangles;
     uint32_t *elements; // 3 · triangles.count
     // Capacity for 3 · triangles.count normals. `used` of them are filled, which is far fewer if corners share normals.
-    // Their order depends on the threads.
+    // The order of the normals depends on the threads.
     float (*normals)[3];
     uint32_t used;
     uint32_t *first_corners; // a corner of the mesh for each normal, with the same capacity; NULL if not needed

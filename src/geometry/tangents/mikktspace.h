@@ -5,13 +5,13 @@
 //
 // 1. Corners with the same position, normal and texture coordinates are welded, regardless of their indices.
 // 2. A triangle has the direction ∂p/∂s and an orientation, the sign of its area in the texture. A triangle whose
-//    texture coordinates span no area has neither of them. It adds nothing to the sums, and joins the groups of its
-//    neighbours.
+//    texture coordinates span no area has no direction and no orientation. Such a triangle adds nothing to the sums,
+//    and joins the groups of its neighbours.
 // 3. Around a welded corner, the triangles that are connected by shared edges and have the same orientation form a
 //    group.
-// 4. The tangent of a group is the sum of its triangles' directions, each made perpendicular to the normal, normalized,
-//    and weighted by the triangle's angle at the corner, measured in the plane perpendicular to the normal. (The
-//    angular threshold is 180°: it splits no group.)
+// 4. The tangent of a group is the sum of its triangles' directions. Each direction is made perpendicular to the
+//    normal, normalized, and weighted by the triangle's angle at the corner. The angle is measured in the plane
+//    perpendicular to the normal. (The angular threshold is 180°: it splits no group.)
 // 5. A triangle with two equal positions joins no group and has no neighbours.
 //
 // A corner that no group reaches gets the tangent of the first equal corner that has a group. If there is no such

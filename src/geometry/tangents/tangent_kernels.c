@@ -150,7 +150,8 @@ LANE_FN dnum inverse_length(struct dvector v)
 // Returns the component of v perpendicular to the unit vector n.
 LANE_FN struct dvector in_plane(struct dvector v, struct dvector n) { return dsubtract(v, dscale(n, ddot(n, v))); }
 
-// Returns the angle between two vectors that are perpendicular to n. It is a right angle if either vector is zero.
+// Returns the angle between two vectors that are perpendicular to n. If either vector is zero, the result is a right
+// angle.
 LANE_FN dnum angle_between(struct dvector a, struct dvector b, struct dvector n)
 {
     struct dvector cross = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

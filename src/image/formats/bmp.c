@@ -61,7 +61,7 @@ static bool read_mask(struct bmp *bmp, int index, uint32_t bits, lam_error *erro
     return true;
 }
 
-// Reads the masks. They follow a header of 40 bytes; a longer header contains them.
+// Reads the masks. If the header has 40 bytes, the masks follow it; a longer header contains the masks.
 static bool read_masks(struct bmp *bmp, lam_error *error)
 {
     static const uint32_t usual[2][MASKS] = {{0x7c00, 0x3e0, 0x1f, 0}, {0xff0000, 0xff00, 0xff, 0}};
@@ -237,8 +237,8 @@ static bool put_rows(const struct bmp *bmp, const lam_image *image, lam_error *e
 }
 
 // Decodes run lengths, two bytes at a time. Usually the bytes are a count and a color (with 4 bits, two alternating
-// colors). Otherwise, 0 0 means end of row, 0 1 means end of picture, 0 2 x y means move right and up, and 0 n means
-// that n colors follow, padded to two bytes.
+// colors). If the count is 0, 0 0 means end of row, 0 1 means end of picture, 0 2 x y means move right and up, and 0 n
+// means that n colors follow, padded to two bytes.
 static bool put_runs(const struct bmp *bmp, const lam_image *image, lam_error *error)
 {
     const uint8_t *at = bmp->file->bytes + bmp->pixels, *end = bmp->file->bytes + bmp->file->size;

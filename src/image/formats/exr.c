@@ -1,7 +1,7 @@
-// exr.c: reads and writes OpenEXR files, which store floats in named layers. It uses the C library OpenEXRCore, which
-// is loaded on demand (dlopen). It writes a file with one part of scanlines, 32-bit floats and ZIP compression. The
-// picture's channels are R, G, B and A, linear and premultiplied, as OpenEXR defines them. The channels of a layer are
-// NAME.R and so on. Neither a time nor a path is stored, so with the same library the same picture gives the same
+// exr.c: reads and writes OpenEXR files, which store floats in named layers. The C library OpenEXRCore is used, which
+// is loaded on demand (dlopen). Written files contain one part of scanlines, with 32-bit floats and ZIP compression.
+// The picture's channels are R, G, B and A, linear and premultiplied, as OpenEXR defines them. The channels of a layer
+// are NAME.R and so on. Neither a time nor a path is stored, so with the same library the same picture gives the same
 // bytes.
 #include "codec.h"
 #include "dynamic_library.h"
@@ -27,7 +27,7 @@ static bool exr_probe(const uint8_t *bytes, size_t size)
 
 #define LIBRARY "libOpenEXRCore-3_1.so.30"
 
-// The functions of OpenEXRCore that Lambent uses. Each becomes a member of struct core, with the type of its
+// The functions of OpenEXRCore that Lambent uses. Each function becomes a member of struct core, with the type of its
 // declaration.
 #define FUNCTIONS(each)                                                                                                \
     each(exr_start_write) each(exr_add_part) each(exr_initialize_required_attr_simple) each(exr_add_channel)           \
@@ -279,7 +279,7 @@ static int place_of(const char *name)
     return found ? (int)(found - letters) : strcmp(name, "Y") == 0 ? 0 : -1;
 }
 
-// Checks that every chunk is present. This is done before memory is allocated for the picture.
+// Checks that every chunk is present, before memory is allocated for the picture.
 static exr_result_t find_chunks(const struct core *core, exr_context_t file, int top, int64_t height)
 {
     int32_t rows = 1;

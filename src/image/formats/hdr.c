@@ -91,8 +91,8 @@ static bool read_header(const uint8_t *bytes, size_t size, const char *name, str
     return read_size(at, stop, name, header, error);
 }
 
-// The next functions read a row. They return the end of the row in the file, or NULL if the row is invalid or the file
-// ends within it. `row` receives 4 bytes per pixel.
+// The next functions read a row, and return the end of the row in the file. If the row is invalid, or if the file ends
+// within the row, they return NULL. `row` receives 4 bytes per pixel.
 
 static const uint8_t *read_new_runs(const uint8_t *at, const uint8_t *end, int width, uint8_t *row)
 {

@@ -72,7 +72,7 @@ static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
 }
 
 // Charges the coefficients. A file with several scans keeps all of its coefficients in memory before the first row.
-// Each needs two bytes, and there are at most as many as if all components had full resolution.
+// A coefficient needs two bytes, and there are at most as many coefficients as if all components had full resolution.
 static bool charge_coefficients(struct reader *reader, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;

@@ -1,5 +1,5 @@
-// jpeg_write.c: writes baseline JPEG files with libjpeg-turbo. It uses the accurate integer transform and optimised
-// Huffman codes. The bytes depend only on the picture, the quality and the version of libjpeg-turbo.
+// jpeg_write.c: writes baseline JPEG files with libjpeg-turbo. The accurate integer transform and optimised Huffman
+// codes are used. The bytes depend only on the picture, the quality and the version of libjpeg-turbo.
 #include "codec.h"
 #include "compose.h"
 #include "fail.h"
@@ -12,8 +12,8 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-// If the quality is at least QUALITY_OF_FULL_COLOR, chroma is stored for every pixel. Otherwise it is stored once for
-// every four pixels.
+// If the quality is at least QUALITY_OF_FULL_COLOR, chroma is stored for every pixel. For lower quality, chroma is
+// stored once for every four pixels.
 enum { QUALITY_DEFAULT = 90, QUALITY_OF_FULL_COLOR = 90 };
 
 // The error struct of libjpeg that its callbacks receive, followed by our own members.

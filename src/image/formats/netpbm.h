@@ -10,9 +10,9 @@ struct netpbm_header {
     size_t pixels;     // the offset of the pixels
 };
 
-// Reads the header of a file whose first two bytes have been checked. It consists of the width, the height and one more
-// number, followed by one white-space character. The numbers are separated by white space and by comments, from '#' to
-// the end of the line. `title` is the format's name.
+// Reads the header of a file whose first two bytes have been checked. The header consists of the width, the height and
+// one more number, followed by one white-space character. The numbers are separated by white space and by comments,
+// from '#' to the end of the line. `title` is the format's name.
 bool netpbm_read_header(const struct picture_file *file, const char *title, struct netpbm_header *header,
                         lam_error *error);
 

@@ -2,8 +2,8 @@
 // run-length encoded, with the first pixel in any corner. Truevision TGA File Format Specification, version 2.0 (1991).
 //
 // A TGA file has no magic number, so the whole header is checked, after all other formats. In pixels of 32 bits, the
-// fourth byte is used as alpha, even if the header declares 0 alpha bits, because many programs write such files. In
-// that case it is ignored if it is 0 in all pixels.
+// fourth byte is used as alpha, even if the header declares 0 alpha bits, because many programs write such files. If
+// the header declares 0 alpha bits and the fourth byte is 0 in all pixels, the byte is ignored.
 #include "codec.h"
 #include "fail.h"
 #include "little_endian.h"
@@ -125,9 +125,9 @@ static bool fail_end(const struct tga *tga, const char *within, lam_error *error
                 within);
 }
 
-// Decodes packets. A packet is a count (1 to 128) and a flag in one byte, followed by one repeated pixel if the flag
-// (bit 7) is set, or otherwise by that many pixels. In version 2 of the format, packets end at the end of a row; in
-// older files they may continue in the next row.
+// Decodes packets. A packet begins with one byte, which contains a count (1 to 128) and a flag (bit 7). If the flag is
+// set, one pixel follows, which is repeated; otherwise, as many pixels follow as the count says. In version 2 of the
+// format, packets end at the end of a row; in older files they may continue in the next row.
 static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image *image, lam_error *error)
 {
     const uint8_t *end = tga->file->bytes + tga->file->size;

@@ -1,6 +1,6 @@
-// webp.c: reads and writes WebP files, lossy and lossless, with alpha. It uses libwebp, which is loaded on demand
-// (dlopen). Files are read chunk by chunk, so that a long decoding can be stopped. Animations are not supported. The
-// written bytes depend on the version of libwebp. https://developers.google.com/speed/webp/docs/riff_container
+// webp.c: reads and writes WebP files, lossy and lossless, with alpha. The library libwebp is used, which is loaded on
+// demand (dlopen). Files are read chunk by chunk, so that a long decoding can be stopped. Animations are not supported.
+// The written bytes depend on the version of libwebp. https://developers.google.com/speed/webp/docs/riff_container
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"

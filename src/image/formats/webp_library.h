@@ -16,7 +16,8 @@ bool webp_is_installed(void);
 
 #define WEBP_LIBRARY "libwebp.so.7"
 
-// The functions that Lambent uses. Each becomes a member of struct webp_library, with the type of its declaration.
+// The functions that Lambent uses. Each function becomes a member of struct webp_library, with the type of its
+// declaration.
 #define WEBP_FUNCTIONS(each)                                                                                           \
     each(WebPGetFeaturesInternal) each(WebPINewRGB) each(WebPIUpdate) each(WebPIDelete) each(WebPConfigInitInternal)   \
         each(WebPPictureInitInternal) each(WebPPictureImportRGBA) each(WebPEncode) each(WebPPictureFree)               \

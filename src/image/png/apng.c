@@ -182,9 +182,9 @@ static void put_animation_control(struct writer *writer, const struct apng *apng
     close_chunk(writer, "acTL", 8);
 }
 
-// Writes the duration of a frame as a fraction of two 16-bit numbers. It is exact for a whole number of frames per
-// second. Otherwise the rate is rounded to a thousandth of a frame per second (from 65 frames per second, to a
-// hundredth).
+// Writes the duration of a frame as a fraction of two 16-bit numbers. The duration is exact for a whole number of
+// frames per second. Otherwise the rate is rounded to a thousandth of a frame per second (from 65 frames per second, to
+// a hundredth).
 static void put_delay(double frames_per_second, uint8_t out[4])
 {
     const bool whole = frames_per_second == (double)(int)frames_per_second;
@@ -212,8 +212,8 @@ static uint32_t u32_of(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-// Returns the maximum number of bytes that put_frame appends for a frame. They are the frame's chunks, each with a
-// sequence number, one chunk that is not closed yet, and the chunks of the animation.
+// Returns the maximum number of bytes that put_frame appends for a frame. The number includes the frame's chunks, each
+// with a sequence number, one chunk that is not closed yet, and the chunks of the animation.
 static size_t frame_bytes(const struct apng_frame *frame)
 {
     const uint8_t *at = frame->png.data, *end = at + frame->png.size;

@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Tables for CRC-32 of eight bytes at a time (8 KiB). They are made for each encoding, which takes about a microsecond,
-// because the library keeps no global state.
+// Tables for computing the CRC-32 of eight bytes at a time (8 KiB). Because the library keeps no global state, the
+// tables are computed for each encoding, which takes about a microsecond.
 struct crc_tables {
     uint32_t row[8][256];
 };

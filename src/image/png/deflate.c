@@ -77,13 +77,13 @@ static inline uint64_t distance_of(uint32_t distance)
     return symbol | low << 16 | high << 32;
 }
 
-// Returns a match of 3 … 258 bytes.
+// Returns the token of a match of 3 … 258 bytes.
 static inline uint64_t match_of(size_t length, uint64_t distance)
 {
     return (DEFLATE_MATCH + length - DEFLATE_SHORTEST) | distance << 16;
 }
 
-// Splits a match of any length into matches of at most 258 bytes. Each is as long as possible, but never leaves a
+// Splits a match of any length into matches of at most 258 bytes. Each match is as long as possible, but never leaves a
 // remainder of 1 or 2 bytes.
 static struct token *put_match(struct token *token, size_t left, uint64_t distance)
 {
@@ -190,8 +190,8 @@ static inline uint64_t two_pixels(const uint32_t *at)
     return pair;
 }
 
-// Returns the number of equal pixels starting at `a` and `b`, at most `max`. It may read two pixels beyond the end,
-// which is safe because rows are padded.
+// Returns the number of equal pixels starting at `a` and `b`, at most `max`. The function may read two pixels beyond
+// the end, which is safe because rows are padded.
 static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
 {
     int count = 0;

@@ -31,8 +31,8 @@ enum {
     DEFLATE_KINDS = DEFLATE_BITS + 512,
 };
 
-// A token is one of three: up to four bytes of pixels; a match (its length, its distance, and the low and high extra
-// bits of the distance); or the filter of a row.
+// A token is up to four bytes of pixels, or a match, or the filter of a row. A match consists of its length, its
+// distance, and the low and high extra bits of the distance.
 struct token {
     uint16_t kind[4];
 };

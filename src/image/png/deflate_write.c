@@ -101,8 +101,8 @@ static void store(struct storing *storing, uint8_t byte)
     storing->left--;
 }
 
-// Stores a strip uncompressed. This is used if compression would make the strip longer, for noise and for pictures with
-// few pixels.
+// Stores a strip uncompressed. Strips are stored if compression would make them longer, as for noise and for pictures
+// with few pixels.
 static uint8_t *put_stored(const struct deflate *deflate, uint8_t *out)
 {
     struct storing storing = {out, stream_bytes(deflate), 0};

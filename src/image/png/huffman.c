@@ -65,9 +65,9 @@ void huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *le
     tree_depths(weights, used, depths);
 
     // The number of codes of each length; codes above the limit are shortened to the limit. A code of length l occupies
-    // 2^(limit−l) of 2^limit positions, so after the shortening, too many positions are occupied. They are released one
-    // by one. In each step, a code of the longest length below the limit becomes one bit longer, and a code of the
-    // limit's length shares its position.
+    // 2^(limit−l) of 2^limit positions, so after the shortening, too many positions are occupied. The extra positions
+    // are released one by one. In each step, a code of the longest length below the limit becomes one bit longer, and a
+    // code of the limit's length shares its position.
     uint32_t of_length[64] = {0}, taken = 0;
     for (int i = 0; i < used; i++) {
         int length = depths[i] < limit ? depths[i] : limit;

@@ -148,9 +148,9 @@ static void filter_strip(const struct png_encoding *encoding, struct best_thread
 }
 
 // Changes the last block of a deflate stream so that it is not marked as the last, and pads the stream to a byte
-// boundary with an empty stored block. This is necessary because libdeflate writes only complete streams. zlib finds
-// the start of the last block. `scratch` has capacity for the decompressed bytes. Returns the new size, or 0 if memory
-// runs out.
+// boundary with an empty stored block. The change is necessary because libdeflate writes only complete streams. zlib
+// finds the start of the last block. `scratch` has capacity for the decompressed bytes. Returns the new size, or 0 if
+// memory runs out.
 static size_t open_stream(uint8_t *stream, size_t size, uint8_t *scratch, size_t capacity)
 {
     enum { AT_BOUNDARY = 128, IN_LAST = 64, UNUSED_BITS = 7 }; // bits of z_stream.data_type after inflate(…, Z_BLOCK)

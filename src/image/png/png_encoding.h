@@ -26,14 +26,15 @@ struct png_method {
     int strip_pixels;   // approximate pixels per strip
     uint8_t zlib_flags; // the second byte of the zlib header (RFC 1950), which states the level
 
-    // Sets capacity and threads.
+    // Sets `capacity` and `threads`.
     bool (*start)(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);
 
     // Writes one strip as deflate blocks, none of which is marked as the last, and which end on a byte boundary. Adds
     // the strip's filtered rows to `adler`. Returns the number of bytes, or 0 if memory runs out or the call must stop.
     size_t (*strip)(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
-    // Frees memory that the arena does not own. It is also called if `start` failed. NULL if there is no such memory.
+    // Frees memory that the arena does not own. This function is also called if `start` failed. The pointer is NULL if
+    // there is no such memory.
     void (*end)(struct png_encoding *encoding);
 };
 

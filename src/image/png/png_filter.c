@@ -25,9 +25,10 @@ INLINE u8x16 average(u8x16 a, u8x16 b)
     return (a & b) + (u8x16)half;
 }
 
-// Paeth's predictor in bytes. With p = a + b − c: |p − a| = |b − c|, |p − b| = |a − c|, and |p − c| is the difference
-// of these two if a and b are on different sides of c. If both are on the same side, it is their sum, which is never
-// the smallest of the three, so 255 is used instead. If distances are equal, a is preferred to b, and b to c.
+// The Paeth predictor in 8-bit arithmetic. With p = a + b − c, |p − a| = |b − c| and |p − b| = |a − c|. If a and b are
+// on different sides of c, |p − c| is the difference between these two. If both are on the same side, it is their sum,
+// which is never the smallest of the three, so 255 is used instead. If distances are equal, a is preferred to b, and b
+// to c.
 INLINE u8x16 paeth(u8x16 a, u8x16 b, u8x16 c)
 {
     u8x16 b_below = below(b, c), a_below = below(a, c);

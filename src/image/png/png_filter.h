@@ -15,9 +15,9 @@ enum png_filter {
 };
 
 // Filters a row of `width` RGBA pixels; `above` is the previous row (zeros for the first). `out` receives one word for
-// each pixel. It contains the bytes_per_pixel bytes of the stream (1: red; 2: red and alpha; 3: red, green and blue; 4:
-// all), the first lowest, and zeros above them. `out` has capacity for a multiple of 4 words; the words after the first
-// `width` become zero.
+// each pixel. The lowest bytes of a word are the pixel's bytes_per_pixel bytes of the stream (1: red; 2: red and alpha;
+// 3: red, green and blue; 4: all). The other bytes are zero. `out` has capacity for a multiple of 4 words; the words
+// after the first `width` become zero.
 void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, int bytes_per_pixel,
                     uint32_t *out);
 

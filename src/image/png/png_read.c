@@ -15,7 +15,7 @@ static bool png_probe(const uint8_t *bytes, size_t size)
     return size >= sizeof signature && memcmp(bytes, signature, sizeof signature) == 0;
 }
 
-// Finds the text "Software: lambent" in a chunk before the pixels.
+// Returns whether a chunk before the pixels contains the text "Software: lambent".
 static bool png_ours(const uint8_t *bytes, size_t size)
 {
     static const char wanted[] = "tEXtSoftware\0lambent";

@@ -1,9 +1,9 @@
 // png_whole.c: decompresses all pixels of a PNG file at once with libdeflate, which is opened on first use, and then
-// unfilters them. This takes a third of the time of libspng, which reads row by row with zlib.
+// unfilters them. This method takes a third of the time of libspng, which reads row by row with zlib.
 //
-// It supports common pictures: grey, RGB or RGBA with 8 bits per channel, without a transparent colour, not interlaced,
-// and without chunks between the pixels and the end. libspng reads all other pictures and damaged pictures, and reports
-// errors.
+// Only common pictures are supported: grey, RGB or RGBA with 8 bits per channel, without a transparent colour, not
+// interlaced, and without chunks between the pixels and the end. libspng reads all other pictures and damaged pictures,
+// and reports errors.
 #include "png_whole.h"
 
 #ifdef HAVE_LIBDEFLATE

@@ -71,7 +71,7 @@ static int channels_of(const uint8_t *pixels, size_t count)
     for (; i + 16 <= count; i += 16)
         for (size_t k = i; k < i + 16; k += 4) {
             const u32x4 four = *(const u32x4_memory *)(pixels + 4 * k);
-            differ |= four ^ four >> 8; // red against green, green against blue
+            differ |= four ^ four >> 8; // compares red with green, and green with blue
             all &= four;
         }
     for (; i < count; i++) {

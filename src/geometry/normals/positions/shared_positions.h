@@ -13,7 +13,7 @@ enum {
     CHUNK = 1 << 16, // vertices or corners per task
 };
 
-// A recent result of the table. An empty entry contains bits that no position has.
+// The result of a recent lookup in the table. An empty entry contains bits that no position has.
 struct cached_position {
     uint32_t bits[3];
     uint32_t position; // NONE if the position is not in the table
@@ -69,15 +69,15 @@ static inline size_t chunk_end(size_t index, size_t total, size_t chunk)
 // Finds the vertices of the set's triangles, for indexed meshes. Returns false if memory runs out.
 bool find_wanted(struct position_search *s);
 
-// Numbers the wanted vertices in `position_of`. Returns false if memory runs out.
+// Numbers the wanted vertices, and stores the numbers in `position_of`. Returns false if memory runs out.
 bool number_wanted(struct position_search *s);
 
 // Starts the lists, and fills the table. For indexed meshes, also fills `position_of`.
 bool find_positions(struct position_search *s, lam_error *error);
 void position_search_free(struct position_search *s);
 
-// Finds the positions by sorting all vertices. It is used if the probe limit is reached, because its time is bounded
-// for every file.
+// Finds the positions by sorting all vertices. This function is used if the probe limit is reached, because its time is
+// bounded for every file.
 bool find_positions_by_sorting(struct position_search *s, lam_error *error);
 
 // Returns how many of the mesh's triangles are in the set, before one triangle or in total.

@@ -1,4 +1,4 @@
-// signal.h: extends mingw-w64's header with signal masks. They block nothing, because the only signal that Windows
+// signal.h: extends mingw-w64's header with signal masks. The masks block nothing, because the only signal that Windows
 // sends is Ctrl-C.
 #ifndef WINDOWS_SIGNAL_H
 #define WINDOWS_SIGNAL_H

@@ -47,7 +47,7 @@ struct cpu_frame {
     struct thread_state *threads;
     const struct chunk *vertex_chunks, *triangle_chunks;
     size_t vertex_chunk_count, triangle_chunk_count;
-    struct screen_occlusion occlusion;      // used if the frame has ambient occlusion
+    struct screen_occlusion occlusion;      // used only if the frame has ambient occlusion
     struct fragment_store *fragment_stores; // one per tile; NULL if each tile is drawn in one pass
     enum failure failure;
     struct work work;

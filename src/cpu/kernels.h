@@ -34,8 +34,8 @@ struct kernels {
     int lanes;
 
     // Writes the x, y and depth key of the task's vertices to raster->vertices. For a vertex that needs clipping, x is
-    // a NaN that encodes the planes (clip.h). Any threads may process the tasks in any order. Only indexed meshes have
-    // vertex tasks.
+    // a NaN that encodes the planes (clip.h). The tasks may run in any order and on any thread. Only indexed meshes
+    // have vertex tasks.
     void (*vertex_transform)(const struct raster_frame *raster, const struct chunk *chunk);
 
     // Appends the task's triangles to the bins of the tiles that they touch, and clips triangles if necessary. Drops

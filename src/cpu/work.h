@@ -8,7 +8,7 @@
 enum failure {
     FAILED_NOT = 0,
     FAILED_MEMORY, // out of memory
-    FAILED_LAYERS, // more than LAYERS_MAX translucent triangles over one pixel
+    FAILED_LAYERS, // more than LAYERS_MAX translucent triangles cover one pixel
     FAILED_WORK,   // more layers per pixel on average than the call allows (lam_control.layer_limit)
 };
 

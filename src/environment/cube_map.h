@@ -39,7 +39,7 @@ static inline size_t cube_bytes(int size)
     return ((size_t)size + 2) * ((size_t)size + 2) * LAM_FACE_COUNT * 3 * sizeof(float);
 }
 
-// Opens the file of picture number `index`; the caller releases the file. In messages, the file is called *name.
+// Opens the file of picture number `index`; the caller releases the file. Error messages use *name as the file's name.
 struct call_control;
 struct file_bytes;
 struct picture_source {

@@ -238,7 +238,7 @@ int environment_light_rows(void)
     return (texels + ENVIRONMENT_LIGHT_WIDTH - 1) / ENVIRONMENT_LIGHT_WIDTH;
 }
 
-// Makes the struct, which at first contains only level 0.
+// Allocates the struct environment_light, which at first contains only level 0.
 static struct environment_light *start(const struct lam_environment *cube, lam_error *error)
 {
     struct environment_light *light = calloc(1, sizeof *light);

@@ -2,7 +2,7 @@
 //
 // These functions evaluate formulas that users write (src/shapes/formula.h). As in linear.h, the order of operations is
 // fixed and libm is not used. tests/unit/test_formula.c measures the errors against libm; they are relative to the
-// result unless stated otherwise. Outside a function's domain the result is NaN.
+// result unless stated otherwise. Outside a function's domain, the result is NaN.
 #ifndef ELEMENTARY_H
 #define ELEMENTARY_H
 

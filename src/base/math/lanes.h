@@ -104,7 +104,7 @@ LANE_FN mask negate(mask a) { return !a; }
 LANE_FN int any_lane(mask m) { return m != 0; }
 LANE_FN int all_lanes(mask m) { return m != 0; }
 LANE_FN unsigned mask_bits(mask m) { return m != 0; } // bit i is lane i
-// Rounds towards zero. |x| must be below 2³¹ and not NaN, so clamp it first.
+// Rounds towards zero. |x| must be below 2³¹ and not NaN, so clamp x first.
 LANE_FN inum int_of(num x) { return (int32_t)x; }
 LANE_FN num num_of_int(inum i) { return (float)i; }
 LANE_FN inum wrap_add(inum a, inum b) { return (int32_t)((uint32_t)a + (uint32_t)b); } // modulo 2³²
@@ -296,7 +296,7 @@ LANE_FN void inum_store_8(uint8_t *at, inum x)
 #endif
 }
 
-// Rounds down. |x| must be below 2³¹ and not NaN, so clamp it first.
+// Rounds down. |x| must be below 2³¹ and not NaN, so clamp x first.
 LANE_FN inum floor_of(num x)
 {
 #if LANES == 16 && defined(__AVX512F__)

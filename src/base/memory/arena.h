@@ -22,9 +22,9 @@ struct arena {
 
 void arena_start(struct arena *arena, struct call_control *call);
 void arena_start_large(struct arena *arena, struct call_control *call); // Starts with a block of the largest size.
-void arena_free(struct arena *arena); // frees everything; the arena is empty and usable again
-// Make and free an arena on the heap. arena_new returns NULL if memory runs out; arena_delete frees everything in the
-// arena and accepts NULL.
+void arena_free(struct arena *arena); // frees everything; the arena is then empty and can be used again
+// Allocate and free an arena on the heap. arena_new returns NULL if memory runs out; arena_delete frees everything in
+// the arena and accepts NULL.
 struct arena *arena_new(struct call_control *call);
 void arena_delete(struct arena *arena);
 

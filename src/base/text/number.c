@@ -104,7 +104,7 @@ static const uint8_t *scan(const uint8_t *at, const uint8_t *end, struct decimal
             minus = *power++ == '-';
         if (power < end && (unsigned)(*power - '0') < 10) {
             for (; power < end && (unsigned)(*power - '0') < 10; power++) {
-                if (written < INT64_C(1) << 48) // larger than any number of digits that fits into memory
+                if (written < INT64_C(1) << 48) // the limit is larger than the number of digits that fit into memory
                     written = written * 10 + (*power - '0');
             }
             at = power;

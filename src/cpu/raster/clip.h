@@ -16,8 +16,8 @@ enum outside {
 };
 #define OUTSIDE_NAN 0x7fc00000
 
-// Clips triangle t of a draw (with the number `id`) against the planes that one of its corners is outside of. Bins the
-// resulting triangles.
+// Clips triangle t of a draw (with the number `id`) against each plane that has a corner of the triangle outside. Bins
+// the resulting triangles.
 void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
                    uint32_t t, uint32_t id);
 

@@ -91,8 +91,8 @@ static uint64_t rank_of(float key, uint32_t id)
     return (uint64_t)bits << 32 | (uint32_t)~(id << 1 | id >> 31);
 }
 
-// Clipping divides a triangle into several triangles. Joins their fragments in each pixel to one fragment. If two of
-// the fragments cover a sample, the nearer key is used.
+// Clipping divides a triangle into several triangles. This function joins the fragments of these triangles in each
+// pixel to one fragment. If two of the fragments cover a sample, the nearer key is used.
 static void join_clipped_parts(const struct fragments *fragments, struct layer_rows *rows,
                                struct blend_scratch *scratch, int samples)
 {

@@ -76,7 +76,7 @@ static void make_group(struct tangent_maker *m, uint32_t corner)
 }
 
 // Completes a corner that no group reached. A corner of a degenerate triangle gets the group of the first equal corner
-// that has one. All other corners start their own groups.
+// that is in a group. All other corners start their own groups.
 static void finish_corner(struct tangent_maker *m, uint32_t corner)
 {
     uint32_t v = m->weld.of[corner];

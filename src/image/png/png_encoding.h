@@ -40,7 +40,7 @@ struct png_method {
 
 extern const struct png_method png_fast, png_best;
 
-// The channels of a picture besides grey, as bits.
+// The channels that a picture has in addition to grey, as bits.
 enum png_channels { PNG_COLORED = 1, PNG_TRANSLUCENT = 2, PNG_ALL_CHANNELS = 3 };
 
 // Does the same as png_write, with at least the channels in *channels; *channels becomes the file's channels.

@@ -26,9 +26,9 @@ INLINE u8x16 average(u8x16 a, u8x16 b)
 }
 
 // The Paeth predictor in 8-bit arithmetic. With p = a + b − c, |p − a| = |b − c| and |p − b| = |a − c|. If a and b are
-// on different sides of c, |p − c| is the difference between these two. If both are on the same side, it is their sum,
-// which is never the smallest of the three, so 255 is used instead. If distances are equal, a is preferred to b, and b
-// to c.
+// on different sides of c, |p − c| is the difference between these two. If a and b are on the same side of c, |p − c|
+// is the sum of the two, which is never the smallest distance, so 255 is used instead. If distances are equal, a is
+// preferred to b, and b to c.
 INLINE u8x16 paeth(u8x16 a, u8x16 b, u8x16 c)
 {
     u8x16 b_below = below(b, c), a_below = below(a, c);

@@ -8,13 +8,13 @@
 struct spelling {
     const char *word;    // as typed
     const char *nearest; // the most similar word so far, or NULL
-    int limit;           // a word must have a smaller distance to replace `nearest`
+    int limit;           // a word must be nearer to replace `nearest`, or as near and shorter
 };
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
 
 // Returns the word of `words` with the smallest edit distance to `word`. Returns NULL if this distance exceeds a third
-// of the length of `word`.
+// of the length of `word`, plus one.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
 // Returns the known name among `words` that a typed word means, or NULL if none is close enough.

@@ -35,8 +35,8 @@ _Noreturn static void give_up(j_common_ptr jpeg)
     longjmp(reader->out, 1);
 }
 
-// Reading stops at warnings (level −1) about missing data. Other warnings are ignored, because files from cameras and
-// old programs often cause them.
+// Reading stops at a warning (level −1), because most warnings are about missing data. Three harmless warnings, which
+// files from cameras and old programs often cause, are ignored.
 static void take_message(j_common_ptr jpeg, int level)
 {
     int code = jpeg->err->msg_code;

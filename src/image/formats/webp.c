@@ -130,8 +130,8 @@ static bool read_with(const struct webp_library *webp, const struct picture_file
             file->name, features.width, features.height, (unsigned long long)most, file->size);
     if (!picture_make(file, (uint32_t)features.width, (uint32_t)features.height, LAM_RGBA8, image, error))
         return false;
-    // libwebp decodes all pixels of a lossless picture at once, and also the alpha of a lossy picture. This is the
-    // memory that it needs for that.
+    // libwebp decodes all pixels of a lossless picture at once, and also the alpha of a lossy picture. `own` is the
+    // memory that libwebp needs for these pixels.
     enum { LOSSLESS = 2 };
     size_t own = (size_t)pixels * (features.format == LOSSLESS ? 4 : features.has_alpha ? 2 : 0);
     bool ok = !file->call || call_charge(file->call, own) || call_memory_error(file->call, own, error);

@@ -1,4 +1,4 @@
-// cpu_device.c: the software device, and the sequence of steps of a frame.
+// cpu_device.c: implements the software device, and runs the steps of a frame in order.
 #include "device_type.h"
 
 #include "behind.h"
@@ -94,11 +94,12 @@ static void behind_task(void *user, size_t index, int thread)
     if (work_continues(&cpu->work))
         draw_tile(cpu, index, thread);
     cpu->target.behind->glass[index] = state->layers.glass;
-    if (state->layers.glass) // glass pixels are counted when they are drawn with glass
+    if (state->layers.glass) // pixels with glass are counted when the glass is drawn
         state->pixels_covered = covered;
 }
 
-// Draws the picture behind rough and thick glass before the tiles of the frame, because glass may show any part of it.
+// Draws the picture behind rough and thick glass before the tiles of the frame, because glass in any tile may show any
+// region of this picture.
 static bool draw_behind(struct cpu_frame *cpu, struct behind *behind, struct buffer *memory, lam_error *error)
 {
     const lam_image *image = cpu->target.image;
@@ -118,7 +119,7 @@ static bool draw_behind(struct cpu_frame *cpu, struct behind *behind, struct buf
     return true;
 }
 
-// Draws the tile with the explained pixel once more, recording its values.
+// Draws the tile with the explained pixel once more, and records the pixel's values.
 static void record_tile(struct cpu_frame *cpu, struct recorder *recorder)
 {
     const lam_explanation *out = recorder->out;
@@ -174,7 +175,7 @@ static void fill_report(lam_frame_report *report, const struct cpu_device *devic
     }
 }
 
-// Prepares the environment light for physical materials: the prefiltered environment, or sample directions.
+// Prepares the environment light for physical materials: either the prefiltered environment, or directions to sample.
 static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error)
 {
     const struct frame *frame = cpu->shade.frame;
@@ -188,7 +189,8 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
                                     frame->settings.reference, &memory->reference, cpu->call, error);
 }
 
-// Smaller pictures count as this large, because they take little time with any number of layers.
+// The work limit treats smaller pictures as if they were this large, because they take little time with any number of
+// layers.
 enum { WORK_PIXELS = 256 * 256 };
 
 static uint64_t work_limit(const lam_image *image, const struct call_control *call)
@@ -211,7 +213,8 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
                    .work = &cpu.work,
                    .tiles_across = (image->width + TILE - 1) / TILE,
                    .tiles_down = (image->height + TILE - 1) / TILE,
-                   // 65536 pixels on each side of the window's centre, so that snapped coordinates fit 26 bits.
+                   // The guard band extends 65536 pixels on each side of the window's centre, so that snapped
+                   // coordinates fit into 26 bits.
                    .guard = {65536.0f, 65536.0f},
                    .bins = device->bins,
                    .thread_count = device->thread_count},

@@ -1,4 +1,4 @@
-// cpu_frame.c: sets up a frame: memory of the threads, parallel tasks, products.
+// cpu_frame.c: sets up a frame: the threads' memory, the parallel tasks, and the products of materials and lights.
 #include "cpu_frame.h"
 
 #include "fail.h"
@@ -9,7 +9,7 @@
 
 // --- the arrays of a thread
 
-// Suballocates parts of a block, aligned to 64 bytes. Without a block it only computes the size.
+// Allocates sections of a block, aligned to 64 bytes. If `block` is NULL, it only computes the total size.
 struct suballocator {
     char *block;
     size_t used;
@@ -24,7 +24,7 @@ static void *suballocate(struct suballocator *from, size_t count, size_t size)
 
 #define ARRAY(pointer, count) ((pointer) = suballocate(from, count, sizeof *(pointer)))
 
-// Rows for the most vertices of a tile, three for each fragment.
+// Allocates rows for the largest possible number of vertices in a tile: three for each fragment.
 static void lay_out_vertices(struct suballocator *from, struct vertex_cache *cache, int samples)
 {
     size_t vertices = 3 * ((size_t)tile_samples_count(samples) + LANES_MAX), slots = 64;
@@ -151,8 +151,8 @@ void thread_free(struct thread_state *thread, struct thread_bins *bins)
 
 // --- parallel tasks
 
-// Returns the number of vertices that are transformed and stored before triangles are binned: vertices that triangles
-// share (corners.inc).
+// Returns the number of vertices that are transformed and stored before triangles are binned. Only the vertices of
+// indexed meshes are stored, because triangles share them (corners.inc).
 static uint32_t vertices_of(const lam_mesh *mesh) { return mesh->indices ? mesh->vertex_count : 0; }
 
 static size_t chunks_of(uint32_t count, uint32_t size) { return ((size_t)count + size - 1) / size; }
@@ -219,8 +219,8 @@ static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, l
     return light_bounds_make(&memory->light_bounds, &memory->lights, frame, cpu->shade.materials, cpu->call, error);
 }
 
-// Lists memory that nothing uses while occlusion is computed: the transformed vertices, if fragments are stored, and
-// the picture, which is not drawn yet.
+// Lists the memory that can be reused while occlusion is computed. The memory of the picture can be reused, because the
+// picture is not drawn yet. If fragments are stored, so can the memory of the transformed vertices.
 static int lend_memory(const struct cpu_frame *cpu, const struct frame_memory *memory, struct scratch_memory lent[2])
 {
     const lam_image *image = cpu->target.image;

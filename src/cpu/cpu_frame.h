@@ -1,5 +1,5 @@
-// cpu_frame.h: one frame of the CPU device, and the state of a thread. Only the functions that call the steps see it; a
-// step receives the parts that it reads and writes (kernels.h).
+// cpu_frame.h: one frame of the CPU device, and the state of a thread. Only the functions that call the steps use this
+// struct; each step receives only the members that it reads and writes (kernels.h).
 //
 //  vertices   positions → pixel x, y and depth key of shared vertices     vertex_transform.inc
 //  triangles  index triples, or positions → tile bins                     bin_triangles.inc, corners.inc, clip.c
@@ -24,11 +24,11 @@
 #include "shade_frame.h"
 #include "shading_batch.h"
 
-// A thread's own state. Its bins are stored elsewhere (struct raster_frame), because all threads read them.
+// The state of one thread. The thread's bins are stored elsewhere (struct raster_frame), because all threads read them.
 struct thread_state {
     struct tile_samples samples;
     struct fragments fragments; // fragments of translucent surfaces first, then of opaque ones
-    struct layer_rows layers;   // like the next member, only allocated for frames with translucent surfaces
+    struct layer_rows layers;   // allocated only for frames with translucent surfaces, like the next member
     struct blend_scratch blend;
     struct shading shading;
     struct pixel_sums sums;
@@ -47,7 +47,7 @@ struct cpu_frame {
     struct thread_state *threads;
     const struct chunk *vertex_chunks, *triangle_chunks;
     size_t vertex_chunk_count, triangle_chunk_count;
-    struct screen_occlusion occlusion;      // used if the frame has ambient occlusion
+    struct screen_occlusion occlusion;      // used only if the frame has ambient occlusion
     struct fragment_store *fragment_stores; // one per tile; NULL if each tile is drawn in one pass
     enum failure failure;
     struct work work;
@@ -70,7 +70,7 @@ struct frame_memory {
     struct buffer chunks;    // chunks of parallel tasks, and the first vertex of each draw
     struct buffer products;  // materials × lights
     struct buffer lights;    // the rows of light_bounds
-    struct buffer bins;      // list heads of all threads' bins
+    struct buffer bins;      // the first blocks of all threads' bins
     struct buffer reference; // sampled directions
     struct buffer occlusion; // planes of struct screen_occlusion, or a struct occlusion_pattern
     struct buffer behind;    // the picture behind glass
@@ -78,8 +78,8 @@ struct frame_memory {
     struct environment_samples samples;
 };
 
-// Sets up the lists, products and threads of a frame. Returns false if memory runs out, or there are too many vertices
-// or materials.
+// Sets up the lists, products and threads of a frame. Returns false if memory runs out, or if there are too many
+// vertices or materials.
 bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_error *error);
 
 uint64_t frame_memory_bytes(const struct frame_memory *memory);

@@ -16,8 +16,8 @@ static void shade(const struct cpu_frame *cpu, struct thread_state *thread, cons
         recording_kernels.record_fragments(cpu, thread, tile);
 }
 
-// Draws the layers over the pixels of `area`. A thread stores at most LAYERS_MAX fragments: an area with more is drawn
-// in halves, down to single pixels, whose fragments must fit.
+// Draws the layers over the pixels of `area`. A thread stores at most LAYERS_MAX fragments. An area with more fragments
+// is divided in halves, if necessary down to single pixels. The fragments of a single pixel must not exceed this limit.
 static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile,
                         const struct rectangle *area)
 {
@@ -136,7 +136,7 @@ static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *threa
                             (char *)image_row(converted, tile->y * TILE + y) + left);
 }
 
-// A tile without glass is identical in the picture behind glass, which already contains its sums.
+// A tile without glass is identical in the picture behind glass, so its sums are copied from there.
 static void take_behind(const struct behind *behind, struct thread_state *thread, const struct tile *tile)
 {
     for (int y = 0; y < tile->height; y++) {
@@ -147,7 +147,7 @@ static void take_behind(const struct behind *behind, struct thread_state *thread
                 thread->sums.sum[c][y * TILE + x] = from[4 * x + c];
     }
     thread->fragments.count = 0;
-    thread->samples.translucent_triangles = 1; // the sums are already started
+    thread->samples.translucent_triangles = 1; // the sums already contain values
 }
 
 void draw_tile(struct cpu_frame *cpu, size_t index, int number)
@@ -178,7 +178,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
         if (thread->samples.translucent_triangles) {
             thread->coverage_ns += now_ns() - start;
             blend_tile(cpu, thread, &tile);
-            if (output_is_value(cpu->raster.frame->settings.output)) // the surfaces are now in the visibility buffer
+            if (output_is_value(cpu->raster.frame->settings.output)) // the visibility buffer now contains the surfaces
                 thread->samples.translucent_triangles = 0;
             start = now_ns();
         }

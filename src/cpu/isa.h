@@ -4,7 +4,7 @@
 
 #include <lambent/device.h>
 
-// Returns NULL if the instruction set is missing in this build or on this processor.
+// Returns the kernels for an instruction set, or NULL if this build or this processor does not support it.
 const struct kernels *kernels_of(lam_isa isa);
 lam_isa widest_isa(void);
 

@@ -1,6 +1,6 @@
-// kernels.c: all kernels, compiled once for each instruction set with LANES and ISA defined (meson.build); and once
-// with RECORDING, for shading one pixel and recording its values. (That version contains no functions that only drawing
-// calls, because the compiler removes them.)
+// kernels.c: all kernels. This file is compiled once for each instruction set, with LANES and ISA defined
+// (meson.build), and once with RECORDING, to shade one pixel and record its values. (The compiler removes the functions
+// that only drawing calls from the version with RECORDING.)
 #include "kernels.h"
 
 #include "clip.h"

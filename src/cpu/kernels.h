@@ -1,6 +1,6 @@
 // kernels.h: the table of performance-critical functions. The source is compiled once for each instruction set
-// (kernels.c), and all versions are bit-identical to `scalar`. A step accesses only its parameters, which are const if
-// it only reads them.
+// (kernels.c). The results of all versions are bit-identical to those that `scalar` computes. A step accesses only its
+// parameters; those that it only reads are const.
 #ifndef KERNELS_H
 #define KERNELS_H
 
@@ -33,22 +33,22 @@ struct kernels {
     const char *name;
     int lanes;
 
-    // Writes x, y and depth key of the task's vertices into raster->vertices. A vertex that needs clipping gets a NaN
-    // that encodes the planes (clip.h). Any threads may process the tasks in any order. Only indexed meshes have vertex
-    // tasks.
+    // Writes the x, y and depth key of the task's vertices to raster->vertices. For a vertex that needs clipping, x is
+    // a NaN that encodes the planes (clip.h). The tasks may run in any order and on any thread. Only indexed meshes
+    // have vertex tasks.
     void (*vertex_transform)(const struct raster_frame *raster, const struct chunk *chunk);
 
-    // Appends the task's triangles to the bins of the tiles that they touch, and clips triangles that need it. Drops
-    // triangles that are outside the window, have no area, are culled or have no sample in their box. If the mesh is
-    // indexed, all vertices of the draw must have been transformed.
+    // Appends the task's triangles to the bins of the tiles that they touch, and clips triangles if necessary. Drops
+    // triangles that are outside the window, have no area, are culled, or whose bounding box contains no sample. If the
+    // mesh is indexed, all vertices of the draw must have been transformed.
     void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct chunk *chunk);
 
-    // Clears the tile's samples, then draws the opaque triangles of all threads' bins. Each sample keeps the nearest
-    // key or, if keys are equal, the lowest triangle number. Counts the translucent triangles.
+    // Clears the tile's samples, then draws the opaque triangles of all threads' bins. Each sample keeps the triangle
+    // with the nearest key; if keys are equal, the triangle with the lowest number. Counts the translucent triangles.
     void (*cover_tile)(const struct raster_frame *raster, struct tile_samples *samples, const struct tile *tile);
 
-    // Lists the fragments of translucent triangles within `area` of the tile, except samples behind an opaque triangle:
-    // id, pixel, sample, and their layer rows. Returns false if there are more than LAYERS_MAX.
+    // Lists the fragments of translucent triangles within `area` of the tile, except samples behind an opaque triangle.
+    // Fills in the rows id, pixel and sample, and the layer rows. Returns false if there are more than LAYERS_MAX.
     bool (*translucent_fragments)(const struct raster_frame *raster, const struct tile_samples *samples,
                                   struct fragments *fragments, struct layer_rows *rows, const struct tile *tile,
                                   const struct rectangle *area);
@@ -58,34 +58,34 @@ struct kernels {
     void (*mask_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct layer_rows *rows,
                            struct shading *shading, const struct tile *tile);
 
-    // Lists the opaque fragments of the tile's pixels inside the picture: id, pixel, weight, sample. The fragments of a
-    // pixel are consecutive, in the order of the nearest sample that shows them. Returns the number of pixels with
-    // fragments.
+    // Lists the opaque fragments of the tile's pixels inside the picture, and fills in the rows id, pixel, weight and
+    // sample. The fragments of a pixel are consecutive, in the order of the nearest sample that shows them. Returns the
+    // number of pixels with fragments.
     uint64_t (*visibility_resolve)(const struct sample_pattern *pattern, const struct tile_samples *samples,
                                    struct fragments *fragments, const struct tile *tile);
 
-    // Stores the fragments from visibility_resolve in memory of the arena. store->lowest and `highest` are the limits
-    // of their triangle numbers. Returns false if memory runs out.
+    // Stores the fragments from visibility_resolve in memory of the arena. The triangle numbers of the fragments are
+    // between store->lowest and `highest`. Returns false if memory runs out.
     bool (*save_fragments)(struct fragment_store *store, const struct fragments *fragments, int samples,
                            uint32_t highest, struct arena *arena);
-    // Restores the stored fragments: id, pixel, weight and sample.
+    // Restores the rows id, pixel, weight and sample of the stored fragments.
     void (*load_fragments)(const struct fragment_store *store, struct fragments *fragments, int samples);
 
     // Fills in the colours of grouped fragments.
     void (*shade_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct shading *shading,
                             const struct tile *tile);
 
-    // Lights the vertices of a run into shading->vertices.color and .rest (vertex_colors.h).
+    // Computes the lighting of the vertices of a run, and stores it in shading->vertices.color and .rest
+    // (vertex_colors.h).
     void (*light_vertices)(const struct shade_frame *shade, struct shading *shading, const struct vertex_run *run);
 
-    // Writes the distances of a covered tile's surfaces into the rows of ambient occlusion, which is computed
-    // afterwards.
+    // Writes the distances of a covered tile's surfaces to the rows from which ambient occlusion is computed later.
     void (*depth_of_tile)(const struct raster_frame *raster, const struct tile_samples *samples,
                           const struct tile *tile, struct screen_occlusion *occlusion);
     const struct occlusion_kernels *occlusion;
 
-    // Sums the fragments' colours in their pixels, weighted by samples, under the blended layers if the tile has any,
-    // and writes the tile to the picture. Pixels without fragments get target->empty_pixel.
+    // Sums the fragments' colours in their pixels, weighted by samples, and writes the tile to the picture. If the tile
+    // has translucent layers, they are blended over these sums. Pixels without fragments get target->empty_pixel.
     void (*resolve)(const struct resolve_target *target, const struct fragments *fragments,
                     const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
 
@@ -102,7 +102,7 @@ struct recording_kernels {
 };
 
 extern const struct recording_kernels recording_kernels;
-// A web module may be linked without the scalar version: every browser has SIMD (web/meson.build).
+// A web module may be linked without the scalar version, because every browser supports SIMD (web/meson.build).
 #if defined(__wasm_simd128__)
 extern const struct kernels kernels_scalar __attribute__((weak));
 #else

@@ -1,4 +1,4 @@
-// vertex_colors.c: lights the vertices of a frame, and allocates only the memory that this needs.
+// vertex_colors.c: computes the lighting of a frame's vertices, and allocates only the memory that is needed for it.
 #include "vertex_colors.h"
 
 #include "isa.h"
@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-// The arrays, consecutive in one block.
+// The arrays, stored consecutively in one block.
 struct arrays {
     struct shading_batch batch; // the first member, because it is aligned to cache lines
     struct shadow_rows shadows;

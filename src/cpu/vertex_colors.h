@@ -1,5 +1,5 @@
-// vertex_colors.h: lights vertices of a frame with the CPU device's shading, for a device that interpolates the colours
-// itself (OpenGL's stage `application`).
+// vertex_colors.h: computes the lighting of vertices with the shading code of the CPU device. The module is for a
+// device that interpolates the colours itself (the stage `application` of the OpenGL device).
 #ifndef VERTEX_COLORS_H
 #define VERTEX_COLORS_H
 
@@ -9,23 +9,24 @@
 
 enum { VERTEX_RUN_MAX = 3072 }; // a multiple of 3
 
-// Consecutive vertices of one side of a range: corners of its draw's triangles or, with `shared`, vertices of its mesh,
-// if one index serves all attributes. With flat shading they are triangles.
+// Consecutive vertices for one side of a range. Usually the vertices are the corners of the triangles of the range's
+// draw. If one index is used for all attributes, `shared` is true and the vertices are the mesh's vertices. With flat
+// shading, triangles replace the vertices.
 struct vertex_run {
     uint32_t range, first, count;
     bool back, shared;
-    // The light that a diffuse map does not multiply is stored separately, without the emission if an emission map
-    // multiplies the emission.
+    // With `separate_texture_terms`, the light that a diffuse map does not multiply is stored separately. With
+    // `has_emission_map`, this light does not include the emission, because an emission map multiplies it.
     bool separate_texture_terms, has_emission_map;
 };
 
-// Set up for a frame; the buffers only grow.
+// The state of this module, set up for one frame at a time; the buffers only grow.
 struct vertex_colors {
     const struct kernels *kernels;
     struct shade_frame shade;
-    struct shading shading; // includes its counters and the results in `vertices`
+    struct shading shading; // includes the counters, and the results in `vertices`
     struct light_pattern pattern;
-    struct work work; // limited only by the call
+    struct work work; // only the limits of the call apply
     enum failure failure;
     struct buffer storage, products;
     float decode_srgb[256], decode_linear[256];
@@ -34,8 +35,8 @@ struct vertex_colors {
 // `light` is the environment's light on physical materials (may be NULL). `hierarchy` is NULL if nothing casts shadows.
 bool vertex_colors_start(struct vertex_colors *colors, const struct frame *frame, const struct environment_light *light,
                          const struct hierarchy *hierarchy, struct call_control *call, lam_error *error);
-// Fills shading.vertices.color and .rest, a row for each vertex of the run, of at most VERTEX_RUN_MAX. If memory runs
-// out, shading.ray_layers.failed is set.
+// Fills shading.vertices.color and .rest, with one row for each vertex of the run. A run has at most VERTEX_RUN_MAX
+// vertices. If memory runs out, shading.ray_layers.failed is set.
 void vertex_colors_light(struct vertex_colors *colors, const struct vertex_run *run);
 uint64_t vertex_colors_bytes(const struct vertex_colors *colors);
 void vertex_colors_free(struct vertex_colors *colors);

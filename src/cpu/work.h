@@ -1,5 +1,5 @@
-// work.h: counts the part of a frame's work that grows with the layers, lights and opaque surfaces over a pixel, so
-// that a small file cannot cause hours of drawing. It also stops the frame if the call must stop.
+// work.h: counts the work of a frame that grows with the number of layers, lights and opaque surfaces per pixel, so
+// that a small file cannot cause hours of drawing. The module also stops the frame if the call must stop.
 #ifndef WORK_H
 #define WORK_H
 
@@ -8,18 +8,18 @@
 enum failure {
     FAILED_NOT = 0,
     FAILED_MEMORY, // out of memory
-    FAILED_LAYERS, // more than LAYERS_MAX translucent triangles over one pixel
+    FAILED_LAYERS, // more than LAYERS_MAX translucent triangles cover one pixel
     FAILED_WORK,   // more layers per pixel on average than the call allows (lam_control.layer_limit)
 };
 
 // Units of work, about a nanosecond each with AVX2, measured with four samples per pixel.
 enum {
     WORK_LAYER = 96,    // a translucent fragment
-    WORK_LIGHT = 3,     // one light evaluated at one point
-    WORK_MASK = 24,     // a sample whose opacity is looked up before it counts as a layer
+    WORK_LIGHT = 3,     // one light that is evaluated at one point
+    WORK_MASK = 24,     // a sample whose opacity is looked up before it becomes a layer
     WORK_OPAQUE = 3,    // an opaque triangle at a pixel
     WORK_SET_UP = 32,   // a triangle in a tile
-    WORK_STEP = 1 << 20 // units counted before they are added, a few milliseconds
+    WORK_STEP = 1 << 20 // units that a thread counts before it adds them to the frame's work: a few milliseconds
 };
 
 struct work {
@@ -38,7 +38,8 @@ static inline bool work_continues(const struct work *work)
     return !__atomic_load_n(work->failure, __ATOMIC_RELAXED) && call_should_continue(work->call);
 }
 
-// Adds units. Whether a frame fails depends only on the sum, not on the threads. Returns false if the frame must end.
+// Adds units of work. Whether a frame fails depends only on their sum, not on the threads. Returns false if the frame
+// must stop.
 static inline bool work_add(struct work *work, uint64_t units)
 {
     if (__atomic_add_fetch(&work->done, units, __ATOMIC_RELAXED) > work->limit)
@@ -46,7 +47,8 @@ static inline bool work_add(struct work *work, uint64_t units)
     return work_continues(work);
 }
 
-// Adds the counted `units`, which become 0, once they amount to a step. Returns false if the frame must end.
+// If *units has reached WORK_STEP, adds the units to the frame's work and sets *units to 0. Returns false if the frame
+// must stop.
 static inline bool work_step(struct work *work, uint64_t *units)
 {
     uint64_t counted = *units;

@@ -18,7 +18,8 @@ float texel_weight(int size, int s, int t)
     return 1.0f / (square * __builtin_sqrtf(square));
 }
 
-// Returns the share of source texel `i` of `n` that lies in texel `k` of `m`.
+// A row of `n` source texels is divided into `m` texels. Returns the fraction of source texel `i` that is inside texel
+// `k`.
 static float overlap(int i, int n, int k, int m)
 {
     int64_t low = (int64_t)i * m, high = low + m, from = (int64_t)k * n, to = from + n; // in units of 1 / (n m)
@@ -116,7 +117,7 @@ void cube_chain_free(struct cube_chain *chain)
 const struct lam_environment *cube_chain_near(const struct cube_chain *chain, double size)
 {
     int i = 0;
-    // At the geometric mean of two neighbouring sizes, both ratios are equal.
+    // The choice between two neighbouring sizes changes at their geometric mean, where both ratios are equal.
     while (i + 1 < chain->count && size * size < (double)chain->cube[i].size * (double)chain->cube[i + 1].size)
         i++;
     return &chain->cube[i];

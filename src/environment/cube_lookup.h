@@ -9,14 +9,14 @@ struct cube_color {
     num r, g, b;
 };
 
-// The intersection of a direction with the cube, in texels of the bordered face, ½ … size + 1½. The zero vector gives
-// an arbitrary point.
+// The intersection of a direction with the cube, in texels of the bordered face, ½ … size + 1½. For the zero vector,
+// the point is arbitrary.
 struct cube_position {
     inum face;
     num s, t;
 };
 
-// A direction in the coordinates of its face. It meets the face at (across ÷ major, down ÷ major).
+// A direction in the coordinates of the face that it intersects, at (across ÷ major, down ÷ major).
 struct cube_side {
     inum face;
     num across, down, major;
@@ -35,21 +35,21 @@ LANE_FN struct cube_side cube_side(num x, num y, num z)
     return side;
 }
 
-// Returns the point on a face from −1 to 1; NaN for the zero vector.
+// Returns the point on a face; its coordinates are −1 to 1. For the zero vector they are NaN.
 LANE_FN struct cube_position cube_point(num x, num y, num z)
 {
     struct cube_side side = cube_side(x, y, z);
     return (struct cube_position){side.face, side.across / side.major, side.down / side.major};
 }
 
-// OpenGL's table (4.6, 8.13): the axis with the largest magnitude selects the face. If magnitudes are equal, either
-// face works, since the filter is continuous.
+// As in the table of OpenGL 4.6, section 8.13, the axis with the largest magnitude selects the face. If magnitudes are
+// equal, either face may be used, because the filter is continuous.
 LANE_FN struct cube_position cube_position(num x, num y, num z, int size)
 {
     float half = 0.5f * (float)size, middle = half + 0.5f;
     num min = num_of(0.5f), max = num_of((float)size + 0.5f);
     struct cube_position at = cube_point(x, y, z);
-    // The clamp also replaces NaN, 0/0, by the centre of the border.
+    // The clamp also replaces NaN (from 0/0) with the centre of the border.
     at.s = min_of(max_of(at.s * half + middle, min), max);
     at.t = min_of(max_of(at.t * half + middle, min), max);
     return at;

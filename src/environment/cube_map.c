@@ -1,4 +1,4 @@
-// cube_map.c: a cube map in memory: reference counting, lookup.
+// cube_map.c: implements cube maps in memory: reference counting and lookup.
 #include "environment_light.h"
 #include "fail.h"
 #include "float_state.h"

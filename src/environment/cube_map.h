@@ -2,7 +2,8 @@
 // neighbours.
 //
 // Because of the border, bilinear filtering needs no special cases at edges and corners, and is continuous there: both
-// faces mix the same four texels. A corner of the border, at which three faces meet, is the average of the three.
+// faces mix the same four texels. A corner texel of the border, at which three faces meet, is the average of their
+// corner texels.
 #ifndef CUBE_MAP_H
 #define CUBE_MAP_H
 
@@ -14,23 +15,23 @@ enum { CUBE_SIDE_MOST = 8192 };
 struct lam_environment {
     int references;                  // accessed atomically
     int size;                        // texels per side of a face, without the border
-    float *texels;                   // 6 faces of (size + 2)² times r, g, b; row t = −1 first
-    size_t held;                     // bytes of the pages of its own texels
+    float *texels;                   // 6 faces of (size + 2)² texels of r, g and b; row t = −1 is first
+    size_t held;                     // size in bytes of the pages that contain the texels
     struct environment_light *light; // the light on physical materials, made on first use (environment_light.h)
 };
 
 static inline size_t cube_row(const struct lam_environment *cube) { return (size_t)(cube->size + 2) * 3; }
-// Returns texel (s, t) of a face, −1 … size.
+// Returns texel (s, t) of a face; s and t are −1 … size.
 static inline float *cube_texel(const struct lam_environment *cube, int face, int s, int t)
 {
     return cube->texels + ((size_t)face * (size_t)(cube->size + 2) + (size_t)(t + 1)) * cube_row(cube) +
            (size_t)(s + 1) * 3;
 }
 
-// Makes a cube of that size with undefined texels. Returns NULL if memory runs out.
+// Makes a cube of the given size with undefined texels. Returns NULL if memory runs out.
 struct lam_environment *cube_make(int size, lam_error *error);
 
-// Padding after the texels, so that the last one can also be read as four numbers.
+// Padding after the texels, so that the last texel can also be read as four floats.
 enum { CUBE_TEXELS_AFTER = 16 };
 
 static inline size_t cube_bytes(int size)
@@ -38,7 +39,7 @@ static inline size_t cube_bytes(int size)
     return ((size_t)size + 2) * ((size_t)size + 2) * LAM_FACE_COUNT * 3 * sizeof(float);
 }
 
-// Opens the file of picture `index`; the caller releases it. Messages use *name as its name.
+// Opens the file of picture number `index`; the caller releases the file. Error messages use *name as the file's name.
 struct call_control;
 struct file_bytes;
 struct picture_source {
@@ -47,7 +48,7 @@ struct picture_source {
     void *user;
 };
 
-// Makes an environment from one picture or six faces (`count`), which are read one after the other within a call.
+// Makes an environment from one picture or from six faces (`count` is 1 or 6), which are read one after the other.
 // `call` may be NULL. The memory of the environment remains charged to the call.
 struct lam_environment *environment_read(const struct picture_source *source, int count, lam_color_mode color,
                                          struct call_control *call, lam_error *error);
@@ -55,10 +56,11 @@ struct lam_environment *environment_read(const struct picture_source *source, in
 // Fills the borders from the faces.
 void cube_close(struct lam_environment *cube);
 
-// Computes the direction of a point of a face: major · axis + across · s + down · t (OpenGL's table, inverted).
+// Computes the direction of a point of a face: major · axis + across · s + down · t (the inverse of OpenGL's table).
 void cube_direction(int face, double major, double across, double down, double out[3]);
 
-// The built-in studio, which is made on first use, by any thread. Returns NULL if memory runs out.
+// The built-in studio environment. The first thread that uses the environment makes it. Returns NULL if memory runs
+// out.
 struct lazy_environment;
 struct lazy_environment *lazy_environment_make(void);
 const struct lam_environment *lazy_environment_studio(struct lazy_environment *lazy, lam_error *error);

@@ -1,11 +1,11 @@
-// cube_sums.c: computes cubes whose texels are weighted means of all texels of a small copy of an environment, for
-// weights that vary slowly.
+// cube_sums.c: computes cubes whose texels are weighted means of all texels of a small copy of an environment. This
+// method suits weights that vary slowly with the direction.
 #include "environment_kernels.h"
 #include "fail.h"
 
 #include <stdlib.h>
 
-enum { SOURCE_SIZE = 20 }; // approximate texels per side of the copy
+enum { SOURCE_SIZE = 20 }; // approximate number of texels per side of the copy
 
 static void unit(const double d[3], float out[3])
 {
@@ -33,7 +33,7 @@ struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *erro
         return NULL;
     }
     sums->count = count;
-    double total = 0; // sum of the solid angles, to normalise them: no sum exceeds the brightest light
+    double total = 0; // sum of the solid angles; they are divided by it, so that no mean exceeds the brightest light
     for (int t = 0; t < n; t++)
         for (int s = 0; s < n; s++)
             total += LAM_FACE_COUNT * (double)texel_weight(n, s, t);
@@ -41,7 +41,7 @@ struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *erro
     for (int face = 0; face < LAM_FACE_COUNT; face += 2)
         for (int t = 0; t < n; t++)
             for (int s = 0; s < n; s++, out++) {
-                // On the opposite face the rows run in the opposite direction; on the face −y the columns do
+                // On the opposite face, the rows have the opposite direction; on the face −y, the columns have it
                 // (cube_direction).
                 bool upper = face == LAM_FACE_PY;
                 const float *light = cube_texel(cube, face, s, t);

@@ -98,8 +98,8 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
 typedef float pixel __attribute__((vector_size(16)));
 typedef float pixel_memory __attribute__((vector_size(16), aligned(4), may_alias));
 
-// Return the position of a longitude or latitude in the picture, in pixels from the centre of the first pixel.
-// Longitude 0 is −z, latitude 0 is +y.
+// Return the position of a longitude or of a latitude in the picture, in pixels from the centre of the first pixel.
+// Longitude 0 is the direction −z, and latitude 0 is +y.
 static double column_of(const lam_image *image, double longitude)
 {
     return (0.5 + longitude / (2 * PI)) * image->width - 0.5;
@@ -107,8 +107,8 @@ static double column_of(const lam_image *image, double longitude)
 
 static double row_of(const lam_image *image, double latitude) { return latitude / PI * image->height - 0.5; }
 
-// Samples a row of a face. Texel s reads at columns[s] and rows[s]; with `below`, rows are mirrored: counted from the
-// last row of the picture instead of the first.
+// Samples a row of a face. Texel s is read at columns[s] and rows[s]. With `below`, rows are counted upwards from the
+// last row of the picture instead of downwards from the first.
 static void sample_row(const lam_image *image, const double *columns, const double *rows, bool below,
                        struct lam_environment *cube, int face, int t)
 {
@@ -116,7 +116,7 @@ static void sample_row(const lam_image *image, const double *columns, const doub
     int width = image->width, last = image->height - 1;
     for (int s = 0; s < cube->size; s++) {
         double x = columns[s], y = below ? last - rows[s] : rows[s];
-        int left = (int)(x + 1) - 1, upper = (int)(y + 1) - 1; // both at least −½
+        int left = (int)(x + 1) - 1, upper = (int)(y + 1) - 1; // x and y are at least −½
         float across = (float)(x - left), down = (float)(y - upper);
         int right = left + 1 < width ? left + 1 : 0, lower = upper < last ? upper + 1 : last; // columns wrap around
         left = left < 0 ? width - 1 : left;
@@ -129,13 +129,13 @@ static void sample_row(const lam_image *image, const double *columns, const doub
               e = *(const pixel_memory *)(beneath + 4 * (size_t)right);
         a = a * (1 - across) + b * across;
         c = c * (1 - across) + e * across;
-        // The fourth number overwrites the next texel, or the border, both of which are filled later.
+        // The fourth float overwrites the next texel or the border, but both are filled later.
         *(pixel_memory *)cube_texel(cube, face, s, t) = a * (1 - down) + c * down;
     }
 }
 
-// Samples row t, above the middle, and row size − 1 − t of the four side faces: the texels of a column have one
-// longitude, and the faces share their latitudes. `rows` is memory for one row of a face.
+// Samples row t, which is above the middle, and row size − 1 − t of the four side faces. All texels of a column have
+// the same longitude, and the latitudes are the same on all four faces. `rows` is memory for one row of a face.
 static void sample_around(const lam_image *image, struct lam_environment *cube, const double *const columns[4],
                           double *rows, int t)
 {
@@ -152,8 +152,8 @@ static void sample_around(const lam_image *image, struct lam_environment *cube, 
     }
 }
 
-// Samples the same rows of the upper and lower faces. Their halves mirror each other: longitudes change their sign, or
-// are subtracted from a half turn. `memory` has space for three rows.
+// Samples the same rows of the upper and lower faces. The halves of a face mirror each other: longitudes are negated,
+// or subtracted from a half turn. `memory` has space for three rows.
 static void sample_ends(const lam_image *image, struct lam_environment *cube, double *memory, int t)
 {
     int size = cube->size;
@@ -230,7 +230,7 @@ static struct lam_environment *cube_of_sphere(const lam_image *image, const char
     return cube;
 }
 
-// Makes a cube from one linear picture, by its aspect ratio.
+// Makes a cube from one linear picture. The aspect ratio of the picture determines its layout.
 static struct lam_environment *cube_of_image(const lam_image *image, const char *name, struct call_control *call,
                                              lam_error *error)
 {
@@ -260,7 +260,7 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
 
 // --- the caller's pictures
 
-// Makes a linear copy, which the caller frees.
+// Makes a linear copy of a picture; the caller frees the copy.
 static bool linear_copy(const lam_image *image, lam_color_mode color, lam_image *out, lam_error *error)
 {
     *out = (lam_image){0};
@@ -303,7 +303,7 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 
 // --- files
 
-// Reads a file's picture as linear numbers; the caller frees it with picture_free.
+// Reads the picture of a file in linear light; the caller frees it with picture_free.
 static bool read_picture(const struct picture_source *source, int index, lam_color_mode color,
                          struct call_control *call, lam_image *image, const char **name, lam_error *error)
 {

@@ -1,5 +1,5 @@
-// environment_kernels.c: sums over many directions for LANES texels of a cube at a time. The build defines ISA and
-// LANES.
+// environment_kernels.c: computes sums over many directions, for LANES texels of a cube at a time. The build defines
+// ISA and LANES.
 #include "environment_kernels.h"
 
 #include "cube_lookup.h"
@@ -8,14 +8,14 @@ enum { ROW_MAX = 64 }; // texels per side of cubes from cube_sums_row, a multipl
 
 // --- lobes divided into cells
 
-// Two neighbouring texels of a row, red, green and blue each, and two unused numbers, for PLACES points. The compiler's
-// vectors round each number as scalar C does.
+// Two neighbouring texels of a row (red, green and blue of each, and two unused floats), for PLACES points. The
+// compiler's vector types round each float in the same way as scalar C.
 #define PLACES (LANES == 16 ? 2 : 1)
 typedef float texel_pair __attribute__((vector_size(32)));
 typedef float texel_pair_memory __attribute__((vector_size(32), aligned(4), may_alias));
 typedef float texel_pairs __attribute__((vector_size(32 * PLACES)));
 
-// Lane i of `left` for the first texel, and lane i of `right` for the second.
+// Repeats lane i of `left` for the first texel, and lane i of `right` for the second.
 #if LANES == 16
 #define BESIDE(left, right, i)                                                                                         \
     __builtin_shufflevector(left, right, i, i, i, LANES + i, LANES + i, LANES + i, i, i, i + 1, i + 1, i + 1,          \
@@ -35,8 +35,8 @@ LANE_FN texel_pairs texels_at(const float *texels, const int32_t *first)
 #endif
 }
 
-// Adds the light of LANES directions times a weight, bilinear. The two texels of each row stay separate; they are added
-// at the end.
+// Adds the light of LANES directions, bilinearly interpolated, times a weight. The sums of the left and the right
+// texels are kept separate; they are added together at the end.
 LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environment *cube, num x, num y, num z,
                        float weight)
 {
@@ -44,7 +44,7 @@ LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environ
     float half = 0.5f * (float)cube->size, middle = half + 0.5f;
     num min = num_of(0.5f), max = num_of((float)cube->size + 0.5f);
     struct cube_side at = cube_side(x, y, z);
-    num scale = half / at.major; // equals cube_position, except for rounding
+    num scale = half / at.major; // the same as cube_position, except for rounding
     num across = min_of(max_of(at.across * scale + middle, min), max);
     num down = min_of(max_of(at.down * scale + middle, min), max);
     inum column = int_of(across), row = int_of(down);
@@ -110,8 +110,8 @@ LANE_FN struct frames frames_of(int size, int face, int s, int t)
     return f;
 }
 
-// Computes a row: the sums of the cells from `first` to `end`, plus a cube that contains the sums of other cells (may
-// be NULL).
+// Computes one row. Each texel is the sum of the cells from `first` to `end`, plus the same texel of `others`, which
+// contains the sums of the other cells (may be NULL).
 static void prefilter_row(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t)
 {
@@ -145,8 +145,8 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
         for (int c = 0; c < 3; c++)
             n[c][s] = d[c];
     }
-    // With c = cos(angle) and (n.h)² = (1 + c) / 2, GGX's lobe is D(h) c ~ c / (1 − q (1 + c))², q = (1 − alpha²) / 2;
-    // times alpha⁴, at most 1.
+    // With c = cos(angle) and (n.h)² = (1 + c) / 2, the GGX lobe is proportional to D(h) c ~ c / (1 − q (1 + c))² with
+    // q = (1 − alpha²) / 2. The lobe is multiplied by alpha⁴, so that its maximum is 1.
     float q = alpha < 0 ? 0 : (float)((1 - alpha * alpha) / 2), square = (float)(alpha * alpha);
     for (int s = 0; s < cube->size; s += LANES) {
         num x = num_load(n[0] + s), y = num_load(n[1] + s), z = num_load(n[2] + s);
@@ -154,7 +154,7 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
         for (size_t i = 0; i < sums->count; i++) {
             const struct opposite_texels *from = &sums->pair[i];
             num along = x * from->direction[0] + y * from->direction[1] + z * from->direction[2];
-            num cosine = absolute(along), weight = cosine; // the weight of the direction above the horizon
+            num cosine = absolute(along), weight = cosine; // the weight of the direction that is above the horizon
             mask behind = along < 0.0f;
             if (q > 0) {
                 num part = square / (1.0f - q * (1.0f + cosine));

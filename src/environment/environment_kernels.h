@@ -1,13 +1,14 @@
-// environment_kernels.h: the sums that convert an environment to light, compiled once for each instruction set
-// (meson.build). The lanes are texels, so every instruction set gives the same bytes.
+// environment_kernels.h: the sums that convert an environment to the light that materials receive. The code is compiled
+// once for each instruction set (meson.build). Each lane is one texel, so the results are identical with every
+// instruction set.
 #ifndef ENVIRONMENT_KERNELS_H
 #define ENVIRONMENT_KERNELS_H
 
 #include "environment_light.h"
 
-// A cell of a lobe, seen from the lobe's axis.
+// A cell of a lobe, relative to the lobe's axis.
 struct cell {
-    float x, y, z; // unit, z along the lobe's axis
+    float x, y, z; // unit vector; z is along the lobe's axis
     float weight;  // the weights of a lobe sum to 1
     const struct lam_environment *cube;
 };
@@ -27,12 +28,12 @@ struct cube_sums {
 };
 
 struct environment_kernels {
-    // Computes row t of a face of `out`: the sums of the cells from `first` to `end`, plus a cube that contains the
-    // sums of other cells (may be NULL).
+    // Computes row t of a face of `out`. Each texel is the sum of the cells from `first` to `end`, plus the same texel
+    // of `others`, which contains the sums of the other cells (may be NULL).
     void (*prefilter_row)(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t);
     // Computes row t of a face of `out` from all texels of a small copy. If `alpha` is below 0, the row contains the
-    // irradiance. Otherwise it contains GGX's lobe with alpha = roughness².
+    // irradiance. Otherwise the row contains the environment prefiltered with the GGX lobe, with alpha = roughness².
     void (*cube_sums_row)(const struct cube_sums *sums, double alpha, struct lam_environment *out, int face, int t);
 };
 

@@ -1,8 +1,8 @@
 // environment_lamp.c: finds the brightest lamp of an environment (environment_lamp.h).
 //
 // A texel is bright if its luminance exceeds BRIGHT times the mean. For each direction of a small cube, the light of
-// bright texels within LAMP_COSINE is summed. The direction with the largest sum is the lamp's direction, and the lamp
-// consists of these texels. All sums are in double, in a fixed order.
+// all bright texels within LAMP_COSINE of this direction is summed. The direction with the largest sum is the lamp's
+// direction, and the lamp consists of the texels of this sum. All sums are in double, in a fixed order.
 #include "environment_lamp.h"
 
 #include "fail.h"
@@ -196,7 +196,7 @@ const struct environment_light *environment_light_without_lamp(const struct lam_
         size_t held;
         float *memory = rest ? pages_get_sparse(bytes, &held) : NULL;
         if (memory) {
-            // The members are copied one by one, because another thread may be adding levels and changing `made`.
+            // Copies the members one by one, because another thread may be adding levels and changing `made`.
             memcpy(rest->level, whole->level, sizeof rest->level);
             rest->held = held;
             rest->texels = memory;
@@ -210,7 +210,7 @@ const struct environment_light *environment_light_without_lamp(const struct lam_
             fail_memory(error, bytes);
         }
     }
-    if (rest && needed == ENVIRONMENT_LIGHT_ALL && !rest->made) { // as one block, for OpenGL
+    if (rest && needed == ENVIRONMENT_LIGHT_ALL && !rest->made) { // in one block, for OpenGL
         memcpy(rest->texels, whole->texels, texels * sizeof(float));
         rest->made = 1;
     }

@@ -1,23 +1,24 @@
-// environment_lamp.h: separates the brightest lamp of an environment, so that it can cast shadows, from the rest of its
-// light (docs/lighting/environment.md).
+// environment_lamp.h: separates the brightest lamp of an environment from the rest of the environment's light, so that
+// the lamp can cast shadows (docs/lighting/environment.md).
 #ifndef ENVIRONMENT_LAMP_H
 #define ENVIRONMENT_LAMP_H
 
 #include "environment_light.h"
 
 struct environment_lamp {
-    bool present;             // false if no part of the environment is much brighter than its mean
-    double direction[3];      // towards the lamp, unit, in the environment's axes
-    float color[3];           // the light of a white matt surface facing it: its irradiance / pi
+    bool present;             // false if no region of the environment is much brighter than its mean
+    double direction[3];      // the unit direction to the lamp, in the environment's axes
+    float color[3];           // the light that a white matt surface facing the lamp reflects: irradiance / pi
     float angular_radius_rad; // the radius of a disc with the lamp's angular spread
 };
 
-// Finds the lamp once and keeps it with the environment. Fails with LAM_LIMIT or LAM_CANCELLED. `call` may be NULL.
+// Finds the lamp on the first call and stores it with the environment. Fails with LAM_LIMIT or LAM_CANCELLED. `call`
+// may be NULL.
 bool environment_lamp(const struct lam_environment *cube, struct environment_lamp *lamp, struct call_control *call,
                       lam_error *error);
 
-// Works like environment_light, but without the lamp in the irradiance: adding the lamp's light, max(n.l, 0) times its
-// colour, gives the total again. Reflections still contain the lamp.
+// Works like environment_light, but the irradiance does not contain the lamp. Adding the lamp's light, max(n.l, 0)
+// times its colour, gives the total irradiance again. Reflections still contain the lamp.
 const struct environment_light *environment_light_without_lamp(const struct lam_environment *cube, unsigned needed,
                                                                struct pool *pool, struct call_control *call,
                                                                lam_error *error);

@@ -1,8 +1,8 @@
 // environment_light.c: computes the environment prefiltered for each roughness and the irradiance, and stores both.
 //
-// A texel is a sum over samples: GGX's lobe around the texel's direction is divided into rings, and these into cells
-// that are about as wide as high. Each cell uses the copy of the chain whose texels are about as large as the cell. The
-// cells of a level are the same for all texels.
+// A texel is a sum over samples. The GGX lobe around the texel's direction is divided into rings, and the rings are
+// divided into cells that are about as wide as high. For each cell, the environment is read from the copy in the chain
+// whose texels are about as large as the cell. The cells of a level are the same for all texels.
 #include "environment_light.h"
 
 #include "call_control.h"
@@ -26,9 +26,9 @@ double prefiltered_roughness(int level)
     return root * root * (root * root);
 }
 
-// The levels: texels per side of a face, and the rings of microfacet normals h around the axis, measured by the tangent
-// of their angle. The innermost ring is `core` alpha wide; each further ring is `growth` times as wide as all rings
-// inside it. Lobes without rings are so wide that they are summed over a small copy of the cube.
+// The levels: the texels per side of a face, and the rings of microfacet normals h around the axis. Rings are measured
+// by the tangent of the angle of h. The innermost ring is `core` · alpha wide; the outer radius of each further ring is
+// `growth` times its inner radius. Lobes without rings are so wide that they are summed over a small copy of the cube.
 static const struct {
     int size;
     double core, growth;
@@ -36,15 +36,15 @@ static const struct {
     {0},          {96, 1.0, 2.6}, {112, 0.8, 1.8}, {80, 0.8, 1.8}, {56, 0.35, 1.6}, {40, 0.35, 1.4},
     {.size = 32}, {.size = 24},   {.size = 16},    {.size = 16},   {.size = 16},    {.size = 16}};
 
-// The far part of a lobe varies slowly, so it is summed for a cube of a quarter of the size. A cell is far if it is
-// more than FAR_TEXELS texels of that cube away.
+// The sum over the far cells of a lobe varies slowly, so it is computed for a cube of a quarter of the size. A cell is
+// far if it is more than FAR_TEXELS texels of that cube away from the axis.
 enum { FAR_SHRINK = 4 };
 #define FAR_TEXELS 1.5
 static int far_size(int level) { return levels[level].growth > 0 ? levels[level].size / FAR_SHRINK : 0; }
 
 int prefiltered_size(int level) { return levels[level].size; }
 
-// Returns the fraction of GGX's microfacets, D(h) (h.n), whose angle has a tangent below `tangent`.
+// Returns the fraction of the GGX microfacets, weighted by D(h) (h.n), whose angle has a tangent below `tangent`.
 static double ggx_share(double tangent, double alpha)
 {
     double square = tangent * tangent;
@@ -54,7 +54,7 @@ static double ggx_share(double tangent, double alpha)
 static void add_ring(struct lobe_cells *cells, double alpha, double inner, double outer, int number,
                      const struct cube_chain *chain, double *total)
 {
-    // l has twice the angle of h from the axis: cos = (1 − t²) / (1 + t²), sin = 2 t / (1 + t²).
+    // The angle between l and the axis is twice that of h: cos = (1 − t²) / (1 + t²), sin = 2 t / (1 + t²).
     double share = ggx_share(outer, alpha) - ggx_share(inner, alpha);
     double middle = ggx_share(inner, alpha) + share / 2, t = alpha * math_sqrt(middle / (1 - middle));
     double z = (1 - t * t) / (1 + t * t), r = 2 * t / (1 + t * t);
@@ -79,7 +79,7 @@ static void cut_lobe(struct lobe_cells *cells, int level, const struct cube_chai
     double far_l = FAR_TEXELS * PI / 2 / far_size(level); // radians
     cells->near = cells->count = 0;
     for (int ring = 0; inner < 1; ring++) {
-        if (outer * growth > 1) // beyond 45° the reflected directions are below the horizon of the axis
+        if (outer * growth > 1) // for h beyond 45°, the reflected directions are below the horizon
             outer = 1;
         add_ring(cells, alpha, inner, outer, ring, chain, &total);
         if (2 * inner < far_l)
@@ -104,7 +104,7 @@ struct making {
     struct call_control *call;
 };
 
-// Returns the number of rows of a level's faces to be computed; `size` returns its texels per side.
+// Returns how many rows of a level's faces are to be computed; `size` returns the level's texels per side.
 static size_t rows_of(const struct making *work, int level, int (*size)(int level))
 {
     return work->parts >> level & 1 ? (size_t)size(level) * LAM_FACE_COUNT : 0;
@@ -154,7 +154,7 @@ static void make_row(void *user, size_t index, int thread)
         work->kernels->cube_sums_row(work->sums, roughness * roughness, cube, face, t);
 }
 
-// Makes the cells of the levels with rings, and the cubes for far cells.
+// Makes the cells of the levels that have rings, and the cubes for their far cells.
 static bool set_up(struct making *work, const struct cube_chain *chain, lam_error *error)
 {
     size_t bytes = CUBE_TEXELS_AFTER;
@@ -238,7 +238,7 @@ int environment_light_rows(void)
     return (texels + ENVIRONMENT_LIGHT_WIDTH - 1) / ENVIRONMENT_LIGHT_WIDTH;
 }
 
-// Makes the struct with only level 0.
+// Allocates the struct environment_light, which at first contains only level 0.
 static struct environment_light *start(const struct lam_environment *cube, lam_error *error)
 {
     struct environment_light *light = calloc(1, sizeof *light);
@@ -260,7 +260,7 @@ static struct environment_light *start(const struct lam_environment *cube, lam_e
     return light;
 }
 
-// Returns the lower of the two levels that prefiltered_look interpolates.
+// Returns the lower of the two levels between which prefiltered_look interpolates.
 static int lower_level(float level) { return level < ENVIRONMENT_LEVELS - 2 ? (int)level : ENVIRONMENT_LEVELS - 2; }
 
 unsigned environment_light_parts(float first, float last)

@@ -1,4 +1,4 @@
-// environment_made.c: computes the built-in environments, a sky and a studio, from + − × ÷ √ only.
+// environment_made.c: computes the built-in environments, a sky and a studio, with + − × ÷ √ only.
 #include "cube_map.h"
 #include "fail.h"
 #include "float_state.h"
@@ -21,7 +21,7 @@ static struct rgb mix(struct rgb a, struct rgb b, double share)
     return a;
 }
 
-// Returns 0 below `low`, 1 above `high`, and a smooth cubic between them.
+// Returns 0 for x below `low`, 1 for x above `high`, and a smooth cubic function of x between them.
 static double ramp(double low, double high, double x)
 {
     double t = (x - low) / (high - low);
@@ -37,8 +37,8 @@ static double squared(double x, int n)
     return x;
 }
 
-// Returns the light of a clear afternoon: blue above, pale at the horizon, the sun a third of the way up in front on
-// the right (+X +Z), brown ground.
+// Returns the light of a clear afternoon. The sky is blue above and pale at the horizon, and the ground is brown. The
+// sun is in front on the right (+X +Z), a third of the way up.
 static struct rgb sky(lam_vec3 d)
 {
     static const struct rgb zenith = {{0.10, 0.24, 0.62}}, horizon = {{0.72, 0.80, 0.88}},
@@ -65,16 +65,16 @@ static void sky_row(int face, int t, float *texels)
     }
 }
 
-// The studio for physical materials: a cubic room around the origin. The brightest lamp, at the ceiling, lights the
-// tops and casts short soft shadows on a ground. A large lamp in front and above lights the sides that face the viewer,
-// and a dim lamp at the right lights the third side, so that the three faces of a cube differ. Metals mirror the bright
-// horizon between a dark floor and a dim wall; the lamp behind brightens the rims of black objects. A horizontal white
-// surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face of the cube map is a wall of the
-// room.
+// The studio for physical materials is a cubic room around the origin. The brightest lamp, at the ceiling, lights the
+// tops of objects, which cast short soft shadows on a ground. A large lamp in front and above lights the sides that
+// face the viewer. A dim lamp at the right lights the third side, so that the three visible faces of a cube differ.
+// Metals mirror a bright horizon between a dark floor and dim walls. The lamp behind the object brightens the rims of
+// black objects. A horizontal white surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face
+// of the cube map is a wall of the room.
 struct lamp {
     double intensity;
     struct rgb color;
-    double center_s, center_t; // in room coordinates along the face's rows and columns
+    double center_s, center_t; // position along the face's rows and columns, in room coordinates
     double half_width, half_height;
 };
 #define WHITE {{1.00, 0.97, 0.92}}
@@ -85,15 +85,15 @@ static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {6.5, WHITE, -
                                                   [LAM_FACE_PZ] = {1.4, WHITE, -0.18, 0.36, 0.6, 0.71},
                                                   [LAM_FACE_NZ] = {2.7, COOL, 0.3, 0.35, 0.42, 0.4}};
 
-// Returns 1 within half a width of 0, with a soft edge.
+// Returns 1 if |x| is below `half_width`, and 0 beyond it, with a soft edge between them.
 static double soft_edge(double x, double half_width)
 {
     const double edge = 0.06;
     return ramp(-half_width - edge, -half_width, x < 0 ? x : -x);
 }
 
-// Returns the light of the walls at a height in the room, −1 … 1: the floor's colour below, and a bright band at the
-// horizon.
+// Returns the light of the walls at a height in the room, −1 … 1. Near the floor it is the floor's colour, and at the
+// horizon there is a bright band.
 static struct rgb wall_at(double height)
 {
     static const struct rgb floor_color = {{0.085, 0.0825, 0.08}}, wall = {{0.055, 0.0567, 0.0633}},
@@ -105,7 +105,7 @@ static struct rgb wall_at(double height)
     return light;
 }
 
-// All texels of a row have the same height.
+// Computes a row of the studio. All texels of a row have the same height.
 static void studio_row(int face, int t, float *texels)
 {
     const struct lamp *lamp = &lamps[face];

@@ -1,4 +1,4 @@
-// environment_samples.c: draws fixed directions for the integral of an environment's light.
+// environment_samples.c: selects fixed directions for the integral of an environment's light.
 #define LANES 1
 #include "cube_lookup.h"
 
@@ -26,7 +26,7 @@ static void draw_disc(struct disc_point *points, int count)
     }
 }
 
-// Returns the sum of brightness times solid angle over a row of a face; `weights` receives the summands.
+// Returns the sum of brightness times solid angle over the texels of a row of a face; `weights` receives the summands.
 static double weigh_row(const struct lam_environment *cube, int face, int t, double *weights)
 {
     double sum = 0;
@@ -39,7 +39,7 @@ static double weigh_row(const struct lam_environment *cube, int face, int t, dou
     return sum;
 }
 
-// Returns the direction of a point of a face, which extends from −1 to 1, and its light.
+// Returns the direction of a point of a face (coordinates −1 to 1), and the light from this direction.
 static struct sampled_light light_at(const struct lam_environment *cube, const float to_environment[3][3], int face,
                                      double across, double down, double density)
 {
@@ -61,8 +61,8 @@ struct drawing {
     double *rows, *weights, total; // the brightness of the small copy: per row, per texel of one row, and in total
 };
 
-// Draws directions towards light. The first coordinate of the point set selects the row, the second the texel in it;
-// the remainders of both give the position in the texel.
+// Selects directions towards the environment's light. The first coordinate of the point set selects the row, and the
+// second selects the texel in the row. The remainders of both coordinates are the position in the texel.
 static void draw_lights(const struct drawing *d, struct environment_samples *out)
 {
     int size = d->small->size, row = 0, weighed = -1;
@@ -87,7 +87,7 @@ static void draw_lights(const struct drawing *d, struct environment_samples *out
     }
 }
 
-// Computes the sums of the rows and the density.
+// Computes the sums of the rows, and the density.
 static void weigh(struct drawing *d, float *density)
 {
     int size = d->small->size, rows = LAM_FACE_COUNT * size;
@@ -130,7 +130,7 @@ bool environment_samples_make(struct environment_samples *samples, const struct 
         draw_disc(samples->lobe, samples->lobe_count);
         draw_disc(samples->cosine, samples->cosine_count);
         weigh(&d, density);
-        if (!(d.total > 0)) // without light there are no directions towards it
+        if (!(d.total > 0)) // a black environment has no directions towards light
             samples->light_count = 0;
         draw_lights(&d, samples);
     }

@@ -1,8 +1,8 @@
-// environment_samples.h: fixed directions for summing an environment's light over a lobe. They are importance-sampled
-// in three ways: half of them by the brightness of the environment, a quarter by the GGX microfacets that the eye sees,
-// and a quarter by the cosine. A sum weights each direction by all three densities (the balance heuristic: Veach and
-// Guibas, "Optimally combining sampling techniques for Monte Carlo rendering", 1995), so that none of them needs to fit
-// the lobe.
+// environment_samples.h: fixed directions for summing an environment's light over a lobe. Three methods of importance
+// sampling are combined. Half of the directions are sampled by the brightness of the environment, a quarter by the GGX
+// microfacets that the eye sees, and a quarter by the cosine. A sum weights each direction by all three densities, so
+// that no method needs to fit the lobe on its own. These weights are the balance heuristic (Veach and Guibas,
+// "Optimally combining sampling techniques for Monte Carlo rendering", 1995).
 //
 // Each set is a Hammersley point set. The directions are the same for all points of a picture, and on every machine.
 #ifndef ENVIRONMENT_SAMPLES_H
@@ -11,9 +11,9 @@
 #include "buffer.h"
 #include "cube_map.h"
 
-// A direction towards a bright part of the environment.
+// A direction towards a bright region of the environment.
 struct sampled_light {
-    float direction[3]; // unit, in the caller's axes
+    float direction[3]; // unit vector, in the caller's axes
     float density;      // directions per steradian
     float color[3];     // the light from this direction
 };
@@ -28,12 +28,12 @@ struct environment_samples {
     struct disc_point *lobe, *cosine;
     int light_count, lobe_count, cosine_count;
     int size;             // texels per side of the density's faces
-    const float *density; // 6 faces, row by row: density of `light`, per area of a face from −1 to 1
+    const float *density; // 6 faces, row by row: the density of `light` per area, for faces from −1 to 1
 };
 
 enum { ENVIRONMENT_SAMPLES_MIN = 16, ENVIRONMENT_SAMPLES_MAX = 1 << 20 };
 
-// Draws `count` directions. `to_environment` rotates the caller's axes to the environment's. The storage owns the
+// Selects `count` directions. `to_environment` rotates the caller's axes to the environment's. `storage` owns the
 // samples. `call` may be NULL.
 bool environment_samples_make(struct environment_samples *samples, const struct lam_environment *cube,
                               const float to_environment[3][3], int count, struct buffer *storage,

@@ -6,7 +6,7 @@
 #include "cube_lookup.h"
 #include "environment_light.h"
 
-// Returns the light of level `number` of each lane at a point of a face (cube_point).
+// Returns, for each lane, the light of level `number` at a point of a face (cube_point).
 LANE_FN struct cube_color level_look(const struct environment_light *light, inum number, struct cube_position point)
 {
     float sizes[LANES], texels[3][4][LANES];
@@ -31,8 +31,8 @@ LANE_FN struct cube_color level_look(const struct environment_light *light, inum
     return (struct cube_color){cube_mix(texels[0], s, t), cube_mix(texels[1], s, t), cube_mix(texels[2], s, t)};
 }
 
-// Returns the light around a direction at a level, 0 … ENVIRONMENT_LEVELS − 1 (prefilter_level), interpolated between
-// two levels.
+// Returns the light around a direction, interpolated between two levels. `level` is 0 … ENVIRONMENT_LEVELS − 1
+// (prefilter_level).
 LANE_FN struct cube_color prefiltered_look(const struct environment_light *light, num level, num x, num y, num z)
 {
     struct cube_position point = cube_point(x, y, z);

@@ -1,4 +1,4 @@
-// aabb_tree.c: a tree of boxes around blocks of vertices.
+// aabb_tree.c: builds a tree of boxes around blocks of vertices.
 #include "aabb_tree.h"
 
 #define LANES 4
@@ -7,10 +7,11 @@
 #include <string.h>
 
 enum {
-    // Vertices per box. Indexed meshes share vertices, so that a given number covers more of the surface.
+    // Vertices per box. In indexed meshes, triangles share vertices, so the same number of vertices covers more of the
+    // surface.
     BLOCK_SHARED = 64,
     BLOCK_CORNERS = 256,
-    CHUNK = 1 << 16, // vertices per task: whole boxes of the two lowest levels
+    CHUNK = 1 << 16, // vertices per task: a whole number of boxes of the two lowest levels
 };
 
 struct boxing {
@@ -30,7 +31,7 @@ static void widen(box_of_six box, const float low[3], const float high[3])
     }
 }
 
-// Computes the box of consecutive vertices, four at a time: their twelve numbers alternate x, y and z.
+// Computes the box of consecutive vertices, four at a time: their twelve floats alternate x, y and z.
 static void box_of_row(const float *p, size_t count, box_of_six box)
 {
     num low[3], high[3];
@@ -75,7 +76,7 @@ static void box_of_boxes(const box_of_six *below, size_t count, box_of_six box)
         widen(box, below[i], below[i] + 3);
 }
 
-// Computes the boxes `first` to `end` of a level from the level below.
+// Computes the boxes `first` to `end` of a level from the boxes of the level below.
 static void box_level(const struct boxing *boxing, int level, size_t first, size_t end)
 {
     const struct aabb_tree *tree = boxing->tree;

@@ -1,9 +1,9 @@
-// angle_series.h: the arctangent for angle weights, for doubles and lanes of doubles.
+// angle_series.h: approximates the arctangent for angle weights, for doubles and for lanes of doubles.
 #ifndef ANGLE_SERIES_H
 #define ANGLE_SERIES_H
 
-// Computes atan t for t in 0…1 and z = t², within 3e-6 rad, which is enough for a weight. The polynomial interpolates
-// atan at the six Chebyshev nodes of z.
+// Computes atan t for t in 0…1 and z = t². The error is at most 3e-6 rad, which is accurate enough for a weight. The
+// polynomial interpolates atan at the six Chebyshev nodes of z.
 #define ANGLE_SERIES(t, z)                                                                                             \
     ((t) * (0.9999948346338877 +                                                                                       \
             (z) * (-0.33295711032247277 +                                                                              \

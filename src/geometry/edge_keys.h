@@ -1,4 +1,5 @@
-// edge_keys.h: the edges from one point to higher points, as numbers whose order groups equal edges.
+// edge_keys.h: represents the edges from one point to points with higher numbers as integers, so that sorting groups
+// equal edges.
 #ifndef EDGE_KEYS_H
 #define EDGE_KEYS_H
 
@@ -6,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The upper half is the other end. The lower half is a number that the caller chooses, such as the corner at which the
-// edge starts.
+// The upper half of a key is the number of the point at the other end. The lower half is a number that the caller
+// chooses, such as the corner at which the edge starts.
 static inline uint64_t edge_key(uint32_t other_end, uint32_t number) { return (uint64_t)other_end << 32 | number; }
 
 static inline int compare_edge_keys(const void *a, const void *b)

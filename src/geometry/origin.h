@@ -1,9 +1,11 @@
-// origin.h: decides by one rule for every format whether a mesh gets an origin other than zero, and computes it.
+// origin.h: decides, by the same rule for every format, whether a mesh gets an origin other than zero, and computes the
+// origin.
 //
-// Positions are floats, with a relative precision of 2⁻²⁴. A part far from zero (survey coordinates, a car in its
-// factory) would lose its detail, so a mesh has an `origin` in double, which is subtracted before positions are rounded
-// to float. Readers of files with more precision than floats do this themselves. For all other files, scene_measure
-// subtracts it from the floats, which is exact; further arithmetic then loses no more detail.
+// Positions are floats, with a relative precision of 2⁻²⁴. A model far from zero (survey coordinates, a car in its
+// factory) would lose detail. Therefore a mesh has an `origin` in double, which is subtracted before positions are
+// rounded to float. Readers of file formats with more precision than floats subtract the origin themselves. For all
+// other files, scene_measure subtracts the origin from the floats. This subtraction is exact, and later calculations
+// then lose no more detail.
 #ifndef ORIGIN_H
 #define ORIGIN_H
 
@@ -12,16 +14,17 @@
 #include <string.h>
 
 // An axis gets an origin if its largest coordinate exceeds this many times the model's size (the longest side of its
-// box). Below that, rounding moves a point by less than a millionth of the size, and the numbers of the file are kept.
+// box). Below this ratio, rounding moves a point by less than a millionth of the size, and the coordinates of the file
+// are kept.
 #define ORIGIN_RATIO 16.0
 
-// Computes the origin from the box of all coordinates, which must be finite. It is 0 on each axis that needs none, else
-// the box's centre, rounded to a multiple of the largest power of two that does not exceed the model's size, so that it
-// has few digits. Returns whether any axis needs an origin. Float values are enough for this question; then call it
-// again with doubles for the origin.
+// Computes the origin from the box of all coordinates, which must be finite. On an axis that needs no origin, it is 0.
+// On other axes, it is the box's centre, rounded so that it has few digits: to a multiple of the largest power of two
+// that does not exceed the model's size. Returns whether any axis needs an origin. Float coordinates are precise enough
+// for this decision; for the origin itself, call the function again with doubles.
 static inline bool origin_choose(const double minimum[3], const double maximum[3], double origin[3])
 {
-    // Halved, so that the size of a box from −1e308 to 1e308 does not overflow.
+    // The size is halved, so that it does not overflow for a box from −1e308 to 1e308.
     double half_size = 0.0;
     for (int axis = 0; axis < 3; axis++) {
         double half = 0.5 * maximum[axis] - 0.5 * minimum[axis];
@@ -38,14 +41,15 @@ static inline bool origin_choose(const double minimum[3], const double maximum[3
             continue;
         any = true;
         double middle = 0.5 * lowest + 0.5 * highest;
-        // The power of two: the size with its mantissa cleared.
+        // The power of two is the size with its mantissa bits cleared.
         uint64_t bits;
         double size = 2.0 * half_size, step;
         memcpy(&bits, &size, sizeof bits);
         bits &= UINT64_C(0x7ff0000000000000);
         memcpy(&step, &bits, sizeof step);
-        // Adding and subtracting 1.5 · 2⁵² rounds numbers below 2⁵¹ to integers. Larger numbers are integers already;
-        // this includes models without size, or smaller than the smallest normal double.
+        // Adding and subtracting 1.5 · 2⁵² rounds numbers below 2⁵¹ to integers. Larger numbers are already integers.
+        // For models without a size, or with a size below the smallest normal double, the quotient is set to such a
+        // number.
         double steps = step > 0.0 ? middle / step : 0x1p52;
         if (steps > -0x1p51 && steps < 0x1p51)
             middle = ((steps + 0x1.8p52) - 0x1.8p52) * step;

@@ -2,11 +2,12 @@
 //
 // Ear clipping (Meisters 1975): a corner is an ear if it is convex and its triangle contains no other corner. Cutting
 // an ear changes only its two neighbours, so each corner is tested about three times. Only corners that are not convex
-// can be inside an ear; they are kept in a tree of boxes over their Morton order, so that a test takes about √count
-// steps even for long thin ears, regardless of the distribution of the corners.
+// can be inside an ear. Such corners are stored in a tree of boxes over their Morton order. Therefore a test takes
+// about √count steps even for long thin ears, for any distribution of the corners.
 //
-// Decisions are exact: the corners are projected along the largest axis of the polygon's normal and snapped to
-// integers, with 2^30 steps along the longer side (finer than a float), so that a cross product fits into 64 bits.
+// Decisions are exact. The corners are projected along the largest axis of the polygon's normal and snapped to
+// integers, with 2^30 steps along the longer side. The grid is finer than a float, and a cross product fits into 64
+// bits.
 #include "triangulate.h"
 
 #include <string.h>
@@ -14,16 +15,18 @@
 enum {
     NONE = UINT32_MAX,
     LEAF = 8,      // points per leaf of the tree
-    STEP_RATE = 4, // the most visits of nodes and points per count·√count; simple polygons need at most a third
+    STEP_RATE = 4, // maximum visits of nodes and points, divided by count·√count; simple polygons need at most a third
+                   // of it
     CHECK_INTERVAL = 65536,
     STEPS = 1 << 30, // grid steps along the polygon's longer side
 };
 
-// The conditions for cutting a corner. A corner that fails one test is moved to the next level, and is tested again
-// only when the levels above are empty: simple polygons only use the first two.
+// The conditions for cutting a corner. A corner that fails the test of a level is moved to the next level. The corner
+// is tested again only when the queues of all earlier levels are empty. Simple polygons use only the first two levels.
 enum level {
     LEVEL_EAR,    // convex, and its triangle contains no other corner, not even on its edges
-    LEVEL_FLAT,   // as above, or without area: collinear with its neighbours, a spike, a repeated point
+    LEVEL_FLAT,   // as above, or its triangle has no area: the corner is collinear with its neighbours, a spike, or a
+                  // repeated point
     LEVEL_TOUCH,  // convex, and no other corner is strictly inside
     LEVEL_CONVEX, // convex
     LEVEL_ANY,
@@ -38,7 +41,7 @@ struct corner {
     uint8_t level;           // LEVELS if it is in no queue
 };
 
-// A node's box around its points; `count` of them remain.
+// The bounding box of a node's points, of which `count` remain.
 struct box {
     int32_t min_x, min_y, max_x, max_y;
     uint32_t count;
@@ -48,9 +51,9 @@ struct clip {
     struct corner *corners;
     uint32_t first[LEVELS], last[LEVELS]; // queues
     uint32_t *points;                     // corner numbers in Morton order
-    struct box *boxes; // a complete binary tree, node i's children 2i and 2i + 1, leaves from `leaves` on
+    struct box *boxes; // a complete binary tree: node i has the children 2i and 2i + 1; node `leaves` is the first leaf
     uint32_t leaves;   // a power of two; 0 means no points
-    uint64_t steps;    // nodes and points of the tree visited by tests
+    uint64_t steps;    // number of nodes and points of the tree that tests have visited
     uint64_t most;     // limit of `steps`
 };
 
@@ -71,7 +74,8 @@ static const float *position_of(const float *positions, const uint32_t *corners,
     return positions + 3 * (size_t)corners[i];
 }
 
-// Computes (b − a) × (c − a) in double: with 24-bit coordinates, its sign is correct except for the flattest triangles.
+// Computes (b − a) × (c − a) in double: because coordinates have 24 bits, the sign is correct except for the flattest
+// triangles.
 static void face_normal(const float *a, const float *b, const float *c, double out[3])
 {
     double u[3], v[3];
@@ -113,7 +117,7 @@ static void cut_quad(const float *positions, const uint32_t *corners, uint32_t *
         write_fan(4, triples);
 }
 
-// Returns twice the signed area of the triangle, in grid steps: exact, below 2^62.
+// Returns twice the signed area of the triangle, in grid steps. The result is exact and below 2^62.
 static int64_t turn(const struct corner *a, const struct corner *b, const struct corner *c)
 {
     return ((int64_t)b->x - a->x) * ((int64_t)c->y - a->y) - ((int64_t)b->y - a->y) * ((int64_t)c->x - a->x);
@@ -126,10 +130,11 @@ static int64_t turn_at(const struct corner *corners, uint32_t i)
 
 static bool same_place(const struct corner *a, const struct corner *b) { return a->x == b->x && a->y == b->y; }
 
-// Projects and snaps the corners, oriented so that the polygon is counter-clockwise. Returns false if it has no area.
+// Projects and snaps the corners. The result is oriented so that the polygon is counter-clockwise. Returns false if the
+// polygon has no area.
 static bool snap(const float *positions, const uint32_t *numbers, uint32_t count, struct corner *corners)
 {
-    // Newell's normal, relative to the first corner: the sum over the fan.
+    // The polygon's normal by Newell's method, relative to the first corner: the sum over the triangles of a fan.
     double normal[3] = {0, 0, 0};
     const float *base = position_of(positions, numbers, 0);
     double low[3], high[3];
@@ -160,7 +165,8 @@ static bool snap(const float *positions, const uint32_t *numbers, uint32_t count
 
     double side = high[across] - low[across] > high[up] - low[up] ? high[across] - low[across] : high[up] - low[up];
     double scale = (double)STEPS / side;
-    if (!(side > 0) || !(scale < 1e300)) // no extent, or larger than any float polygon with area
+    if (!(side > 0) || !(scale < 1e300)) // the polygon has no extent, or is larger than any polygon of floats with an
+                                         // area
         return false;
     __extension__ __int128 area = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -194,7 +200,8 @@ static uint64_t spread(uint32_t x)
 
 static uint64_t morton(const struct corner *c) { return spread((uint32_t)c->x) | spread((uint32_t)c->y) << 1; }
 
-// Sorts corner indices by Morton code: a stable radix sort by bytes of the code. Returns false if the call must stop.
+// Sorts corner indices by Morton code, with a stable radix sort by the bytes of the code. Returns false if the call
+// must stop.
 static bool sort_points(const struct corner *corners, uint32_t *points, uint32_t *extra, uint32_t count,
                         struct call_control *call)
 {
@@ -253,10 +260,11 @@ static void tree_remove(struct clip *clip, uint32_t i)
         clip->boxes[node].count--;
 }
 
-// Returns whether the whole box is to the right of a→b, or on it unless `touching`.
+// Returns whether the whole box is to the right of a→b. Unless `touching` is set, a box that touches a→b is treated as
+// if it were to the right.
 static bool box_outside(const struct box *box, const struct corner *a, const struct corner *b, bool touching)
 {
-    // The box's corner farthest to the left of the edge.
+    // The corner of the box that is farthest to the left of the edge.
     struct corner far = {.x = b->y < a->y ? box->max_x : box->min_x, .y = b->x > a->x ? box->max_y : box->min_y};
     int64_t side = turn(a, b, &far);
     return touching ? side < 0 : side <= 0;
@@ -268,7 +276,7 @@ static int32_t max_int(int32_t a, int32_t b) { return a > b ? a : b; }
 static bool point_inside(const struct corner *const triangle[3], const struct corner *p, bool touching)
 {
     for (int k = 0; k < 3; k++) {
-        // A hole's bridge returns to the same point, which does not block its own ear.
+        // The bridge of a hole returns to the same point, and a point does not block its own ear.
         if (same_place(p, triangle[k]))
             return false;
         int64_t side = turn(triangle[k], triangle[k == 2 ? 0 : k + 1], p);
@@ -278,9 +286,9 @@ static bool point_inside(const struct corner *const triangle[3], const struct co
     return true;
 }
 
-// Returns whether a non-convex corner is inside corner i's triangle (with `touching`, also on its edges). A polygon
-// with few, repeated points could visit all nodes for each corner; once its steps are used up, all its corners count as
-// blocked.
+// Returns whether a non-convex corner is inside corner i's triangle (with `touching`, also on its edges). For a polygon
+// with few, often repeated points, the search could visit all nodes for each corner. Once the maximum number of steps
+// is reached, all corners are therefore treated as blocked.
 static bool blocked(struct clip *clip, uint32_t i, bool touching)
 {
     if (clip->leaves == 0 || clip->boxes[1].count == 0)
@@ -289,7 +297,7 @@ static bool blocked(struct clip *clip, uint32_t i, bool touching)
         return true;
     const struct corner *tip = &clip->corners[i];
     const struct corner *const triangle[3] = {&clip->corners[tip->previous], tip, &clip->corners[tip->next]};
-    // For a sliver, the edges alone do not exclude points further along its line.
+    // For a sliver, tests of the edges alone would not exclude points beyond its ends.
     const struct box around = {
         min_int(min_int(triangle[0]->x, triangle[1]->x), triangle[2]->x),
         min_int(min_int(triangle[0]->y, triangle[1]->y), triangle[2]->y),
@@ -315,7 +323,8 @@ static bool blocked(struct clip *clip, uint32_t i, bool touching)
         }
         clip->steps += LEAF;
         for (uint32_t slot = (node - clip->leaves) * LEAF; slot < (node - clip->leaves + 1) * LEAF; slot++) {
-            // Slots after the last point are unused: their leaf has the count 0, or is the last used one.
+            // Slots after the last point are unused. The leaf of such slots has the count 0, or is the last leaf with
+            // points.
             if (clip->points[slot] != NONE && point_inside(triangle, &clip->corners[clip->points[slot]], touching))
                 return true;
         }
@@ -341,8 +350,8 @@ static void queue_leave(struct clip *clip, uint32_t i)
     c->level = LEVELS;
 }
 
-// Appends a corner to a queue. Neighbours of a cut are appended too, so that cuts are spread around the polygon and
-// triangles are not slivers.
+// Appends a corner to a queue. The neighbours of a cut corner are also appended at the end, so that cuts are
+// distributed around the polygon and triangles do not become slivers.
 static void queue_join(struct clip *clip, uint32_t i, enum level level)
 {
     queue_leave(clip, i);
@@ -424,7 +433,7 @@ static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *ca
     return true;
 }
 
-// Suballocates memory for a polygon of `count` corners from the scratch memory's block, which only grows.
+// Divides the block of the scratch memory, which only grows, into the arrays for a polygon of `count` corners.
 static bool reserve_memory(struct triangulator *scratch, uint32_t count, struct clip *clip, uint32_t **extra)
 {
     uint32_t leaves = 1;

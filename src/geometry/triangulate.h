@@ -2,10 +2,10 @@
 //
 // A triangle is unchanged, a quad is split along its inner diagonal, and a larger convex polygon becomes a fan. Every
 // other polygon is cut ear by ear in its dominant plane, snapped to an integer grid so that every decision is exact.
-// Simple polygons, also with collinear, repeated or touching points (holes joined by a bridge), are covered exactly; a
-// polygon without area or with self-intersections still gives count − 2 triangles. It takes about count·√count steps at
-// most; a polygon that needs more, because of repeated points or many crossing edges, is then cut at its convex corners
-// without further tests.
+// Simple polygons are covered exactly, even if points are collinear, repeated or touching (holes joined by a bridge). A
+// polygon without area or with self-intersections still gives count − 2 triangles. The function takes at most about
+// count·√count steps. A polygon that needs more steps, because of repeated points or many crossing edges, is then cut
+// at its convex corners without further tests.
 #ifndef TRIANGULATE_H
 #define TRIANGULATE_H
 
@@ -15,7 +15,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Scratch memory of one thread, kept from polygon to polygon.
+// Scratch memory of one thread, reused for all its polygons.
 struct triangulator {
     struct arena memory;
     struct call_control *call;
@@ -26,15 +26,15 @@ struct triangulator {
 void triangulator_start(struct triangulator *scratch, struct call_control *call); // `call` may be NULL
 void triangulator_stop(struct triangulator *scratch);
 
-// Splits the polygon whose corner i is at positions[3·corners[i] …] (finite numbers), count ≥ 3, and writes count − 2
-// triples of corner numbers (0 … count − 1, valid for every attribute) to `triples`, wound like the polygon. Returns
-// false if memory runs out or the call must stop (call_should_continue says which). It never fails for up to four
-// corners.
+// Splits a polygon into triangles. Corner i of the polygon is at positions[3·corners[i] …], which must be finite, and
+// `count` is at least 3. Writes count − 2 triples of corner numbers to `triples`, with the same winding as the polygon.
+// The numbers are 0 … count − 1, so they can be used for every attribute. Returns false if memory runs out or the call
+// must stop (call_should_continue says which). The function never fails for up to four corners.
 bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
                  uint32_t *triples);
 
-// Returns the edges of a triple that are inside the polygon of `count` corners: bit k is the edge from corner k to the
-// next (lam_mesh.inner_edges).
+// Returns which edges of a triple are inside the polygon of `count` corners. Bit k is the edge from corner k to the
+// next corner (lam_mesh.inner_edges).
 static inline uint8_t triangulated_inner_edges(const uint32_t triple[3], uint32_t count)
 {
     uint8_t inner = 0;

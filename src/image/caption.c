@@ -1,4 +1,4 @@
-// caption.c: draws text in pictures with FreeType, which is loaded (dlopen) with the first font.
+// caption.c: draws text in pictures with FreeType, which is loaded (dlopen) when the first font is opened.
 #include "dynamic_library.h"
 #include "fail.h"
 #include "file.h"
@@ -11,7 +11,7 @@
 
 #define NEEDED "captions need the Debian packages libfreetype6 and fonts-dejavu-core, or a font named by LAMBENT_FONT"
 
-// Font files of Debian's packages fonts-dejavu-core, fonts-liberation2, fonts-liberation, fonts-noto-core,
+// Font files of the Debian packages fonts-dejavu-core, fonts-liberation2, fonts-liberation, fonts-noto-core,
 // fonts-freefont-ttf and fonts-roboto-unhinted.
 static const char *const font_paths[] = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -58,7 +58,7 @@ struct lam_font {
     struct freetype ft;
     FT_Library library;
     FT_Face face;
-    unsigned char *bytes; // bytes of a static program's embedded font
+    unsigned char *bytes; // bytes of the font embedded in a static program
 };
 
 static bool open_freetype(struct freetype *ft, lam_error *error)
@@ -89,7 +89,7 @@ static const char *find_font(void)
     return NULL;
 }
 
-// Opens the font of a static program, so that captions do not depend on the fonts of the machine.
+// Opens the font embedded in a static program, so that captions do not depend on the fonts of the machine.
 static bool open_contained(lam_font *font, lam_error *error)
 {
 #ifdef LAMBENT_STATIC
@@ -151,7 +151,7 @@ void lam_font_free(lam_font *font)
     free(font);
 }
 
-// Returns the code point at *text and advances *text; U+FFFD for an invalid byte or sequence.
+// Returns the code point at *text and advances *text. For an invalid byte or sequence, returns U+FFFD.
 static FT_ULong next_letter(const char **text)
 {
     const unsigned char *s = (const unsigned char *)*text;
@@ -176,7 +176,8 @@ static FT_ULong next_letter(const char **text)
 
 static float clamped(float x) { return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; }
 
-// Blends a colour over a pixel by its coverage; neither is premultiplied.
+// Blends a colour over a pixel; `cover` is the covered fraction of the pixel. Neither the colour nor the pixel is
+// premultiplied.
 static void blend_bytes(uint8_t *pixel, lam_rgba color, float cover)
 {
     float from = color.a * cover, under = (float)pixel[3] / 255.0f, alpha = from + under * (1.0f - from);
@@ -190,7 +191,7 @@ static void blend_bytes(uint8_t *pixel, lam_rgba color, float cover)
     pixel[3] = (uint8_t)(clamped(alpha) * 255.0f + 0.5f);
 }
 
-// Does the same for premultiplied floats.
+// Does the same as blend_bytes for a pixel of premultiplied floats.
 static void blend_floats(float *pixel, lam_rgba color, float cover)
 {
     float from = color.a * cover;
@@ -219,8 +220,8 @@ static void stamp(lam_image *image, const FT_Bitmap *bitmap, int left, int top, 
         }
 }
 
-// Lays out a line of text and returns its width in pixels; draws it unless `image` is NULL. Letters that the font
-// cannot load are skipped.
+// Lays out a line of text and returns its width in pixels. Unless `image` is NULL, draws the text. Letters that the
+// font cannot load are skipped.
 static double walk(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
                    const char *text)
 {
@@ -267,7 +268,7 @@ bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double 
     return true;
 }
 
-#else // the build lacks FreeType's headers
+#else // FreeType's headers were missing at build time
 
 lam_font *lam_font_open(const char *path, lam_error *error)
 {

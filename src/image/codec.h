@@ -12,87 +12,89 @@ struct picture_file {
     const uint8_t *bytes;
     size_t size;
     const char *name;          // the file's name in messages
-    struct call_control *call; // checked while decoding, and charged for the pixels; may be NULL
+    struct call_control *call; // its limits are checked while decoding, and the pixels are charged to it; may be NULL
 };
 
 struct codec {
     const char *name;  // "png"; also the file extension, without its dot
     const char *title; // for messages: "PNG"
     const char *alias; // another file extension, or NULL
-    // One line for lists about the stored numbers. NULL means this format is only read, and `write` is NULL too.
+    // One line about the numbers that a file stores, for lists of formats. NULL means that Lambent only reads this
+    // format; `write` is then also NULL.
     const char *written;
     lam_pixel_format pixels;
-    // Whether files of this format have no signature. The format is then tried after all others, and recognised by the
-    // file extension.
+    // Whether files of this format have no signature. If so, the format is tried after all others, and is recognised by
+    // the file extension.
     bool unmarked;
 
-    // Encodes a picture of valid size and pixel format into memory from malloc. `params` is never NULL; `pool` may be
-    // NULL, and does not affect the bytes.
+    // Encodes a picture of valid size and pixel format into memory that is allocated with malloc. `params` is never
+    // NULL; `pool` may be NULL, and does not affect the bytes.
     bool (*write)(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                   lam_error *error);
 
     // Returns whether a file that starts with these bytes has this format.
     bool (*probe)(const uint8_t *bytes, size_t size);
 
-    // Decodes a file into `image`, which is empty and remains empty on failure. picture_make allocates the pixels; rows
-    // are decoded one at a time while picture_continues returns true.
+    // Decodes a file into `image`, which is empty and remains empty on failure. Call picture_make to allocate the
+    // pixels. Decode one row at a time, and stop if picture_continues returns false.
     bool (*read)(const struct picture_file *file, lam_image *image, lam_error *error);
 
-    // Decodes without loss of precision. With more than 8 bits per channel, `image` becomes LAM_RGBA32F with the file's
-    // numbers, 0…1, neither decoded nor premultiplied, and *wide becomes true. With 8 bits and no alpha it becomes
-    // LAM_RGB8. NULL means use `read`.
+    // Decodes without loss of precision. If the file has more than 8 bits per channel, `image` becomes LAM_RGBA32F and
+    // *wide becomes true. The pixels are then the file's numbers, scaled to 0…1, neither decoded nor premultiplied. If
+    // the file has 8 bits and no alpha, `image` becomes LAM_RGB8. If this function is NULL, `read` is used.
     bool (*read_wide)(const struct picture_file *file, lam_image *image, bool *wide, lam_error *error);
 
     // Returns whether the first bytes of a file of this format (CODEC_HEAD bytes or the whole file) state that Lambent
-    // wrote it. NULL means the format cannot store this.
+    // wrote the file. NULL means that the format cannot store this information.
     bool (*ours)(const uint8_t *bytes, size_t size);
 };
 
 enum { CODEC_HEAD = 512 };
 
-// The formats, in the order in which files are probed and lists show them; formats without a signature are last.
-// tests/fuzz/meson.build reads these names too.
+// The formats, in the order in which files are probed and in which lists show the formats. Formats without a signature
+// are last. tests/fuzz/meson.build also reads these names.
 #define CODECS(X) X(png) X(ppm) X(pfm) X(exr) X(jpeg) X(webp) X(hdr) X(bmp) X(tga)
 
 #define CODEC(name) extern const struct codec codec_##name;
 CODECS(CODEC)
 #undef CODEC
 
-// Returns the codec of a file that starts with these bytes, or NULL if there is none. If the bytes are ambiguous, the
-// extension of `name` (may be NULL) decides.
+// Returns the codec of a file that starts with these bytes, or NULL if no format matches. If the bytes match several
+// formats, the extension of `name` (may be NULL) selects one.
 const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name);
 
-// Checks the parameters. Fails with LAM_BAD_ARGUMENT.
+// Checks the parameters. Fails with LAM_BAD_ARGUMENT if one of them is invalid.
 bool save_params_check(const lam_save_params *params, lam_error *error);
 
-// Returns the threads for encoding a picture; NULL means only this thread. `threads` is as in lam_save_params.
+// Returns the thread pool for encoding a picture; NULL means that the calling thread works alone. `threads` is as in
+// lam_save_params.
 struct pool *encoding_pool(const lam_image *image, int threads);
 
-// Returns whether a picture of this size may be read, before memory is allocated for it. Fails with LAM_LIMIT
-// (lam_control.pixel_limit).
+// Checks that a picture of this size may be read. This check is made before memory is allocated for the picture. Fails
+// with LAM_LIMIT (lam_control.pixel_limit).
 bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error);
 
-// Allocates a picture of a checked size for a codec to fill. Its bytes are charged to the file's call. Fails with
-// LAM_LIMIT.
+// Allocates a picture of a checked size for a codec to fill. The bytes of the picture are charged to the file's call.
+// Fails with LAM_LIMIT.
 bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                   lam_image *image, lam_error *error);
 
-// Does the same, with `more` bytes after the pixels; these bytes are fewer than the picture's own, and they are not
-// charged.
+// Does the same as picture_make, with `more` bytes after the pixels. There are fewer of these bytes than bytes of
+// pixels, and they are not charged.
 bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                          size_t more, lam_image *image, lam_error *error);
 
 // Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is allowed.
 void picture_free(struct call_control *call, lam_image *image);
 
-// Returns whether decoding may continue with row `y`; otherwise fills the error.
+// Returns whether decoding may continue with row `y`. If not, fills the error.
 static inline bool picture_continues(const struct picture_file *file, int64_t y, lam_error *error)
 {
     return y % 16 != 0 || call_should_continue(file->call) || call_error(file->call, error);
 }
 
-// Decodes a picture of any format; picture_decode_linear converts it to LAM_RGBA32F, linear and premultiplied. Its
-// bytes stay charged to the file's call (picture_free).
+// Decode a picture of any format. picture_decode_linear also converts it to LAM_RGBA32F, linear and premultiplied. The
+// bytes of the picture stay charged to the file's call until picture_free.
 bool picture_decode(const struct picture_file *file, lam_image *image, lam_error *error);
 // Decodes like read_wide; the result may be LAM_RGB8.
 bool picture_decode_wide(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error);
@@ -103,10 +105,10 @@ bool picture_decode_linear(const struct picture_file *file, lam_color_mode color
 bool picture_linearize(const struct picture_file *file, lam_image *image, bool wide, lam_color_mode color,
                        lam_error *error);
 
-// Lambent's own mark in a JPEG file.
+// The comment that Lambent writes to its JPEG files.
 #define JPEG_REMARK "lambent"
 
-// The writers of codec_jpeg and codec_png, which are in files of their own.
+// The functions that write JPEG and PNG. Other files define codec_jpeg and codec_png.
 bool jpeg_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                 lam_error *error);
 bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,

@@ -32,7 +32,7 @@ static const struct codec *codec_named(const char *name)
     return NULL;
 }
 
-// Gets the names of the writable formats. Returns their number.
+// Lists the names of the formats that Lambent can write, and returns how many there are.
 static int written_names(const char *names[COUNT])
 {
     int count = 0;
@@ -42,7 +42,7 @@ static int written_names(const char *names[COUNT])
     return count;
 }
 
-// Makes "png, ppm, … or webp", each with the prefix `before`.
+// Makes the list "png, ppm, … or webp", with the prefix `before` before each name.
 static const char *list_names(const char *before, char list[LIST_BYTES])
 {
     const char *names[COUNT];
@@ -58,7 +58,7 @@ static const char *list_names(const char *before, char list[LIST_BYTES])
     return list;
 }
 
-// Returns the formats that can replace an unsupported one, or NULL if it is unknown.
+// Returns the formats to suggest in place of an unsupported format, or NULL if that format is unknown.
 static const char *instead_of(const char *word)
 {
     static const struct {
@@ -106,7 +106,7 @@ static const struct codec *codec_for(const char *path, lam_error *error)
 
 struct pool *encoding_pool(const lam_image *image, int threads)
 {
-    // Starting a thread takes as long as encoding some thousand pixels, so each thread gets at least 65536.
+    // Starting a thread takes as long as encoding some thousand pixels, so each thread gets at least 65536 pixels.
     const int64_t max_threads = (int64_t)image->width * image->height >> 16;
     if (threads == 0)
         threads = processor_count();
@@ -171,7 +171,7 @@ bool lam_image_save(const lam_image *image, const char *path, const lam_save_par
     lam_bytes bytes = {0};
     if (!codec || !encode(codec, image, params, &bytes, error))
         return false;
-    // Check the call before the file is created.
+    // Check whether the call must stop before the file is created.
     struct call_control call;
     call_start(&call, params ? params->control : NULL);
     bool ok = call_should_continue(&call)
@@ -235,7 +235,8 @@ bool lam_image_is_from_lambent(const char *path)
 {
     if (!path)
         return false;
-    // Pipes and devices are not opened. O_NONBLOCK guards against one that replaced the file since stat.
+    // Pipes and devices are not opened. O_NONBLOCK protects against a pipe or device that has replaced the file since
+    // stat.
     struct stat about;
     int file = stat(path, &about) == 0 && S_ISREG(about.st_mode)
                    ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)

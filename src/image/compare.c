@@ -1,11 +1,12 @@
-// compare.c: measures the difference of two pictures.
+// compare.c: measures the difference between two pictures.
 #include "fail.h"
 #include "float_state.h"
 #include "pixels.h"
 
 #include <string.h>
 
-// Returns log10 of a positive finite number, without libm: x = m·2^e with m near 1, ln m = 2·artanh((m − 1)/(m + 1)).
+// Returns log10 of a positive finite number, without libm. The function splits x = m·2^e with m near 1, and uses ln m =
+// 2·artanh((m − 1)/(m + 1)).
 static double log10_of(double x)
 {
     int exponent = 0;

@@ -4,17 +4,18 @@
 
 #include <lambent/image.h>
 
-// Composes channels over a background: in linear light, unless the numbers are raw.
+// Composes the channels of a picture over a background, in linear light unless the picture's numbers are raw.
 struct compose {
-    double linear[256];   // linear values of all bytes
-    double from[256];     // for i > 0 the smallest linear number that rounds to byte i: the value of (i − ½)/255
+    double linear[256];   // the linear value of each byte
+    double from[256];     // for i > 0, the smallest linear number that rounds to byte i, which is the linear value of
+                          // (i − ½)/255
     double background[3]; // linear
     uint8_t clear[3];     // the result if alpha is 0
 };
 
 void compose_start(struct compose *compose, const lam_save_params *params);
 
-// Composites `count` pixels of four bytes to pixels of three bytes.
+// Composites `count` pixels of four bytes (RGBA) over the background, and writes pixels of three bytes (RGB).
 void compose_row(const struct compose *compose, const uint8_t *rgba, size_t count, uint8_t *rgb);
 
 #endif

@@ -1,4 +1,4 @@
-// difference.c: draws the differences of two pictures.
+// difference.c: draws the differences between two pictures.
 #include "fail.h"
 #include "float_state.h"
 #include "pixels.h"

@@ -1,7 +1,8 @@
-// encoding.h: converts linear light to sRGB and back (IEC 61966-2-1), and to bytes, LANES values at a time (lanes.h).
+// encoding.h: converts linear light to sRGB and back (IEC 61966-2-1), and converts numbers to bytes, LANES values at a
+// time (lanes.h).
 //
-// Both curves are within 1e-6 of the standard's formulas for 0…1. Numbers outside this range are clamped, and NaN gives
-// 0. Decoding and encoding a byte gives the same byte.
+// For numbers in 0…1, both curves differ by at most 1e-6 from the standard's formulas. Numbers outside this range are
+// clamped, and NaN gives 0. If a byte is decoded and encoded again, the result is the same byte.
 #ifndef ENCODING_H
 #define ENCODING_H
 

@@ -1,4 +1,4 @@
-// image.c: allocates pixels in memory.
+// image.c: allocates the pixels of pictures.
 #include "fail.h"
 #include "pages.h"
 #include "pixels.h"
@@ -11,7 +11,7 @@
 
 enum { MAX_SIDE = 65535 };
 
-// Large pictures get huge pages if the system has them, which makes the first touch three times as fast.
+// Large pictures get huge pages if the system provides them, because the first access is then three times as fast.
 static void *get_pixels(size_t bytes)
 {
     const size_t huge = (size_t)2 << 20;
@@ -20,7 +20,8 @@ static void *get_pixels(size_t bytes)
     size_t rounded = (bytes + huge - 1) & ~(huge - 1);
     void *pixels = aligned_alloc(huge, rounded);
 #ifdef MADV_HUGEPAGE
-    // The last page only becomes a huge page if little of it is wasted. This is advice: a refusal only affects speed.
+    // The last page becomes a huge page only if little of it would be unused. If the system does not follow this
+    // advice, only the speed is affected.
     if (pixels)
         madvise(pixels, rounded - bytes <= bytes / 16 ? rounded : rounded - huge, MADV_HUGEPAGE);
 #endif
@@ -45,8 +46,8 @@ bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format
         return fail(error, LAM_LIMIT, "image: %d×%d pixels, expected at largest %d×%d", width, height, MAX_SIDE,
                     MAX_SIDE);
     uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format) + more; // below 2³⁷
-    // The system promises more memory than it has and kills the process that uses it; drawing and encoding need memory
-    // too.
+    // The system may grant more memory than it has, and then kills the process that uses it. At most half of the memory
+    // is used, because drawing and encoding also need memory.
     void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? get_pixels((size_t)bytes) : NULL;
     if (!pixels)
         return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which is not available", width,

@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-// Makes the table of linear values of the numbers 0 … last.
+// Makes a table of the linear values that correspond to the file's numbers 0 … last.
 static float *make_table(int last, lam_color_mode color, lam_error *error)
 {
     size_t bytes = ((size_t)last + 1) * sizeof(float);
@@ -49,7 +49,7 @@ static bool decode_bytes(const struct picture_file *file, lam_image *image, cons
     if (!picture_make(file, (uint32_t)image->width, (uint32_t)image->height, LAM_RGBA32F, &floats, error))
         return false;
     const uint8_t *from = image->pixels;
-    const size_t bytes = pixel_bytes(image->format); // 4 bytes, or 3 without alpha
+    const size_t bytes = pixel_bytes(image->format); // 4 bytes per pixel, or 3 without alpha
     float *pixel = floats.pixels;
     for (int y = 0; y < image->height; y++) {
         if (!picture_continues(file, y, error)) {

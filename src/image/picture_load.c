@@ -9,11 +9,11 @@
 
 #define KNOWN "PNG, JPEG, WebP, BMP, TGA, PPM (P6), PFM, EXR or Radiance"
 
-// Picture libraries report a damaged file if they run out of memory, and loading a library fails for lack of memory
-// too. Therefore a file is reported as damaged only if memory can still be allocated.
+// If memory runs out, picture libraries report a damaged file, and loading a library fails. Therefore such an error is
+// reported only if memory can still be allocated.
 static bool blame_memory(lam_error *error)
 {
-    enum { SOME = 1 << 20 }; // more than the small requests of such a library
+    enum { SOME = 1 << 20 }; // larger than the requests of such libraries
     if (error->code != LAM_CANNOT_READ && error->code != LAM_UNSUPPORTED)
         return false;
     void *volatile some = malloc(SOME); // volatile, so that the unused memory is really allocated
@@ -23,7 +23,7 @@ static bool blame_memory(lam_error *error)
     return false;
 }
 
-// If `wide` is not NULL, all bits of the file are kept (read_wide).
+// Decodes a picture. If `wide` is not NULL, keeps all bits of the file (codec.read_wide).
 static bool decode(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)
 {
     const struct codec *codec = codec_of(file->bytes, file->size, file->name);
@@ -66,7 +66,7 @@ bool picture_decode_linear(const struct picture_file *file, lam_color_mode color
     return ok;
 }
 
-// If `color` is NULL, the numbers are not converted.
+// Loads a picture. If `color` is NULL, the file's numbers are not converted.
 static bool load(lam_image *image, const char *path, const lam_color_mode *color, const lam_control *control,
                  lam_error *error)
 {

@@ -1,5 +1,5 @@
 // pixels.h: converts rows of pixels between formats. Code that processes pixels supports two working formats, LAM_RGBA8
-// and LAM_RGBA32F; others are converted row by row.
+// and LAM_RGBA32F; other formats are converted row by row.
 #ifndef PIXELS_H
 #define PIXELS_H
 
@@ -15,7 +15,7 @@ static inline lam_pixel_format working_format(lam_pixel_format format)
 size_t pixel_bytes(lam_pixel_format format);
 bool format_has_alpha(lam_pixel_format format);
 
-// Returns the distance of rows in bytes, never 0.
+// Returns the distance between rows in bytes, which is never 0.
 static inline ptrdiff_t image_stride(const lam_image *image)
 {
     return image->stride ? image->stride : (ptrdiff_t)((size_t)image->width * pixel_bytes(image->format));
@@ -29,22 +29,23 @@ static inline void *image_row(const lam_image *image, int y)
 // Does the same as lam_image_make, with `more` bytes after the pixels.
 bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format format, size_t more, lam_error *error);
 
-// Checks the pixels, size, format and stride of a caller's picture. `what` begins the error sentence.
+// Checks the pixels, the size, the format and the stride of a caller's picture. The error message begins with `what`.
 bool image_check(const lam_image *image, const char *what, lam_error *error);
 
-// Convert `count` pixels from a format to its working format, and back. With `raw`, luminance is computed from the
-// unconverted numbers.
+// Convert `count` pixels from a format to its working format, and back. With `raw`, the luminance is computed from the
+// numbers as they are stored.
 void pixels_to_working(lam_pixel_format format, const void *from, int count, void *to);
 void pixels_from_working(lam_pixel_format format, bool raw, const void *from, int count, void *to);
 
-// Gets the picture in its working format, without padding: the picture itself if possible, otherwise a copy. The caller
-// frees `out`, which frees only a copy.
+// Gets the picture in its working format, without padding. `out` is the picture itself if possible, otherwise a copy.
+// The caller frees `out`; this frees memory only if `out` is a copy.
 bool image_working(const lam_image *image, lam_image *out, lam_error *error);
 
-// Makes a copy in the working format.
+// Makes a copy of a picture in its working format.
 bool image_copy(const lam_image *image, lam_image *out, lam_error *error);
 
-// Gets two pictures for comparison, of one size, both of bytes or both of floats, in the form of image_working.
+// Gets two pictures for comparison, in the form of image_working. Both pictures must have the same size, and both must
+// consist of bytes, or both of floats.
 bool image_pair(const char *what, const lam_image *const given[2], lam_image pair[2], lam_error *error);
 
 #endif

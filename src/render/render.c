@@ -32,8 +32,8 @@ static lam_scene *load(const char *model, const lam_render_params *params, lam_e
 {
     if (lam_shape_find(model) >= 0)
         return make_shape(model, params->control, error);
-    // A device made by this call draws one frame, so the CPU device can compute the normals of visible triangles
-    // itself. Kajiya–Kay needs tangents, which depend on all normals.
+    // A device that this call makes draws only one frame, so the CPU device can compute the normals of only the visible
+    // triangles. The Kajiya–Kay model is an exception: it needs tangents, which depend on all normals.
     bool draws_once = !params->device && !(params->draw && reads_tangents(params->draw));
     lam_load_params plain = {.threads = params->threads, .normals_when_drawn = draws_once};
     lam_scene *scene = lam_scene_load(model, params->load ? params->load : &plain, params->control, error);
@@ -61,7 +61,7 @@ static void fill_report(const lam_scene *scene, const lam_camera *camera, const 
     }
 }
 
-// Returns whether the lights of a glTF file, in candela and lux, light the scene.
+// Returns whether the scene is lit by the lights of a glTF file, whose units are candela and lux.
 static bool has_file_lights(const lam_scene *scene, const lam_picture_settings *settings)
 {
     const char *format = lam_scene_format(scene);
@@ -69,7 +69,7 @@ static bool has_file_lights(const lam_scene *scene, const lam_picture_settings *
            (strcmp(format, "gltf") == 0 || (strcmp(format, "scene") == 0 && !(settings->present & LAM_SETTING_LIGHTS)));
 }
 
-// Draws the loaded scene; its own settings are used if the caller passes none.
+// Draws the loaded scene. If the caller passes no settings, the settings of the scene are used.
 static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *image, lam_render_report *report,
                  lam_error *error)
 {

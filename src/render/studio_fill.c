@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// The luminance below which a pixel counts as black, and the luminance of a surface that would be visible if it were
-// lit.
+// BLACK is the luminance below which a pixel is treated as black. DARK is the luminance above which a surface would be
+// visible if it were lit.
 #define BLACK 0.01
 #define DARK  0.05
 
@@ -19,8 +19,8 @@ static double luminance(const float *p)
     return 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
 }
 
-// Returns the fraction of the picture that is black although its surface is not. With a ground, the ground's pixels
-// count too: `lit` has a white background.
+// Returns the fraction of the pixels that are black although their surface is not. If there is a ground, the pixels of
+// the ground are also counted, because `lit` has a white background.
 static double black_share(const lam_image *lit, const lam_image *surfaces, bool ground)
 {
     size_t counted = 0, black = 0;
@@ -39,8 +39,8 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Returns the ratio of a pixel's luminance to its surface's luminance that a quarter of the lit pixels exceed, or 0 if
-// none is lit. The pixels of `lit` are overwritten.
+// For each lit pixel, takes the ratio of its luminance to the luminance of its surface, and returns the value that a
+// quarter of these ratios exceed. Returns 0 if no pixel is lit. The pixels of `lit` are overwritten.
 static double lit_ratio(const lam_image *lit, const lam_image *surfaces)
 {
     float *ratios = lit->pixels;
@@ -54,8 +54,8 @@ static double lit_ratio(const lam_image *lit, const lam_image *surfaces)
     return count ? (double)ratios[count * 3 / 4] : 0;
 }
 
-// Draws two pictures, the lit one and the colours of the surfaces, and returns the share that is black, or −1 on
-// failure. *ratio is the result of lit_ratio.
+// Draws two pictures: the lit scene, and the colours of its surfaces. Returns the result of black_share, or −1 on
+// failure. *ratio receives the result of lit_ratio.
 static double measure(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                       const lam_draw_params *params, int width, int height, const lam_control *control, double *ratio,
                       lam_error *error)
@@ -89,7 +89,7 @@ static lam_rgb times(lam_rgb c, double factor)
     return (lam_rgb){(float)((double)c.r * factor), (float)((double)c.g * factor), (float)((double)c.b * factor)};
 }
 
-// Multiplies the intensity of the scene's lights.
+// Multiplies the intensity of the scene's lights by a factor.
 static bool scale_lights(lam_scene *scene, double factor, lam_error *error)
 {
     for (int i = 0; i < lam_scene_light_count(scene); i++) {

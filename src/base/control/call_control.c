@@ -84,7 +84,7 @@ uint64_t call_expansion_limit(const struct call_control *call)
     return or_default(call ? call->control.expansion_limit : 0, LAM_EXPANSION_LIMIT);
 }
 
-// Returns the memory that reading files of this size may use.
+// Returns how many bytes of memory may be used to read files of this size.
 static uint64_t expansion_bytes(const struct call_control *call)
 {
     uint64_t bytes = call_input_bytes(call);
@@ -165,8 +165,8 @@ uint64_t call_layer_limit(const struct call_control *call)
     return or_default(given, bytes ? LAM_LAYERS_BASE + bytes / LAM_LAYER_BYTES : UINT64_MAX);
 }
 
-// Returns the end of the sentence about a limit that depends on the size of the files, or "" if the caller set the
-// limit.
+// Returns the end of an error message about a limit that was derived from the size of the files. Returns "" if the
+// caller set the limit.
 static const char *for_files(const struct call_control *call, uint64_t given, char text[48])
 {
     uint64_t bytes = given ? 0 : call_input_bytes(call);

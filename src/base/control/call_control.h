@@ -1,4 +1,5 @@
-// call_control.h: enforces lam_control while a call runs: cancel flag, deadline, memory budget and progress.
+// call_control.h: enforces the cancel flag, the deadline and the memory budget of lam_control while a call runs, and
+// reports its progress.
 #ifndef CALL_CONTROL_H
 #define CALL_CONTROL_H
 
@@ -8,17 +9,17 @@ struct call_control {
     lam_control control; // a copy; if all fields are zero, there are no limits
     uint64_t start_ns;
     uint64_t memory_used; // accessed atomically
-    int over_memory;      // set when the memory budget has refused a request
-    int over_expansion;   // set when the budget derived from the file sizes has refused a request
-    // The latest request that a budget refused: the bytes in use, the bytes requested and the limit. Accessed
+    int over_memory;      // set when a request has exceeded the memory budget
+    int over_expansion;   // set when a request has exceeded the budget that is derived from the file sizes
+    // The latest request that exceeded a budget: the bytes in use, the requested bytes and the limit. Accessed
     // atomically.
     uint64_t refused_used, refused_bytes, refused_limit;
-    // The number of bytes in all files read so far, accessed atomically. 0 means that no files were read, and that no
-    // limit is derived from them.
+    // The total size in bytes of all files read so far; accessed atomically. If it is 0, no file was read, and no limit
+    // is derived from file sizes.
     uint64_t input_bytes;
-    bool unknown_field; // the control has a field that this version does not know
+    bool unknown_field; // the control sets a field that this version does not know
     double last_share;
-    // The number of formula operations in a scene file, and its limit; 0 means no limit.
+    // The number of operations in the formulas of a scene file, and the limit for it; a limit of 0 means no limit.
     uint64_t operations, operation_limit;
 };
 
@@ -26,24 +27,25 @@ struct call_control {
 void call_start(struct call_control *call, const lam_control *control);
 
 // Returns false if the call must stop: it was cancelled, it exceeded its time, or its control sets a field that this
-// version does not know. It is cheap enough to call every few thousand items (about 25 ns), from any thread. `call` may
-// be NULL.
+// version does not know. The check takes about 25 ns, so loops can repeat it every few thousand items. Any thread may
+// call this function. `call` may be NULL.
 bool call_should_continue(struct call_control *call);
 
 // Fills the error with the reason why call_should_continue returned false, and returns false.
 bool call_error(struct call_control *call, lam_error *error);
 
-// Charges and refunds memory. Returns false if the budget is exceeded. Any thread may call it.
+// Charge memory to the call, or refund it. call_charge returns false if the memory exceeds the budget. Any thread may
+// call these functions.
 bool call_charge(struct call_control *call, size_t bytes);
-// Charges memory that the call does not strictly need: a refusal does not end the call.
+// Charges memory that the call does not strictly need: if the budget is exceeded, the call still continues.
 bool call_charge_spare(struct call_control *call, size_t bytes);
 void call_refund(struct call_control *call, size_t bytes);
 
-// Reports an allocation that failed: over the budget, or out of memory. Returns false.
+// Reports a failed allocation: either it exceeds the budget, or memory has run out. Returns false.
 bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error);
 
-// Adds to the size of the files that the call reads; a file that is read twice counts once. Any thread may call it;
-// `call` may be NULL.
+// Adds `bytes` to the total size of the files that the call reads. A file that is read twice is added only once. Any
+// thread may call this function; `call` may be NULL.
 void call_add_input(struct call_control *call, uint64_t bytes);
 uint64_t call_input_bytes(const struct call_control *call);
 
@@ -55,25 +57,26 @@ uint64_t call_file_limit(const struct call_control *call);
 unsigned call_json_depth_limit(const struct call_control *call);
 uint64_t call_layer_limit(const struct call_control *call);
 
-// Returns whether a model or a drawn scene may have this many triangles. Otherwise fails with LAM_LIMIT. `items` names
-// them in the message: "triangles", "lines".
+// Checks that a model or a rendered scene may contain this many triangles. Fails with LAM_LIMIT if there are too many.
+// The message calls them `items`, for example "triangles" or "lines".
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);
 
-// Returns whether a model may have this many objects. Otherwise fails with LAM_LIMIT.
+// Checks that a model may contain this many objects. Fails with LAM_LIMIT if there are too many.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
-// Returns whether the unpacked data of a compressed file may have this many bytes, which is the memory that reading the
-// file may use. Otherwise fails with LAM_LIMIT.
+// Checks the size in bytes of a compressed file's data after decompression. Fails with LAM_LIMIT if it exceeds the
+// memory that may be used to read the file.
 bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
-// Returns whether a file of this size may be read. Otherwise fails with LAM_LIMIT.
+// Checks that a file of this size may be read. Fails with LAM_LIMIT if the file is too large.
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
-// Calls the progress callback. It must run in the calling thread only. Reported shares never decrease.
+// Calls the progress callback. Only the thread that made the call may use this function. Reported shares never
+// decrease.
 void call_progress(struct call_control *call, double share, const char *step);
 
-// Returns the monotonic time.
+// Returns the time of the monotonic clock in nanoseconds.
 uint64_t now_ns(void);
 
 #endif

@@ -1,12 +1,13 @@
-// fail.h: fills a lam_error with one sentence: file, position, found, expected.
+// fail.h: fills a lam_error with one sentence that names the file, the position, what was found and what was expected.
 #ifndef FAIL_H
 #define FAIL_H
 
 #include <lambent/base.h>
 
-// Writes the code and the formatted sentence into `error` (which may be NULL) and returns false, so that a failing
-// function can end in `return fail(error, …)`. Control characters in the text become '?', so that a hostile file cannot
-// send control sequences to a terminal. A sentence that is too long is truncated between characters and ends in "…".
+// Writes the code and the formatted sentence into `error` (which may be NULL) and returns false, so that a function can
+// report a failure with `return fail(error, …)`. Control characters in the text become '?', so that a hostile file
+// cannot send control sequences to a terminal. A sentence that is too long is truncated between characters and ends in
+// "…".
 bool fail(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 // Reports that memory has run out: LAM_LIMIT, with the size of the request.

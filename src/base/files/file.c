@@ -93,7 +93,8 @@ struct parallel_read {
     size_t reached; // offset of the failure
 };
 
-// Reads the bytes [at, end). Returns 0, an errno, or −1 if the file ends early; *reached is then the failure's offset.
+// Reads the bytes [at, end). Returns 0 on success, an errno, or −1 if the file ends early. On failure, *reached is the
+// offset that was reached.
 static int read_range(int file, uint8_t *to, size_t at, size_t end, size_t *reached)
 {
     while (at < end) {
@@ -109,7 +110,7 @@ static int read_range(int file, uint8_t *to, size_t at, size_t end, size_t *reac
     return 0;
 }
 
-// Reports a failure of read_range. `size` is the size that the file had before.
+// Reports a failure of read_range. `size` is the size of the file before it was read.
 static bool fail_range(int failed, size_t reached, size_t size, const char *path, lam_error *error)
 {
     if (failed == -1)
@@ -179,7 +180,7 @@ static bool grow(struct file_bytes *bytes, size_t used, struct call_control *cal
     return true;
 }
 
-// Reads a pipe, a terminal or a device to its end. Some devices never end (/dev/zero).
+// Reads a pipe, a terminal or a device to its end. Some devices, such as /dev/zero, never end.
 static bool read_stream(int file, const char *path, bool fresh, struct call_control *call, struct file_bytes *out,
                         lam_error *error)
 {
@@ -207,7 +208,7 @@ static bool read_stream(int file, const char *path, bool fresh, struct call_cont
         file_release(out);
         return false;
     }
-    // The bytes after the end stay zero, and their charge is refunded.
+    // The unused bytes after the end stay zero, and are no longer charged to the call.
     if (call)
         call_refund(call, out->size - used);
     call_add_input(call, fresh ? used : 0);
@@ -235,9 +236,9 @@ bool file_check_regular(const char *path, lam_error *error)
 
 enum { OPEN_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
 
-// Opens a path below the folder given by its first `folder` bytes, so that a link created after the check of the path
-// cannot lead out of the folder. Kernels before 5.6 do not support openat2; on them the checked path is opened
-// directly.
+// Opens a path whose first `folder` bytes name a folder. The rest of the path is opened below that folder, so that a
+// link created after the path was checked cannot point outside the folder. Kernels before 5.6 do not support openat2;
+// there the checked path is opened directly.
 static int open_beneath(const char *path, size_t folder)
 {
 #ifdef SYS_openat2
@@ -260,8 +261,8 @@ static int open_beneath(const char *path, size_t folder)
     return open(path, OPEN_FLAGS | O_NOFOLLOW);
 }
 
-// Opens a regular file; paths of other kinds are never opened. Returns −1 on error. If `shown` is NULL, the path comes
-// from the user.
+// Opens a regular file; folders, pipes and devices are never opened. Returns −1 on error. If `shown` is NULL, the path
+// comes from the user.
 static int open_regular(const char *path, size_t folder, const char *shown, struct stat *about, lam_error *error)
 {
     const char *advice = shown ? "" : " (- is standard input)";
@@ -270,7 +271,7 @@ static int open_regular(const char *path, size_t folder, const char *shown, stru
     bool found = stat(path, about) == 0;
     if (found && !kind_of(about->st_mode)) {
         file = folder ? open_beneath(path, folder) : open(path, OPEN_FLAGS);
-        found = file >= 0 && fstat(file, about) == 0; // check again: another file may have replaced it
+        found = file >= 0 && fstat(file, about) == 0; // check again, because another file may have replaced it
     }
     if (!found)
         fail_system(error, LAM_CANNOT_READ, shown, "open");

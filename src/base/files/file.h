@@ -6,55 +6,60 @@
 #include "call_control.h"
 #include "pool.h"
 
-// Files are read into memory in parallel chunks. They are not mapped: a mapped file that another program shrinks kills
-// the reader with SIGBUS, and copying from the page cache into huge pages costs no more than the page faults of a
-// mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may read past the end.
+// Files are read into memory in parallel chunks. Files are not mapped into memory, because SIGBUS would kill the
+// process if another program shortened a mapped file. Copying from the page cache into huge pages also takes no longer
+// than the page faults of a mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may read past
+// the end.
 enum { FILE_PADDING = 64 };
 
 struct file_bytes {
     const uint8_t *data;
     size_t size;
-    size_t held;               // size of the address range at `data`; 0 if not owned
-    struct call_control *call; // charged for the bytes, refunded on release; may be NULL
+    size_t held;               // size of the address range at `data`; 0 if `data` is not owned
+    struct call_control *call; // the bytes are charged to it until they are released; may be NULL
 };
 
-// Reads a regular file, or standard input for "-". Folders, pipes, devices and sockets are never opened, because
-// opening one can block forever or have side effects. `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ (no such
-// file, not a regular file, a read error, the file was shortened while it was read), LAM_LIMIT, LAM_CANCELLED.
+// Reads a regular file, or standard input if the path is "-". Folders, pipes, devices and sockets are never opened,
+// because opening one can block forever or have side effects. `pool` and `call` may be NULL. Errors: LAM_CANNOT_READ
+// (the file does not exist, is not a regular file, cannot be read, or was shortened while it was read), LAM_LIMIT,
+// LAM_CANCELLED.
 bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out,
                lam_error *error);
 
-// Reads a regular file that another file names. Messages use `shown` as the path (NULL means the path itself), and "-"
-// is an ordinary name. `folder` is the length of the folder's part of the path, as returned by path_within. The rest is
-// opened below that folder without following links, even links created meanwhile. If `folder` is 0, the path is opened
-// directly. `fresh` means that the call has not read this file before, so its bytes count as input (call_add_input).
+// Reads a regular file that another file refers to. Messages use `shown` as the path (NULL means the path itself), and
+// "-" is an ordinary name. `folder` is the length of the folder at the start of the path, as path_within returns it.
+// The rest of the path is opened below that folder without following links, even links created since path_within was
+// called. If `folder` is 0, the path is opened directly. `fresh` means that the call has not read this file before, so
+// its bytes count as input (call_add_input).
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error);
 
-// Returns whether a path that another library opens leads to a regular file. Otherwise fails with LAM_CANNOT_READ.
+// Checks that a path is a regular file, before another library opens it. Fails with LAM_CANNOT_READ if it is not.
 bool file_check_regular(const char *path, lam_error *error);
 
-// Resolves every link and ".." of a path. If the result is the folder or inside it, returns it, allocated with malloc.
-// A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is then true) or cannot be
-// resolved (errno). Sets *length to the length of the folder's part with its '/', or to 0 if the path is the folder
-// itself.
+// Resolves every link and ".." of a path. If the resolved path is the folder or is inside it, returns the resolved
+// path, allocated with malloc. A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is
+// then true) or cannot be resolved (errno says why). Sets *length to the length of the folder at the start of the
+// result, including its '/', or to 0 if the path is the folder itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
-// A large file whose parts any thread may read.
+// A large open file. Any thread may read sections of it.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
 struct file_parts {
     int file;
     size_t size;
 };
-// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD. Returns false if the file is smaller, or
-// cannot be read.
+// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD bytes. Returns false if the file is smaller
+// or cannot be read.
 bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out);
-// Reads bytes that the file has. `path` is for the message: LAM_CANNOT_READ.
+// Reads `bytes` bytes at an offset; all of them must be inside the file. Fails with LAM_CANNOT_READ; the message names
+// `path`.
 bool file_read_part(const struct file_parts *parts, const char *path, size_t offset, void *to, size_t bytes,
                     lam_error *error);
 void file_close_parts(struct file_parts *parts);
 
-// Allocates zeroed, padded memory for a file's bytes, in the form that file_read returns, or a padded copy of memory.
+// Allocate padded memory in the form that file_read returns. file_hold fills it with zeros; file_copy fills it with a
+// copy of `bytes`.
 bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
@@ -65,11 +70,11 @@ void file_release(struct file_bytes *bytes);
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
 // Writes a file completely or not at all, and leaves no temporary file, even if a signal ends the process during the
-// call (file_write.c). It keeps the read and write permissions of an existing file but removes execute permission. A
-// symbolic link is kept, and its target is replaced. A path that is not a regular file (/dev/stdout, a pipe) is written
-// directly. With `durable`, the file and its folder are on disk when the call returns, so that a power failure leaves
-// the old file or the new one. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the errors of `call`: LAM_CANCELLED,
-// LAM_LIMIT.
+// call (file_write.c). The function keeps the read and write permissions of an existing file, but removes the execute
+// permission. A symbolic link is kept, and its target is replaced. A path that is not a regular file (/dev/stdout, a
+// pipe) is written directly. With `durable`, the file and its folder are on disk when the call returns, so that after a
+// power failure either the old file or the new file is complete. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the
+// errors of `call`: LAM_CANCELLED, LAM_LIMIT.
 bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
                 lam_error *error);
 

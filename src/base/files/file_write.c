@@ -3,11 +3,12 @@
 //
 // If the file system supports it, the bytes are written to an unnamed file (O_TMPFILE), which the kernel removes when
 // the process ends for any reason. The finished file is linked to its name. If that name exists, the file is linked to
-// a temporary name and renamed over the old file. All signals are blocked between the link and the rename; SIGKILL
-// cannot be blocked, and leaves a temporary file only within those microseconds.
+// a temporary name and renamed over the old file. All signals are blocked between the link and the rename. SIGKILL
+// cannot be blocked, but it leaves a temporary file only if it arrives within those microseconds.
 //
 // Other file systems (NFS, vfat, some FUSE file systems) need a temporary name from the start. Signals are blocked
-// while it exists, but are checked after each chunk: the file is removed before a fatal signal takes effect.
+// while the temporary file exists, but are checked after each chunk. The file is removed before a fatal signal takes
+// effect.
 #include "file.h"
 
 #include "fail.h"
@@ -44,7 +45,7 @@ static bool is_ignored(int number, const struct sigaction *action)
             number == SIGTTIN || number == SIGTTOU);
 }
 
-// Lets the caller's handlers run for pending signals. Returns false if a fatal signal is pending.
+// Lets the program's signal handlers run for pending signals. Returns false if a fatal signal is pending.
 static bool deliver_handled(const sigset_t *before)
 {
     sigset_t pending;
@@ -85,8 +86,9 @@ struct writing {
     struct call_control *call;
 };
 
-// Returns false and sets errno on failure. ECANCELED means that the call must stop, EINTR that a fatal signal is
-// pending. `before` contains the previously blocked signals; if it is NULL, signals are not blocked here.
+// Returns false and sets errno on failure. The errno ECANCELED means that the call must stop; EINTR means that a fatal
+// signal is pending. `before` is the set of signals that were blocked before file_write blocked all signals; NULL means
+// that it has not blocked them.
 static bool write_all(int file, const struct writing *w, const sigset_t *before)
 {
     const uint8_t *at = w->data;
@@ -108,15 +110,15 @@ static bool write_all(int file, const struct writing *w, const sigset_t *before)
     return true;
 }
 
-// Flushes to disk. Some file systems and devices do not support it (EINVAL).
+// Flushes the file to disk. Some file systems and devices do not support flushing (EINVAL).
 static bool sync_file(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOSYS; }
 
 static bool fill(int file, const struct writing *w, const sigset_t *before)
 {
     if (!write_all(file, w, before))
         return false;
-    // Keeps the read and write permissions; a file written here is never a program. EPERM means that the file system
-    // does not support permissions.
+    // Keeps the read and write permissions of the existing file, but not its execute permission: the new file is never
+    // a program. EPERM means that the file system does not support permissions.
     if (w->existing && fchmod(file, w->existing->st_mode & 0666) != 0 && errno != EPERM)
         return false;
     if (w->durable && !sync_file(file))
@@ -127,15 +129,16 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
     return copy < 0 || close(copy) == 0;
 }
 
-// Returns the folder of a path, from malloc.
+// Returns the folder of a path, allocated with malloc.
 static char *folder_of(const char *path)
 {
     const char *name = path_name(path);
     return name == path ? strdup(".") : strndup(path, (size_t)(name - path));
 }
 
-// Returns an unused hidden name beside the target, from malloc. It contains the host name because several hosts may
-// write to one folder, and process numbers are not unique: in containers the number is often 1.
+// Returns an unused hidden file name in the folder of the target, allocated with malloc. The name contains the host
+// name, because several hosts may write to one folder. Process numbers are not unique; in containers the number is
+// often 1.
 static char *name_beside(const char *target)
 {
     char *name, host[65] = "";
@@ -172,7 +175,7 @@ static bool link_file(int file, const char *name)
            (errno != EEXIST && linkat(file, "", AT_FDCWD, name, AT_EMPTY_PATH) == 0); // if /proc is not mounted
 }
 
-// Links the file to a name beside the target and renames it over the target.
+// Links the file to a temporary name in the folder of the target, and renames it over the target.
 static bool link_over(int file, const char *target)
 {
     bool ok = false;
@@ -196,7 +199,7 @@ static bool link_over(int file, const char *target)
     return ok;
 }
 
-// Sets *possible to whether the file system supports it; if not, nothing has been written.
+// Sets *possible to whether the file system supports unnamed files. If it does not, nothing has been written.
 static bool write_unnamed(const struct writing *w, bool *possible)
 {
     char *folder = folder_of(w->target);
@@ -218,7 +221,7 @@ static bool write_unnamed(const struct writing *w, bool *possible)
 
 // --- a named file
 
-// Creates a temporary file beside the target, with the mode that the umask gives.
+// Creates a temporary file in the folder of the target, with the permissions that the umask allows.
 static int open_beside(const char *target, char **name)
 {
     for (int attempt = 0; attempt < 100; attempt++) {
@@ -245,7 +248,7 @@ static bool write_named(const struct writing *w)
     bool ok = file >= 0 && fill(file, w, &before);
     int reason = errno;
     if (file >= 0)
-        close(file); // fill has reported the error
+        close(file); // fill has already reported the error
     if (ok && rename(name, w->target) != 0) {
         reason = errno;
         ok = false;

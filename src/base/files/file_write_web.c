@@ -1,5 +1,5 @@
-// file_write_web.c: writes whole files on WebAssembly. The host provides the file system: a page keeps files in memory,
-// and no signal can interrupt a write, so the precautions of file_write.c are not needed.
+// file_write_web.c: writes whole files on WebAssembly. The host provides the file system; a web page keeps its files in
+// memory. No signal can interrupt a write, so the precautions of file_write.c are not needed.
 #include "file.h"
 
 #include "fail.h"

@@ -1,11 +1,11 @@
 // double_lanes.h: vectors of doubles that correspond to the floats of lanes.h.
 //
-//  dnum   DLANES doubles in one register, half as many as the floats of a num; DPARTS dnums cover LANES
-//  dmask  DLANES truth values, from comparisons
+//  dnum   DLANES doubles in one register, half as many as a num has floats; DPARTS dnums have LANES doubles
+//  dmask  DLANES truth values, the results of comparisons
 //
-// As in lanes.h, only + − × ÷ and comparisons are used, each correctly rounded, so every width gives the same bits.
-// (Vectors twice as wide as the registers would not have to be divided, but compilers split their comparisons into
-// scalar ones.)
+// As in lanes.h, only + − × ÷ and comparisons are used. Each operation is correctly rounded, so the results are
+// bit-identical for every width. One vector twice as wide as a register could replace the DPARTS vectors, but compilers
+// would then use scalar instructions for its comparisons.
 #ifndef DOUBLE_LANES_H
 #define DOUBLE_LANES_H
 
@@ -89,7 +89,7 @@ LANE_FN unsigned dmask_bits(dmask m) // bit i is lane i
 }
 #endif
 
-// Minimum and maximum with the semantics of min_of and max_of.
+// The minimum and maximum, defined like min_of and max_of in lanes.h.
 #if LANES == 4 && defined(__SSE2__)
 LANE_FN dnum dmin_of(dnum a, dnum b) { return (dnum)_mm_min_pd((__m128d)a, (__m128d)b); }
 LANE_FN dnum dmax_of(dnum a, dnum b) { return (dnum)_mm_max_pd((__m128d)a, (__m128d)b); }

@@ -1,5 +1,5 @@
-// eights.h: vectors of eight floats on any instruction set, independent of LANES, for data structures that all
-// instruction sets share and read eight numbers at a time. As in lanes.h, all operations are correctly rounded and
+// eights.h: vectors of eight floats, independent of LANES. These vectors are for data structures that are the same on
+// all instruction sets and are read eight floats at a time. As in lanes.h, all operations are correctly rounded and
 // written with C operators.
 #ifndef EIGHTS_H
 #define EIGHTS_H
@@ -12,7 +12,8 @@ typedef float eight_memory __attribute__((vector_size(32), aligned(4), may_alias
 LANE_FN eight eight_of(float x) { return x - (eight){0}; }
 LANE_FN eight eight_load(const float *at) { return (eight) * (const eight_memory *)at; }
 
-// Minimum and maximum as min_of and max_of, and the lanes in which a ≤ b as a bit mask: bit i is lane i.
+// The minimum and maximum are defined like min_of and max_of in lanes.h. The last function returns the lanes in which a
+// ≤ b as a bit mask: bit i is lane i.
 #if defined(__AVX__)
 LANE_FN eight eight_min(eight a, eight b) { return (eight)_mm256_min_ps((__m256)a, (__m256)b); }
 LANE_FN eight eight_max(eight a, eight b) { return (eight)_mm256_max_ps((__m256)a, (__m256)b); }

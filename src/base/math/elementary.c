@@ -1,4 +1,4 @@
-// elementary.c: exponentials, logarithms, powers and their relatives in double, in one fixed order of operations.
+// elementary.c: exponentials, logarithms, powers and related functions in double, in one fixed order of operations.
 #include "elementary.h"
 
 #include "linear.h"
@@ -16,7 +16,7 @@ double math_floor(double x)
     return whole > x ? whole - 1 : whole;
 }
 
-// Computes x · 2^n for |n| ≤ 2200, in steps of which only the last can overflow or round.
+// Computes x · 2^n for |n| ≤ 2200. Only the last of its multiplications can overflow or round.
 static double scaled(double x, int n)
 {
     for (; n > 1000; n -= 1000)
@@ -29,8 +29,8 @@ static double scaled(double x, int n)
     return x * power;
 }
 
-// Computes e^(x + tail), with a tail below the rounding error of x, by Taylor's series after subtracting a multiple of
-// ln 2.
+// Computes e^(x + tail) by the Taylor series after subtracting a multiple of ln 2. The tail is below the rounding error
+// of x.
 static double exponential(double x, double tail)
 {
     if (x != x)
@@ -67,8 +67,9 @@ static struct two_doubles exact_sum(double a, double b)
     return (struct two_doubles){sum, (a - (sum - part)) + (b - part)};
 }
 
-// Computes ln x for finite x > 0 with ten bits more than a double: x = 2^n · m with m in [√½, √2), ln m = 2 artanh s
-// with s = (m − 1)/(m + 1). The tail contains the rounding error of s.
+// Computes ln x for finite x > 0 with ten more bits of precision than a double. The function splits x = 2^n · m with m
+// in [√½, √2) and uses ln m = 2 artanh s with s = (m − 1)/(m + 1). The tail of the result contains the rounding error
+// of s.
 static struct two_doubles logarithm(double x)
 {
     int n = 0;
@@ -130,7 +131,7 @@ double math_pow(double a, double b)
 
 double math_sinh(double x)
 {
-    if (x > -1 && x < 1) { // Taylor series: the difference of exponentials would cancel
+    if (x > -1 && x < 1) { // Taylor series: a difference of exponentials would lose digits
         double z = x * x, sum = 0;
         for (int k = 9; k >= 1; k--)
             sum = (sum + 1) * z / (2 * k * (2 * k + 1));

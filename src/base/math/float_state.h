@@ -1,7 +1,8 @@
 // float_state.h: the floating-point state that every result depends on.
 //
-// A host built with -ffast-math disables denormals in its threads, and new threads inherit that; a host may also have
-// set another rounding mode. Every public call that computes, and every worker, runs between enter and leave.
+// A host program built with -ffast-math disables denormals in its threads, and new threads inherit this state. A host
+// may also set another rounding mode. Therefore every public function that computes, and every worker thread, runs
+// between float_state_enter and float_state_leave.
 #ifndef FLOAT_STATE_H
 #define FLOAT_STATE_H
 
@@ -28,7 +29,7 @@ static inline uint64_t float_state_enter(void)
 }
 static inline void float_state_leave(uint64_t saved) { __asm__ volatile("msr fpcr, %0" : : "r"(saved)); }
 #else
-// WebAssembly supports only this state.
+// WebAssembly always uses this floating-point state.
 static inline uint64_t float_state_enter(void) { return 0; }
 static inline void float_state_leave(uint64_t saved) { (void)saved; }
 #endif

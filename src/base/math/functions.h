@@ -1,16 +1,16 @@
-// functions.h: powers, logarithms and inverse roots, many at a time, with the same bits on every machine.
+// functions.h: powers, logarithms and inverse square roots, many at a time, bit-identical on every machine.
 //
-// They are built on lanes.h from + − × and integer operations on the bits, without libm, tables and divisions. Each
-// function states its range and its error; tests/lighting/test_functions.c measures both. No argument gives NaN unless
-// stated.
+// The functions use only + − × and integer operations on the bits (lanes.h), without libm, tables or divisions. Each
+// function's comment states its range and its error; tests/lighting/test_functions.c measures both. No function returns
+// NaN, for any argument, unless its comment states it.
 #ifndef FUNCTIONS_H
 #define FUNCTIONS_H
 
 #include "lanes.h"
 
-#define SMALLEST_NORMAL 1.17549435e-38f // 2⁻¹²⁶
+#define SMALLEST_NORMAL 1.17549435e-38f // = 2⁻¹²⁶
 
-// Splits normal x > 0 exactly into 2^exponent · (1 + rest) with |rest| ≤ 1/3: the mantissa range is 2/3 to 4/3.
+// Splits normal x > 0 exactly into 2^exponent · (1 + rest) with |rest| ≤ 1/3.
 struct binary_parts {
     num exponent, rest;
 };
@@ -22,8 +22,9 @@ LANE_FN struct binary_parts binary_parts_of(num x)
     return (struct binary_parts){num_of_int(shift_right(above, 23)), num_of_bits(mantissa) - 1.0f};
 }
 
-// Computes log₂(1 + z) − 1.5·z for |z| ≤ 1/3, at most 0.085, by a minimax polynomial with an error of 1.2e-9 before
-// rounding. 1.5·z is exact in a float, so the sum of both has some bits more than a float.
+// Computes log₂(1 + z) − 1.5·z for |z| ≤ 1/3 by a minimax polynomial with an error of 1.2e-9 before rounding. The
+// result is at most 0.085, and 1.5·z is exact in a float, so the result and 1.5·z together are more precise than one
+// float.
 LANE_FN num log2_remainder(num z)
 {
     num z2 = z * z, z4 = z2 * z2;
@@ -33,7 +34,7 @@ LANE_FN num log2_remainder(num z)
     return z * (a + z4 * (b + z4 * c));
 }
 
-// Computes 2^f for |f| ≤ 0.5005 with a relative error of 1e-7 before rounding; exactly 1 at 0.
+// Computes 2^f for |f| ≤ 0.5005 with a relative error of 1e-7 before rounding. The result is exactly 1 at 0.
 LANE_FN num exp2_fraction(num f)
 {
     num f2 = f * f;
@@ -53,14 +54,16 @@ LANE_FN struct whole_power whole_power_of(num y)
     return (struct whole_power){shifted - 12583039.0f, num_of_bits(shift_left(bits_of(shifted), 23))};
 }
 
-// Computes log₂ x within 1.2e-7 absolute and 2e-7 relative. Below the smallest normal number, and for NaN, it is −126.
+// Computes log₂ x within 1.2e-7 absolute and 2e-7 relative. The result is −126 for x below the smallest normal number
+// and for NaN.
 LANE_FN num log2_of(num x)
 {
     struct binary_parts b = binary_parts_of(max_of(x, num_of(SMALLEST_NORMAL)));
     return b.exponent + (1.5f * b.rest + log2_remainder(b.rest));
 }
 
-// Computes 2^y with a relative error of at most 2.5e-7. It is 0 below −126 and for NaN; y above 127.5 counts as 127.5.
+// Computes 2^y with a relative error of at most 2.5e-7. The result is 0 for y below −126 and for NaN; y above 127.5 is
+// treated as 127.5.
 LANE_FN num exp2_of(num y)
 {
     num x = min_of(y, num_of(127.5f));
@@ -68,11 +71,11 @@ LANE_FN num exp2_of(num y)
     return pick(y >= -126.0f, exp2_fraction(x - w.whole) * w.power, num_of(0.0f));
 }
 
-// Computes y = exponent · log₂ base as head + tail, for a normal base > 0 that is already split. A power needs y within
-// 2e-6 for y up to 126, which is two bits more than a float has. Therefore the logarithm is split into a head of 12
-// bits (any nearby value works; a short estimate is used) and a tail, and so is the exponent. Head · head is then
-// exact, and only small products are rounded. The split of the exponent is the same for every pixel, so the compiler
-// moves it out of the loop.
+// Computes y = exponent · log₂ base as head + tail, for a normal base > 0 that is already split. A power needs y with
+// an error of at most 2e-6 for y up to 126, which is two bits more than a float has. Therefore the logarithm and the
+// exponent are each split into a head of 12 bits and a tail. (The logarithm's head may be any nearby value; a short
+// estimate is used.) Head · head is then exact, and only small products are rounded. The split of the exponent is the
+// same for every pixel, so the compiler moves it out of the loop.
 struct two_parts {
     num head, tail;
 };
@@ -89,16 +92,17 @@ LANE_FN struct two_parts scaled_log2(struct binary_parts b, num exponent)
     return (struct two_parts){exponent_head * log_head, exponent_tail * log_head + exponent * log_tail};
 }
 
-// Returns the smallest base that does not count as 0. With exponent 0 every base is accepted, since 0⁰ = 1.
+// Returns the smallest base that is not treated as 0. If the exponent is 0, no base is treated as 0, because 0⁰ = 1.
 LANE_FN num min_base(num exponent) { return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff())); }
 
-// Computes base^exponent for a base in 0…1 (a larger base counts as 1) and any finite exponent ≥ 0. 0⁰ = 1. Otherwise
-// it is 0 if the base is 0, negative, below the smallest normal number, or NaN. Results below the smallest normal
-// number are 0, because denormals cost two to three times as much as the rest. The relative error is at most 2e-6 for
-// exponents up to 128, and 3e-6 for all others.
+// Computes base^exponent for a base in 0…1 (a larger base is treated as 1) and any finite exponent ≥ 0. 0⁰ is 1. For
+// other exponents, the result is 0 if the base is 0, negative, below the smallest normal number, or NaN. A result below
+// the smallest normal number becomes 0, because calculations with denormals take two to three times as long. The
+// relative error is at most 2e-6 for exponents up to 128, and 3e-6 for all others.
 //
-// There are three steps, so that a loop over many powers overlaps their latencies: the parts of the base; its
-// logarithm, with a head of −∞ if the result is 0; the power of two.
+// Three functions compute the steps, so that a loop over many powers overlaps their latencies. The first splits the
+// base, the second computes its logarithm (with a head of −∞ if the power is 0), and the third computes the power of
+// two.
 LANE_FN struct binary_parts unit_parts_of(num base) { return binary_parts_of(min_of(base, num_of(1.0f))); }
 
 LANE_FN struct two_parts unit_power_logarithm(num base, struct binary_parts parts, num exponent)
@@ -127,18 +131,17 @@ LANE_FN num power(num base, num exponent)
     struct two_parts y = scaled_log2(binary_parts_of(base), min_of(exponent, num_of(1.0e30f)));
     num sum = y.head + y.tail;
     struct whole_power w = whole_power_of(min_of(sum, num_of(127.0f)));
-    num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // it may slightly exceed ½, because the sum was
-                                                                       // rounded
+    num fraction = min_of((y.head - w.whole) + y.tail, num_of(0.51f)); // may slightly exceed ½ because of rounding
     mask some = both(base >= min_base(exponent), sum >= -126.0f);
     return pick(some, exp2_fraction(fraction) * w.power, num_of(0.0f));
 }
 
-// Computes 1/√x for normal x > 0 within 9e-8 relative; about 3.6e19 at 0, so that 0 · rsqrt(0) = 0. It starts from the
-// bits (the halved, negated exponent). The constants of the first step are fitted to give a slightly low result, which
-// makes the rounding of x·y² finer. The last step is of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2
-// + 3e²/8 + …).
+// Computes 1/√x for normal x > 0 with a relative error of at most 9e-8. The result at 0 is about 3.6e19, so that 0 ·
+// rsqrt(0) = 0. The first estimate is computed from the bits of x, by halving and negating the exponent. The constants
+// of the first step are chosen to make its result slightly too small, because x·y² then has a smaller rounding error.
+// The last step is of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
 //
-// There are two steps for loops, as above: an approximation and its refinement.
+// Two functions compute the approximation and its refinement, so that loops can overlap their latencies.
 LANE_FN num rsqrt_near(num x)
 {
     num y = num_of_bits(wrap_sub(inum_of(0x5f1ffff9), shift_right(bits_of(x), 1)));

@@ -1,14 +1,14 @@
 // lanes.h: SIMD values of LANES numbers. Define LANES as 1, 4, 8 or 16 before including it.
 //
-//  num    LANES floats          inum   LANES 32-bit integers          mask   LANES truth values, from comparisons
+//  num    LANES floats          inum   LANES 32-bit integers          mask   LANES truth values (from comparisons)
 //
-// With LANES 1 a num is a float and the same source is ordinary C. Otherwise it is a GCC/Clang vector type, which
-// compiles for any instruction set (several registers are used if it is wider than one). Every width therefore runs
-// everywhere. It also gives the same bits, since all operations are correctly rounded (+ − × ÷ √, no fused ones). All
-// intrinsics for lanes are in this file. (Two other files have intrinsics of their own: byte_masks.h in src/import/obj,
-// which reads text by the register, and float_state.h, which sets the floating-point control register.) Code on lanes
-// uses only the functions below and + − * / < <= > >= == !=. A vector operator accepts a C float on one side, but a
-// variable initialised with a float needs num_of().
+// If LANES is 1, a num is a float and the same source is ordinary C. Otherwise a num is a GCC/Clang vector type, which
+// compiles for any instruction set; a vector that is wider than a register occupies several registers. Every width
+// therefore runs on every machine. All widths give bit-identical results, because all operations (+ − × ÷ √, never
+// fused) are correctly rounded. All intrinsics for lanes are in this file. (Two other files use intrinsics:
+// src/import/obj/byte_masks.h, which reads text one register at a time, and float_state.h, which sets the
+// floating-point control register.) Code that works on lanes uses only the functions below and + − * / < <= > >= == !=.
+// A vector operator accepts a C float on one side, but a variable initialised with a float needs num_of().
 #ifndef LANES_H
 #define LANES_H
 
@@ -25,8 +25,8 @@
 #include <wasm_simd128.h>
 #endif
 
-// These functions are always inlined, so that lanes stay in registers, except in code that computes one pixel
-// (src/cpu/kernels.c), for which size matters more.
+// These functions are always inlined, so that lanes stay in registers. The exception is code that computes one pixel at
+// a time (src/cpu/kernels.c): there, small code is more important.
 #ifdef RECORDING
 #define LANE_FN static inline __attribute__((unused))
 #else
@@ -96,7 +96,7 @@ LANE_FN num num_of_bits(inum i)
     memcpy(&x, &i, 4);
     return x;
 }
-LANE_FN num pick(mask m, num a, num b) { return m ? a : b; } // selects a if m is set, else b
+LANE_FN num pick(mask m, num a, num b) { return m ? a : b; } // selects a if m is set, otherwise b
 LANE_FN inum ipick(mask m, inum a, inum b) { return m ? a : b; }
 LANE_FN mask both(mask a, mask b) { return a & b; }
 LANE_FN mask either(mask a, mask b) { return a | b; }
@@ -104,7 +104,7 @@ LANE_FN mask negate(mask a) { return !a; }
 LANE_FN int any_lane(mask m) { return m != 0; }
 LANE_FN int all_lanes(mask m) { return m != 0; }
 LANE_FN unsigned mask_bits(mask m) { return m != 0; } // bit i is lane i
-// Rounds towards zero. |x| must be below 2³¹ and not NaN, so clamp it first.
+// Rounds towards zero. |x| must be below 2³¹ and not NaN, so clamp x first.
 LANE_FN inum int_of(num x) { return (int32_t)x; }
 LANE_FN num num_of_int(inum i) { return (float)i; }
 LANE_FN inum wrap_add(inum a, inum b) { return (int32_t)((uint32_t)a + (uint32_t)b); } // modulo 2³²
@@ -188,8 +188,8 @@ LANE_FN num square_root(num x)
 }
 #endif
 
-// Minimum and maximum; the result is b if either is NaN, or if both are zeros. These are the semantics of x86's
-// instructions; a comparison and a selection would take twice as long.
+// The minimum and maximum of a and b. The result is b if either is NaN, or if both are zeros, because the x86
+// instructions work like this. A comparison and a selection would take twice as long.
 #if LANES == 16 && defined(__AVX512F__)
 LANE_FN num min_of(num a, num b) { return (num)_mm512_min_ps((__m512)a, (__m512)b); }
 LANE_FN num max_of(num a, num b) { return (num)_mm512_max_ps((__m512)a, (__m512)b); }
@@ -200,7 +200,7 @@ LANE_FN num max_of(num a, num b) { return (num)_mm256_max_ps((__m256)a, (__m256)
 LANE_FN num min_of(num a, num b) { return (num)_mm_min_ps((__m128)a, (__m128)b); }
 LANE_FN num max_of(num a, num b) { return (num)_mm_max_ps((__m128)a, (__m128)b); }
 #elif LANES == 4 && defined(__wasm_simd128__)
-// WebAssembly's pmin(x, y) is y < x ? y : x, with the operands swapped.
+// WebAssembly defines pmin(x, y) as y < x ? y : x, so the operands are swapped here.
 LANE_FN num min_of(num a, num b) { return (num)wasm_f32x4_pmin((v128_t)b, (v128_t)a); }
 LANE_FN num max_of(num a, num b) { return (num)wasm_f32x4_pmax((v128_t)b, (v128_t)a); }
 #else
@@ -216,7 +216,7 @@ LANE_FN num positive(num x) { return max_of(x, num_of(0.0f)); }
 // Clamps x to 0…1; NaN becomes 0.
 LANE_FN num saturate(num x) { return min_of(positive(x), num_of(1.0f)); }
 
-// Stores x in the lanes of m; memory in the other lanes is unchanged.
+// Stores the lanes of x that are set in m; the memory of the other lanes is unchanged.
 LANE_FN void num_store_where(float *at, mask m, num x, num old)
 {
 #if LANES == 16 && defined(__AVX512DQ__)
@@ -296,7 +296,7 @@ LANE_FN void inum_store_8(uint8_t *at, inum x)
 #endif
 }
 
-// Rounds down, for |x| < 2³¹ and not NaN (clamp first).
+// Rounds down. |x| must be below 2³¹ and not NaN, so clamp x first.
 LANE_FN inum floor_of(num x)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -313,7 +313,7 @@ LANE_FN inum floor_of(num x)
 #endif
 }
 
-// Returns the lanes below 0 as bits.
+// Returns a bit mask of the lanes that are below 0: bit i is lane i.
 LANE_FN unsigned negative_bits(inum x)
 {
 #if LANES == 16 && defined(__AVX512DQ__)
@@ -323,7 +323,7 @@ LANE_FN unsigned negative_bits(inum x)
 #endif
 }
 
-// Counts, for each lane, the set `bits` of this and all earlier lanes.
+// Returns, for each lane, how many bits are set in `bits` for this lane and all earlier lanes.
 LANE_FN inum bits_up_to_lane(unsigned bits)
 {
     inum x = inum_of((int32_t)bits) & ((inum_of(2) << lane_numbers()) - 1);
@@ -333,7 +333,7 @@ LANE_FN inum bits_up_to_lane(unsigned bits)
     return (x + (x >> 8)) & 0x1f;
 }
 
-// Permutes lanes: lane i of the result is lane at[i] of x; at is 0 to LANES − 1.
+// Permutes lanes: lane i of the result is lane at[i] of x. Each at[i] is 0 to LANES − 1.
 LANE_FN num lanes_at(num x, inum at)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -372,7 +372,7 @@ LANE_FN float min_lane(num x)
 #endif
 }
 
-// Loads the lower half of the lanes from one address, the upper half from another.
+// Loads the lower half of the lanes from one address, and the upper half from another.
 LANE_FN num num_load_halves(const float *low, const float *high)
 {
 #if LANES == 1
@@ -388,7 +388,7 @@ LANE_FN num num_load_halves(const float *low, const float *high)
 }
 
 #if LANES == 8 && defined(__AVX2__)
-// For each set of eight bits, the indices of its set bits in ascending order, one byte each.
+// For each value of a byte, the indices of its set bits in ascending order, one byte each.
 #define BIT_NUMBER(b, i) ((b) >> (i) & 1 ? (uint64_t)(i) << 8 * __builtin_popcount((b) & ((1u << (i)) - 1)) : 0)
 #define BIT_NUMBERS(b)                                                                                                 \
     (BIT_NUMBER(b, 0) | BIT_NUMBER(b, 1) | BIT_NUMBER(b, 2) | BIT_NUMBER(b, 3) | BIT_NUMBER(b, 4) | BIT_NUMBER(b, 5) | \
@@ -406,7 +406,7 @@ static const uint64_t bit_numbers[256]
 #endif
 
 #if LANES == 4 && defined(__wasm_simd128__)
-// For each set of four lanes, the indices of its bytes in ascending order; the rest is 0.
+// For each subset of four lanes, the indices of the bytes in these lanes, in ascending order. An index of 16 gives 0.
 #define LANE_BYTES(i) 4 * (i), 4 * (i) + 1, 4 * (i) + 2, 4 * (i) + 3
 #define NO_LANE       16, 16, 16, 16
 static const uint8_t packed_bytes[16][16] __attribute__((unused)) = {
@@ -431,8 +431,8 @@ static const uint8_t packed_bytes[16][16] __attribute__((unused)) = {
 #undef NO_LANE
 #endif
 
-// Stores the lanes selected by `bits` (bit i: lane i) consecutively, in order; LANES elements must be
-// writable. Returns their number.
+// Stores the lanes selected by `bits` (bit i selects lane i) consecutively, in order, and returns how many it stored.
+// LANES elements must be writable.
 LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 {
 #if LANES == 16 && defined(__AVX512F__)
@@ -455,7 +455,7 @@ LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 #endif
 }
 
-// Gathers elements: lane i is from[at[i]]; at < 2³¹.
+// Gathers elements: lane i of the result is from[at[i]]. Each at[i] is below 2³¹.
 LANE_FN inum igather(const int32_t *from, inum at)
 {
 #if LANES == 1
@@ -473,8 +473,8 @@ LANE_FN inum igather(const int32_t *from, inum at)
 }
 
 // Gathers three consecutive numbers at each of LANES addresses: lane i of out[k] is the 32 bits at from[stride · at[i]
-// + k]. Nothing else is read, so the array may end with the last of them. On x86 the three are loaded at once and
-// transposed, which is four times as fast as the gather instruction.
+// + k]. Nothing else is read, so the array may end with the last of these numbers. On x86 three numbers are loaded at
+// once and transposed, which is four times as fast as the gather instruction.
 LANE_FN void igather3(const void *from, const uint32_t *at, int stride, inum out[3])
 {
     const char *base = from;

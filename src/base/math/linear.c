@@ -10,13 +10,14 @@ double math_sqrt(double x) { return x > 0 ? __builtin_sqrt(x) : 0; }
 double math_radians(double degrees) { return degrees * (PI / 180); }
 double math_degrees(double radians) { return radians * (180 / PI); }
 
-// π/2 in three summands, the first two with 33 significant bits, so that their products with the quotient are exact.
+// π/2 in three summands, the first two with 33 significant bits, so that their products with a number of quarter turns
+// are exact.
 #define HALF_PI_1 1.57079632673412561417e+00
 #define HALF_PI_2 6.07710050630396597660e-11
 #define HALF_PI_3 2.02226624879595063154e-21
 
-// Splits x into quarter·π/2 + rest with |rest| ≤ π/4 (slightly more by rounding). It is accurate enough for |x| ≤ 1e6.
-// Larger angles are not reduced: they do not occur in practice, and the result stays finite.
+// Splits x into quarter·π/2 + rest with |rest| ≤ π/4 (slightly more because of rounding). The split is accurate enough
+// for |x| ≤ 1e6. Larger angles are not reduced: they do not occur in practice, and the result stays finite.
 static double reduce(double x, int *quarter)
 {
     if (!(x > -1e9 && x < 1e9)) {
@@ -30,7 +31,7 @@ static double reduce(double x, int *quarter)
     return ((x - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3;
 }
 
-// Sums the Taylor series; the first omitted term is below 2⁻⁵³ of the result for |x| ≤ π/4.
+// Sums the Taylor series of the sine. For |x| ≤ π/4, the first omitted term is below 2⁻⁵³ of the result.
 static double sine_series(double x)
 {
     double z = x * x;
@@ -79,8 +80,8 @@ double math_cos(double x)
 
 double math_tan(double x) { return math_sin(x) / math_cos(x); }
 
-// Computes atan t for t in [0, 1]: t is halved twice by atan t = 2 atan(t / (1 + √(1 + t²))), then the series is used
-// for t ≤ tan(π/16).
+// Computes atan t for t in [0, 1]. The angle is halved twice by atan t = 2 atan(t / (1 + √(1 + t²))), then the series
+// is used, with t ≤ tan(π/16).
 static double arctangent(double t)
 {
     for (int i = 0; i < 2; i++)
@@ -116,7 +117,8 @@ double math_acos(double x)
     return math_atan2(math_sqrt((1 - x) * (1 + x)), x);
 }
 
-// The integral part is applied by doubling or halving; the fraction, at most ½, uses the series of e^(x ln 2).
+// The whole part of x is applied by doubling or halving. For the rest of x, at most ½, the series of e^(x ln 2) is
+// used.
 double math_exp2(double x)
 {
     int whole = (int)(x < 0 ? x - 0.5 : x + 0.5);
@@ -237,7 +239,7 @@ lam_mat4 mat4_scale(double x, double y, double z)
     return m;
 }
 
-// Rodrigues' formula.
+// Uses Rodrigues' rotation formula.
 lam_mat4 mat4_rotate(double radians, lam_vec3 axis)
 {
     lam_vec3 k = v3_unit(axis);

@@ -21,13 +21,13 @@ double v3_length(lam_vec3 a);
 lam_vec3 v3_unit(lam_vec3 a); // zero stays zero; no overflow or underflow
 bool v3_finite(lam_vec3 a);
 
-// Correctly rounded √ (the processor's instruction), and trigonometric functions within 2 units in the last place for
-// |x| ≤ 1e6.
+// math_sqrt is correctly rounded (it is a processor instruction). For |x| ≤ 1e6, the trigonometric functions are exact
+// to 2 units in the last place.
 double math_sqrt(double x);
 double math_sin(double x);
 double math_cos(double x);
 double math_tan(double x);
-double math_acos(double x); // argument clamped to −1…1; result 0…π
+double math_acos(double x); // the argument is clamped to −1…1; the result is 0…π
 double math_atan2(double y, double x);
 double math_exp2(double x); // 2^x, |x| ≤ 1000; exact for whole numbers
 double math_radians(double degrees);
@@ -38,16 +38,17 @@ lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b);    // a·b, which appli
 lam_vec3 mat4_point(const lam_mat4 *m, lam_vec3 p);         // affine: w = 1, last row ignored
 lam_vec3 mat4_vector(const lam_mat4 *m, lam_vec3 v);        // upper 3×3 only
 double mat4_determinant3(const lam_mat4 *m);                // the determinant of the upper 3×3
-bool mat4_inverse_affine(const lam_mat4 *m, lam_mat4 *out); // false if the 3×3 is singular
-// Computes the cofactors of the upper 3×3, which are the inverse transpose times the determinant. They transform
-// normals; the caller handles the sign of the determinant (a mirror reverses the winding, not the normal).
+bool mat4_inverse_affine(const lam_mat4 *m, lam_mat4 *out); // false if the upper 3×3 is singular
+// Computes the cofactors of the upper 3×3, which are the inverse transpose times the determinant. Cofactors transform
+// normals. The caller handles the sign of the determinant (a mirror reverses the winding, not the normal).
 void mat4_normal_matrix(const lam_mat4 *m, double out[3][3]);
 
 lam_mat4 mat4_translate(double x, double y, double z);
 lam_mat4 mat4_scale(double x, double y, double z);
 lam_mat4 mat4_rotate(double radians, lam_vec3 axis);               // right-handed; the axis has any nonzero length
 lam_mat4 mat4_look_at(lam_vec3 eye, lam_vec3 target, lam_vec3 up); // world to eye space
-// OpenGL's projections: z from −1 at the near plane to 1 at the far one, distances positive.
+// The projection matrices of OpenGL: z is −1 at the near plane and 1 at the far plane. The distances of both planes are
+// positive.
 lam_mat4 mat4_perspective(double fovy_rad, double aspect, double near_plane, double far_plane);
 lam_mat4 mat4_orthographic(double half_height, double aspect, double near_plane, double far_plane);
 

@@ -4,8 +4,8 @@
 #include <stdint.h>
 #include <string.h>
 
-// Returns the fifth root by Newton's method. The first estimate, from the exponent divided by five, is within 6 %. Five
-// steps, each of which squares the error, reduce it below the precision of a double.
+// Returns the fifth root by Newton's method. The first estimate, computed from the exponent divided by five, has an
+// error of at most 6 %. Five steps, each of which squares the error, reduce it below the precision of a double.
 static double fifth_root(double x)
 {
     uint64_t bits;

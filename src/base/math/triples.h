@@ -1,4 +1,4 @@
-// triples.h: loads and stores points stored as x y z x y z ….
+// triples.h: loads and stores points that are stored as x y z x y z ….
 //
 // Points are loaded and stored four floats at a time and transposed in registers, which is several times faster than
 // one float at a time.
@@ -8,7 +8,8 @@
 #include "lanes.h"
 
 // Loads three floats from each of LANES addresses, or stores them to LANES consecutive points. Four floats are moved at
-// a time: one float after each point must be readable, and `store_triples` overwrites one float after the last.
+// a time, so one float after each point must be readable, and `store_triples` overwrites one float after the last
+// point.
 struct triples {
     num x, y, z;
 };
@@ -44,7 +45,7 @@ LANE_FN num split_quads(const float *const at[LANES], int i)
 #endif
 #undef QUAD
 }
-// Selects two of four floats of a and two of b (4 … 7) in each quad.
+// In each quad, selects two of the floats of a (0 … 3) and two of the floats of b (4 … 7).
 #define FROM(i, quad)             ((i) % 4 + 4 * (quad) + ((i) < 4 ? 0 : LANES))
 #define OF_QUAD(i, j, k, l, quad) FROM(i, quad), FROM(j, quad), FROM(k, quad), FROM(l, quad)
 #if LANES == 4

@@ -19,7 +19,7 @@ struct arena_block {
     uint8_t *memory;
     size_t capacity, used;
     bool whole;     // serves one request; nothing else is allocated from it
-    size_t held;    // if above 0, the bytes of the pages at `memory`, which pages_free releases
+    size_t held;    // if above 0, the size in bytes of the pages at `memory`, which pages_free must release
     size_t charged; // bytes charged to the call
 };
 
@@ -74,7 +74,7 @@ void arena_free(struct arena *arena)
 
 static void link_block(struct arena *arena, struct arena_block *block)
 {
-    // The block that serves small requests stays first in the list.
+    // The block from which small requests are allocated remains the first in the list.
     if (block->whole && arena->blocks) {
         block->next = arena->blocks->next;
         arena->blocks->next = block;

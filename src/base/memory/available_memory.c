@@ -1,9 +1,10 @@
-// available_memory.c: the memory available to this process: the smallest of the machine's memory and the limits.
+// available_memory.c: the memory available to this process: the machine's memory or the smallest limit, whichever is
+// less.
 //
-// Control groups limit memory in a container or under a batch system: cgroup v2 in memory.max, v1 in
-// memory.limit_in_bytes, each for a group and its descendants. Within a container, /proc/self/cgroup may contain a path
-// of the host that does not exist; its parent groups up to the root of the mount are read nevertheless.
-// https://docs.kernel.org/admin-guide/cgroup-v2.html, .../cgroup-v1/memory.html
+// Control groups limit memory in a container or under a batch system. The limit is in the file memory.max (cgroup v2)
+// or memory.limit_in_bytes (v1), and applies to a group and its descendants. In a container, /proc/self/cgroup may
+// contain a path of the host that does not exist there. The files of its parent groups, up to the root of the mount,
+// are still read. https://docs.kernel.org/admin-guide/cgroup-v2.html, .../cgroup-v1/memory.html
 #include "available_memory.h"
 
 #include "pages.h"
@@ -32,7 +33,7 @@ uint64_t lam_memory_available(void) { return UINT64_MAX; }
 
 enum { PATH_BYTES = 4096 };
 
-// Reads the first bytes of a file as text. Returns false if it cannot be read.
+// Reads the first bytes of a file as text. Returns false if the file cannot be read.
 static bool read_head(const char *path, char *text, size_t size)
 {
     int file = open(path, O_RDONLY | O_CLOEXEC);
@@ -79,8 +80,8 @@ static bool names_memory(const char *list, size_t length)
     return false;
 }
 
-// Returns the limit for a line of /proc/self/cgroup, "number:controllers:path"; cgroup v2 has number 0 and no
-// controllers.
+// Returns the limit for the group in a line of /proc/self/cgroup. The line has the form "number:controllers:path"; for
+// cgroup v2, the number is 0 and there are no controllers.
 static uint64_t limit_of_line(const char *root, char *line)
 {
     char *list = strchr(line, ':'), *path = list ? strchr(list + 1, ':') : NULL;

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-// Works like lam_memory_available, but ignores this process's resource limits and reads the system files below `root`:
-// "", or a folder for tests. Returns UINT64_MAX if the files set no limit.
+// Works like lam_memory_available, but ignores this process's resource limits and reads the system files below the
+// folder `root`. `root` is "", except in tests. Returns UINT64_MAX if the files set no limit.
 uint64_t memory_of_groups(const char *root);
 
 #endif

@@ -9,8 +9,8 @@ struct buffer {
     size_t capacity;
 };
 
-// Ensures a capacity of `bytes`; the contents are lost if the buffer grows. The growth is charged to the call. Returns
-// false and fills the error on failure.
+// Ensures that the buffer has a capacity of at least `bytes` bytes. The contents are lost if the buffer grows. The
+// growth is charged to the call. Returns false and fills the error on failure.
 bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *call, lam_error *error);
 void buffer_free(struct buffer *buffer);
 

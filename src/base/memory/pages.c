@@ -1,4 +1,4 @@
-// pages.c: large blocks from the operating system, in huge pages where available.
+// pages.c: large blocks from the operating system, in huge pages if they are available.
 #include "pages.h"
 
 #include <stdint.h>
@@ -52,9 +52,10 @@ void *pages_get_sparse(size_t bytes, size_t *held)
     return map(*held);
 }
 
-// A block of at least one huge page is aligned to it: the kernel then backs it with huge pages from the first touch,
-// which takes a third of the time of small pages. The remainder after the last whole huge page also gets a huge page if
-// this enlarges the block only slightly, which is faster than hundreds of small pages.
+// A block of at least one huge page is aligned to the size of huge pages. The kernel then uses huge pages from the
+// first access, which takes a third of the time of small pages. If only a part of the last huge page is needed, it is
+// still allocated completely if this enlarges the block only slightly. One huge page is faster than hundreds of small
+// pages.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)

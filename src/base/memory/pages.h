@@ -1,26 +1,27 @@
-// pages.h: large blocks from the operating system, in huge pages where available.
+// pages.h: large blocks from the operating system, in huge pages if they are available.
 #ifndef PAGES_H
 #define PAGES_H
 
 #include <stddef.h>
 
-// Whether the system commits memory on first touch, so that reserving much more than is used uses no memory.
+// Whether the system provides memory only on first access. If so, a caller may reserve much more memory than it uses.
 #if defined(__wasm__)
 enum { PAGES_WHEN_TOUCHED = 0 };
 #else
 enum { PAGES_WHEN_TOUCHED = 1 };
 #endif
 
-// Allocates zeroed, page-aligned memory. `held` receives the size to free. Returns NULL if memory runs out.
+// Allocates zeroed, page-aligned memory. *held receives the size to pass to pages_free. Returns NULL if memory runs
+// out.
 void *pages_get(size_t bytes, size_t *held);
 // Allocates small pages, for sparsely used blocks.
 void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
-// Releases the pages after the first `bytes`, if the system supports it.
+// Releases the pages after the first `bytes` bytes, if the system supports this.
 void pages_trim(void *pages, size_t *held, size_t bytes);
 
-// Returns the size of the machine's memory in bytes, or SIZE_MAX if it is unknown. The system overcommits and kills
-// processes that use too much memory, so check this before a large allocation.
+// Returns the size of the machine's memory in bytes, or SIZE_MAX if it is unknown. The system grants more memory than
+// it has and kills processes that use too much, so check this size before a large allocation.
 size_t pages_of_machine(void);
 
 #endif

@@ -9,7 +9,8 @@ struct loop_status {
     int stopped, out_of_memory; // set by any thread
 };
 
-// Returns false if the call was cancelled, its time is over, or memory is exhausted. Every task checks this first.
+// Returns false if the call was cancelled, its deadline has passed, or memory is exhausted. Every task calls this
+// function first.
 static inline bool should_continue(struct loop_status *loop)
 {
     if (__atomic_load_n(&loop->stopped, __ATOMIC_RELAXED) || __atomic_load_n(&loop->out_of_memory, __ATOMIC_RELAXED))
@@ -22,7 +23,8 @@ static inline bool should_continue(struct loop_status *loop)
 
 static inline void no_memory(struct loop_status *loop) { __atomic_store_n(&loop->out_of_memory, 1, __ATOMIC_RELAXED); }
 
-// Fills the error with the reason and returns false. `bytes` is the approximate size of the failed allocation.
+// Fills the error with the reason why the loop stopped, and returns false. `bytes` is the approximate size of the
+// failed allocation.
 static inline bool loop_error(struct loop_status *loop, size_t bytes, lam_error *error)
 {
     return loop->out_of_memory ? call_memory_error(loop->call, bytes, error) : call_error(loop->call, error);

@@ -10,12 +10,12 @@
 
 enum {
     THREADS_MAX = 1024,
-    WORKER_STACK = 1 << 20, // stack size in bytes; drawing uses less than 128 kB. The system's default would follow
+    WORKER_STACK = 1 << 20, // stack size in bytes; drawing uses less than 128 kB. The system's default would depend on
                             // `ulimit -s`.
 };
 
 struct pool {
-    int threads; // the caller included
+    int threads; // number of threads, including the caller
     pthread_mutex_t lock;
     pthread_cond_t work, done;
     unsigned round; // incremented by each pool_run

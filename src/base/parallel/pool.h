@@ -6,18 +6,18 @@
 
 struct pool;
 
-// Makes a pool of `threads` threads, the caller included (0 means one for each processor that this process may use). It
-// has fewer threads if the system refuses more; the calling thread always runs tasks too. Returns NULL if memory runs
-// out.
+// Makes a pool of `threads` threads, including the caller (0 means one for each processor that this process may use).
+// The pool has fewer threads if the system refuses to create more. The calling thread always runs tasks too. Returns
+// NULL if memory runs out.
 struct pool *pool_make(int threads);
 void pool_free(struct pool *pool);
-int pool_threads(const struct pool *pool); // NULL: 1
+int pool_threads(const struct pool *pool); // 1 if `pool` is NULL
 
-// Calls task(user, index, thread) once for each index in [0, count), spread over the pool, and returns when all calls
-// are done. `thread` is 0 … pool_threads − 1 and selects the thread's own scratch memory. Indices are handed out in
-// order, one at a time, so divide the work into some hundred tasks whose size does not depend on the thread count.
-// Every thread runs with the library's floating-point state (float_state.h). If `pool` is NULL, the calling thread runs
-// all tasks. Each pool runs one pool_run at a time.
+// Calls task(user, index, thread) once for each index in [0, count), distributed over the threads of the pool, and
+// returns when all calls are done. `thread` is 0 … pool_threads − 1 and selects the thread's own scratch memory.
+// Threads take the indices in order, one at a time. The caller should therefore divide the work into some hundred tasks
+// whose size does not depend on the thread count. Every thread runs with the library's floating-point state
+// (float_state.h). If `pool` is NULL, the calling thread runs all tasks. Only one pool_run may run on a pool at a time.
 typedef void pool_task(void *user, size_t index, int thread);
 void pool_run(struct pool *pool, size_t count, pool_task *task, void *user);
 

@@ -1,4 +1,4 @@
-// dynamic_library.c: dlopen and dlsym.
+// dynamic_library.c: opens libraries with dlopen and dlsym.
 #include "dynamic_library.h"
 
 #include <stddef.h>
@@ -7,7 +7,7 @@
 
 #if defined(__wasm__)
 
-// WebAssembly cannot open libraries; the page's module contains replacements for some
+// WebAssembly cannot open libraries; the web page's module contains replacements for some of them
 // (src/import/gltf/draco/page_decoders.c).
 __attribute__((weak)) void *page_library(const char *name);
 __attribute__((weak)) bool page_library_find(void *library, const char *name, void *function);
@@ -33,7 +33,7 @@ bool library_find(void *library, const char *name, void *function)
 
 #include "static_libraries.h"
 
-// A static program contains its libraries and has no loader for others.
+// A static program contains its libraries and cannot load others.
 void *library_open(const char *name, bool resident, const char **reason)
 {
     (void)resident;
@@ -76,8 +76,8 @@ void *library_open(const char *name, bool resident, const char **reason)
     return library;
 }
 
-// Folders relative to this code: a build folder and its folder of tests, the folder for libraries, and the folder for
-// programs, which is beside it.
+// The folders to search, relative to the folder of this library or program. This library or program may be in the build
+// folder, in its subfolder for tests, in the system's library folder, or in the program folder beside it.
 static const char *const own_folders[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
 
 static void *open_beside(const char *file, const char *name)
@@ -100,7 +100,8 @@ void *library_open_own(const char *name)
 {
     Dl_info here;
     void *library = NULL;
-    // For the program itself, dladdr returns the name that started it, which may lack a folder.
+    // For the program itself, dladdr returns the name with which the program was started, which may not contain a
+    // folder.
     if (dladdr((const void *)own_folders, &here) && here.dli_fname && strchr(here.dli_fname, '/'))
         library = open_beside(here.dli_fname, name);
     return library ? library : open_beside("/proc/self/exe", name);

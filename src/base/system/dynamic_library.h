@@ -4,13 +4,13 @@
 
 #include <stdbool.h>
 
-// Opens a library by its file name ("libfreetype.so.6"). Returns NULL if it is not installed; *reason (may be NULL) is
-// then the loader's error message. With `resident`, it stays loaded until the process ends, which drivers that start
-// threads need.
+// Opens a library by its file name ("libfreetype.so.6"). Returns NULL if the library is not installed, and stores the
+// loader's error message in *reason (`reason` may be NULL). With `resident`, the library stays loaded until the process
+// ends; drivers that start threads need this.
 void *library_open(const char *name, bool resident, const char **reason);
-// Opens a shared object that is installed with this library or program, "lambent-draco.so", in the subfolder lambent of
-// the library folder, or in the build folder. It stays loaded until the process ends. Returns NULL if it, or a library
-// that it needs, is missing.
+// Opens a shared object that is installed with this library or program, for example "lambent-draco.so". The shared
+// object is in the subfolder lambent of the library folder, or in the build folder. The shared object stays loaded
+// until the process ends. Returns NULL if the shared object or a library that it needs is missing.
 void *library_open_own(const char *name);
 void library_close(void *library); // NULL is allowed
 

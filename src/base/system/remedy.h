@@ -1,5 +1,5 @@
-// remedy.h: advice in messages about a missing library. In a program it says how to install the library; in a web page,
-// where nothing can be installed, it names a program that reads the file.
+// remedy.h: advice in messages about a missing library. In a program, the advice says how to install the library. In a
+// web page, nothing can be installed, so the advice names a program that reads the file.
 #ifndef REMEDY_H
 #define REMEDY_H
 

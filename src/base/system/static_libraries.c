@@ -1,5 +1,5 @@
-// static_libraries.c: the libraries inside a static program (meson -Dstatic_program=true), with their functions by
-// name. dynamic_library.c uses this table, because a static program has no loader.
+// static_libraries.c: lists the libraries that a static program (meson -Dstatic_program=true) contains, and their
+// functions by name. dynamic_library.c uses this table, because a static program cannot load libraries.
 #include "static_libraries.h"
 
 #include <stddef.h>
@@ -30,7 +30,7 @@
                                                                                 function(meshopt_decodeFilterQuat)     \
                                                                                     function(meshopt_decodeFilterExp)
 
-// Only the addresses are used; callers know the types.
+// Only the addresses of these declarations are used; the callers know the functions' types.
 #define IGNORED(name)
 #define DECLARED(name) extern char name[];
 LIBRARIES(IGNORED, DECLARED)

@@ -1,4 +1,4 @@
-// static_libraries.h: the libraries inside a static program.
+// static_libraries.h: the libraries that a static program contains.
 #ifndef STATIC_LIBRARIES_H
 #define STATIC_LIBRARIES_H
 

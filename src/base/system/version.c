@@ -27,7 +27,7 @@
 
 const char *lam_version(void) { return LAM_VERSION_TEXT; }
 
-// From the build file: libraries and instruction sets.
+// The build file defines the list of libraries and instruction sets.
 #ifndef BUILT_WITH
 #define BUILT_WITH ""
 #endif

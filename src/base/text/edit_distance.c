@@ -7,8 +7,8 @@ enum { LENGTH_MAX = 63 }; // longer words are not compared
 
 static int min_int(int a, int b) { return a < b ? a : b; }
 
-// Computes the optimal string alignment (Damerau–Levenshtein without repeated edits of one position) and keeps three
-// rows of the table.
+// Computes the optimal string alignment distance (Damerau–Levenshtein without repeated edits of one position). Only
+// three rows of the table are stored.
 int lam_edit_distance(const char *a, const char *b)
 {
     int length_a = (int)strnlen(a, LENGTH_MAX + 1), length_b = (int)strnlen(b, LENGTH_MAX + 1);

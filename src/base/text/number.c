@@ -1,8 +1,8 @@
 // number.c: parses numbers in text, correctly rounded, in any locale.
 //
-// Three methods, each used if the previous one cannot guarantee the last bit:
+// There are three methods. Each method is used if the previous method cannot guarantee the last bit:
 //  1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers
-//     Accurately", 1990); for floats a product in double, unless it lies near the midpoint of two floats.
+//     Accurately", 1990); for floats, a product in double, unless the product is near the midpoint of two floats.
 //  2. One or two 64×64-bit products with a 128-bit power of five (Lemire, "Number Parsing at a Gigabyte per
 //     Second", 2021).
 //  3. Long division of exact big integers.
@@ -22,10 +22,10 @@ struct decimal {
 // The floating-point format of the result.
 struct format {
     int mantissa_bits;         // stored bits
-    int min_exponent_field;    // exponent of field 0, minus one: −bias
+    int min_exponent_field;    // the exponent that exponent field 0 would have: −bias
     int infinite;              // the exponent field of infinity
-    int even_first, even_last; // powers of ten for which a product can be a midpoint
-    int min_power, max_power;  // for any 19 digits, the result is 0 below and infinity above
+    int even_first, even_last; // range of powers of ten for which a product can be a midpoint
+    int min_power, max_power;  // powers of ten: for any 19 digits, the result is 0 below and infinity above
 };
 static const struct format format_double = {52, -1023, 0x7ff, -4, 23, -342, 308};
 static const struct format format_float = {23, -127, 0xff, -17, 10, -65, 38};
@@ -64,8 +64,8 @@ static void take_leading(struct decimal *d, int64_t exponent_behind_run, const u
         d->digits = d->digits * 10 + (unsigned)(*at - '0');
         taken++;
     }
-    // Dropped digits: each digit before the point counts as a power of ten; after the point the count of used digits
-    // already includes them.
+    // Each dropped digit before the point adds one to the power of ten. Dropped digits after the point do not change
+    // the power.
     int64_t left = d->stop - at;
     if (point && at <= point)
         left--; // the decimal point
@@ -76,7 +76,7 @@ static void take_leading(struct decimal *d, int64_t exponent_behind_run, const u
     }
 }
 
-// Reads sign, digits and exponent. Returns the position after them, or NULL if there are no digits.
+// Reads the sign, the digits and the exponent. Returns the position after the number, or NULL if there are no digits.
 static const uint8_t *scan(const uint8_t *at, const uint8_t *end, struct decimal *d)
 {
     *d = (struct decimal){0};
@@ -104,7 +104,7 @@ static const uint8_t *scan(const uint8_t *at, const uint8_t *end, struct decimal
             minus = *power++ == '-';
         if (power < end && (unsigned)(*power - '0') < 10) {
             for (; power < end && (unsigned)(*power - '0') < 10; power++) {
-                if (written < INT64_C(1) << 48) // larger than any number of digits that fits into memory
+                if (written < INT64_C(1) << 48) // the limit is larger than the number of digits that fit into memory
                     written = written * 10 + (*power - '0');
             }
             at = power;
@@ -145,7 +145,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
     digits <<= zeros;
     const uint64_t *five = powers_of_five[power - POWER_FIRST];
     struct wide product = multiply(digits, five[0]);
-    // The low half of the power matters only if it carries through all the dropped bits.
+    // The low half of the power of five matters only if its carry passes through all dropped bits.
     uint64_t cut = UINT64_MAX >> (format->mantissa_bits + 3);
     if ((product.high & cut) == cut) {
         uint64_t more = multiply(digits, five[1]).high;
@@ -158,7 +158,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
 
     int top = (int)(product.high >> 63);
     int shift = top + 64 - format->mantissa_bits - 3;
-    uint64_t mantissa = product.high >> shift; // one bit more than the result has
+    uint64_t mantissa = product.high >> shift; // one bit more than in the result
     // 217706/2^16 approximates log2(10), accurately enough to give the floor for every power in the table.
     int field = (int)((217706 * power) >> 16) + 63 + top - zeros - format->min_exponent_field;
     uint64_t hidden = UINT64_C(1) << format->mantissa_bits;
@@ -172,7 +172,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
         *bits = mantissa; // a carry may make it the smallest normal number
         return true;
     }
-    // Exactly at the midpoint: round to even.
+    // If the number is exactly at the midpoint, round to even.
     if (product.low <= 1 && power >= format->even_first && power <= format->even_last && (mantissa & 3) == 1 &&
         mantissa << shift == product.high)
         mantissa &= ~UINT64_C(1);
@@ -187,8 +187,8 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
 
 // --- method 3: big integers
 
-// Unsigned big integers, lowest limb first. They are large enough for 770 digits times 10^308, or 10^(342 + 770) and
-// its multiples by 2^64.
+// Unsigned big integers, lowest limb first. These integers are large enough for 770 digits times 10^308, or 10^(342 +
+// 770) and its multiples by 2^64.
 enum { LIMBS = 160, DIGITS_MAX = 770 };
 struct big {
     uint32_t limb[LIMBS];
@@ -253,8 +253,8 @@ static void big_subtract(struct big *a, const struct big *b) // requires a ≥ b
         a->count--;
 }
 
-// Reads up to DIGITS_MAX significant digits. No midpoint of two doubles has more than 767, so any later nonzero digits
-// are represented by one extra digit. Returns the power of ten to multiply by.
+// Reads up to DIGITS_MAX significant digits. No midpoint of two doubles has more than 767 digits, so one extra digit
+// represents all later nonzero digits. Returns the power of ten to multiply by.
 static int64_t big_digits(const struct decimal *d, struct big *a)
 {
     const uint8_t *at = d->first;
@@ -291,7 +291,7 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
     else
         big_times_power_of_ten(&under, -power);
 
-    // Scale so that the quotient's last bit is the last bit of the result.
+    // Scale the numbers so that the last bit of the quotient is the last bit of the result.
     int precision = format->mantissa_bits + 1;
     int min_exponent = format->min_exponent_field + 2 - precision; // exponent of a denormal's last bit
     // the exponent of the number's first bit, or one higher
@@ -319,12 +319,12 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
             big_shift_left(&over, 1); // instead of shifting the divisor down
     }
     bool rest = over.count != 0;
-    if (bits < 0) { // whether the part below the last bit is at least half of it
+    if (bits < 0) { // round up if the remainder is more than half of the last bit
         big_shift_left(&over, 1);
         int half = big_compare(&over, &under);
         return half > 0; // exactly half rounds to the even 0
     }
-    // The remainder was shifted up by `bits`, and so was the divisor: compare twice the remainder with the divisor.
+    // The remainder and the divisor were both shifted up by `bits`, so compare twice the remainder with the divisor.
     uint64_t hidden = UINT64_C(1) << format->mantissa_bits;
     bool up;
     if (quotient >= 2 * hidden) { // one bit too many
@@ -360,7 +360,8 @@ static uint64_t round_decimal(const struct decimal *d, const struct format *form
 
 // --- the public functions
 
-// Parses "inf", "infinity", "nan", "nan(…)", in upper or lower case. *bits receives the format's bits without the sign.
+// Parses "inf", "infinity", "nan" and "nan(…)", in upper or lower case. *bits receives the format's bits without the
+// sign.
 static const uint8_t *scan_special(const uint8_t *at, const uint8_t *end, const struct format *format, bool *negative,
                                    uint64_t *bits)
 {
@@ -409,8 +410,8 @@ static float float_of(uint64_t bits, bool negative)
     return x;
 }
 
-// Completes a number to which the fast paths of number_double and number_float do not apply. *bits are its bits without
-// the sign. `after` is the result of scan for `d`; if it is NULL, only "inf" and "nan" are possible.
+// Completes a number to which the fast paths of number_double and number_float do not apply. *bits receives the bits of
+// the number without the sign. `after` is the result of scan for `d`; if it is NULL, only "inf" and "nan" are possible.
 static const uint8_t *finish(const uint8_t *at, const uint8_t *end, const uint8_t *after, const struct format *format,
                              struct decimal *d, uint64_t *bits)
 {
@@ -441,8 +442,8 @@ const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out)
 
 const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out)
 {
-    // 10^e for e from −28 to 18, each within half a unit in the last place: multiplied by 19 digits, the product is a
-    // normal float.
+    // 10^e for e from −28 to 18, each exact to half a unit in the last place. The product of 19 digits and one of these
+    // powers is always a normal float.
     enum { LEAST = -28, MOST = 18 };
     static const double powers[] = {1e-28, 1e-27, 1e-26, 1e-25, 1e-24, 1e-23, 1e-22, 1e-21, 1e-20, 1e-19, 1e-18, 1e-17,
                                     1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9,  1e-8,  1e-7,  1e-6,  1e-5,

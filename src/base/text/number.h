@@ -10,10 +10,11 @@
 // with ties to even.
 const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out);
 
-// Parses a decimal number, rounded once to the nearest float (not through double).
+// Parses a decimal number and rounds it once, to the nearest float (not via double).
 const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out);
 
-// Parses a decimal integer with an optional sign. Returns NULL if there is none or it does not fit.
+// Parses a decimal integer with an optional sign. Returns NULL if there is no number, or if it does not fit into 64
+// bits.
 const uint8_t *number_int(const uint8_t *at, const uint8_t *end, int64_t *out);
 
 #endif

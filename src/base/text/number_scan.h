@@ -18,21 +18,23 @@ static inline uint64_t number_load8(const uint8_t *at)
     return eight;
 }
 
-// Returns the number of digits, 0 … 8, before the first non-digit of eight bytes. A byte below '0' borrows and one
-// above '9' carries, which affects only later bytes.
+// Returns the number of digits, 0 … 8, before the first non-digit of eight bytes. A byte below '0' causes a borrow and
+// a byte above '9' causes a carry, but both affect only later bytes.
 static inline unsigned number_digit_count(uint64_t eight)
 {
     uint64_t other = ((eight + 0x4646464646464646u) | (eight - 0x3030303030303030u)) & 0x8080808080808080u;
     return other ? (unsigned)__builtin_ctzll(other) / 8 : 8;
 }
 
-// Returns the value of the first `count` of eight bytes, all digits.
+// Returns the value of the first `count` of eight bytes, all of which must be digits.
 static inline uint64_t number_digits_value(uint64_t eight, unsigned count)
 {
-    // The digits are shifted to the end, with zeros in front; in two steps, since a shift by 64 is undefined.
+    // The digits are shifted to the end, with zeros before them. The shift is done in two steps, because a shift by 64
+    // is undefined.
     uint64_t v = (eight - 0x3030303030303030u) << 4 * (8 - count) << 4 * (8 - count);
-    // Neighbours are joined as ten times the first plus the second: 8 digits to 4 pairs to 2 quads to 1 number. One
-    // product does both, since 10 · 2⁸ + 1 adds ten times the lower byte to the upper one.
+    // Neighbouring digits are joined as ten times the first plus the second: 8 digits become 4 pairs, then 2 groups of
+    // four, then 1 number. One product does both steps, because the factor 10 · 2⁸ + 1 adds ten times the lower byte to
+    // the upper byte.
     v = (v * (10 << 8 | 1) >> 8) & 0x00ff00ff00ff00ffu;
     v = (v * (100 << 16 | 1) >> 16) & 0x0000ffff0000ffffu;
     return v * (UINT64_C(10000) << 32 | 1) >> 32;
@@ -61,8 +63,8 @@ static const uint64_t number_integer_powers[20] = {
     10000000000000000000u,
 };
 
-// Returns whether a double with an error of at most 4 units in its last place rounds to the correct float. It is false
-// near the midpoint of two floats. It is only valid for |x| from 2^-126 to 2^127.
+// Returns whether a double with an error of at most 4 units in its last place rounds to the correct float. The result
+// is false near the midpoint of two floats. |x| must be between 2^-126 and 2^127.
 static inline bool number_rounds_surely(double x)
 {
     uint64_t bits;
@@ -71,7 +73,7 @@ static inline bool number_rounds_surely(double x)
     return ((bits & 0x1fffffff) - 0x0ffffffc) > 8;
 }
 
-// Each power is rounded once.
+// The powers of ten, each rounded once.
 static const double number_tenths[16] = {1e0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
                                          1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
 
@@ -83,7 +85,8 @@ static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t
     const uint8_t *digits = at + negative;
     uint64_t eight = number_load8(digits);
     unsigned whole = 1, fraction = 0;
-    uint64_t value = (unsigned)(*digits - '0'); // models of about unit size have one digit before the point
+    uint64_t value = (unsigned)(*digits - '0'); // in models of about unit size, most numbers have one digit before the
+                                                // point
     if (digits[1] != '.' || value > 9) {
         whole = number_digit_count(eight);
         value = number_digits_value(eight, whole);

@@ -17,7 +17,8 @@ static const unsigned char *next_character(const unsigned char *at, const unsign
     return at + (step ? step : 1);
 }
 
-// Writes at most `limit` characters, and a final 0. Returns the first byte that was not written. *to receives the end.
+// Writes at most `limit` characters, and a final 0. Returns the address of the first byte that was not written. *to
+// receives the address of the final 0.
 static const unsigned char *write_characters(const unsigned char *at, const unsigned char *end, int limit, char **to)
 {
     for (int count = 0; at < end && count < limit; count++) {
@@ -55,7 +56,7 @@ const char *shown_file(const char *name, char out[SHOWN_NAME_SIZE])
     rest = write_characters(at, end, SHOWN_FILE_HEAD, &to);
     memcpy(to, "…", sizeof "…");
     to += sizeof "…" - 1;
-    const unsigned char *ahead = rest; // moves to the end in front of `rest`
+    const unsigned char *ahead = rest; // reaches `end` when `rest` is at the last characters
     for (int i = SHOWN_FILE_HEAD; i < SHOWN_CHARACTERS; i++)
         ahead = next_character(ahead, end);
     for (; ahead < end; ahead = next_character(ahead, end))

@@ -1,9 +1,10 @@
-// spelling.c: finds the nearest of several words.
+// spelling.c: finds the most similar of several words.
 #include "spelling.h"
 
 #include <string.h>
 
-// Returns the smallest distance that is too far. No word is near to one that is too long to be compared.
+// Returns the smallest edit distance at which a word is no longer similar. A word that is too long to be compared is
+// similar to none.
 static int limit_of(const char *word)
 {
     enum { COMPARED_MAX = 63 }; // the limit of lam_edit_distance

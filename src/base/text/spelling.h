@@ -1,20 +1,20 @@
-// spelling.h: suggestions for mistyped words.
+// spelling.h: suggests known names for mistyped words.
 #ifndef SPELLING_H
 #define SPELLING_H
 
 #include <lambent/base.h>
 
-// A search for the known name that a typed word means, by lam_word_distance.
+// A search for the known name that a typed word most likely means, by lam_word_distance.
 struct spelling {
     const char *word;    // as typed
-    const char *nearest; // the nearest word so far, or NULL
-    int limit;           // a nearer word has a distance below this
+    const char *nearest; // the most similar word so far, or NULL
+    int limit;           // a word must be nearer to replace `nearest`, or as near and shorter
 };
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
 
-// Returns the word of `words` with the smallest edit distance to `word`, at most a third of its length, or NULL if none
-// is that near.
+// Returns the word of `words` with the smallest edit distance to `word`. Returns NULL if this distance exceeds a third
+// of the length of `word`, plus one.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
 // Returns the known name among `words` that a typed word means, or NULL if none is close enough.

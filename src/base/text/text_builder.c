@@ -1,4 +1,4 @@
-// text_builder.c: a string builder.
+// text_builder.c: implements a string that grows as text is added.
 #include "text_builder.h"
 
 #include "fail.h"
@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ASK_EVERY = 256 << 10 }; // bytes
+enum { ASK_EVERY = 256 << 10 }; // number of added bytes after which the call is checked again
 
-// Returns false, with the text failed, if the call must stop.
+// Marks the text as failed and returns false if the call must stop.
 static bool may_grow(struct text *text, size_t more)
 {
     if (!text->call)

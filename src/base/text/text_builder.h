@@ -1,17 +1,17 @@
-// text_builder.h: a string builder.
+// text_builder.h: a string that grows as text is added.
 #ifndef TEXT_BUILDER_H
 #define TEXT_BUILDER_H
 
 #include "call_control.h"
 
-// A zeroed struct is empty. After a failure further additions do nothing, and `error` contains the reason. The owner
-// frees `bytes`.
+// A zeroed struct is empty. After a failure, further additions have no effect, and `error` contains the reason. The
+// owner frees `bytes`.
 struct text {
     char *bytes; // ends with 0; NULL if empty
     size_t length, capacity;
     bool failed;
     lam_error error;
-    struct call_control *call; // charged for the bytes, and checked now and then for its limits; may be NULL
+    struct call_control *call; // the bytes are charged to it, and its limits are checked from time to time; may be NULL
     size_t asked;              // the length at the last check
 };
 

@@ -7,7 +7,7 @@
 enum { LENGTH_MAX = 63 };
 
 // Common synonyms, separated by spaces, in lower case with '-' between words. The program suggests them, but does not
-// accept them. If a name occurs in several rows, the rows for the current context apply.
+// accept them. If a name occurs in several rows, only the rows for the current context are used.
 static const struct {
     const char *word, *others;
 } vocabulary[] = {
@@ -111,7 +111,7 @@ static const struct {
     {"teapot", "utah"},
 };
 
-// Converts a word to lower case, and replaces '_' and ' ' with '-'. Returns false if it is too long.
+// Converts a word to lower case, and replaces '_' and ' ' with '-'. Returns false if the word is too long.
 static bool simplify(const char *word, char out[LENGTH_MAX + 1])
 {
     size_t length = strnlen(word, LENGTH_MAX + 1);

@@ -1,4 +1,4 @@
-// light_bounds.c: sorts a frame's lights by position and lays them out in rows.
+// light_bounds.c: sorts a frame's lights by position and stores them in rows.
 #include "light_bounds.h"
 
 #include "shade_frame.h"
@@ -10,7 +10,8 @@
 
 enum { KEY_BITS = 10, PASS_BITS = 11 };
 
-// The maximum slope of the sRGB curve, at black, which limits the effect of a small amount of light on a byte.
+// The maximum slope of the sRGB curve, which is at black. This slope limits how much a small amount of light changes a
+// byte.
 #define SRGB_SLOPE 12.92f
 
 // The sort key of a light.
@@ -27,7 +28,7 @@ static uint32_t spread_bits(uint32_t x)
     return (x | x << 2) & 0x09249249;
 }
 
-// Quantizes x from low…high to 0…1023; NaN gives 0.
+// Quantizes x from the range low…high to 0…1023; NaN gives 0.
 static uint32_t quantize(float x, float low, float high)
 {
     float part = (x - low) / (high - low) * (float)((1 << KEY_BITS) - 1);
@@ -36,7 +37,7 @@ static uint32_t quantize(float x, float low, float high)
 
 static bool has_range(const struct frame_light *light) { return light->falloff == FALLOFF_RANGE; }
 
-// Computes Morton codes: the bits of the three coordinates interleaved. Lights without a range come last.
+// Computes Morton codes, which interleave the bits of the three coordinates. Lights without a range come last.
 static void make_keys(const struct frame *frame, struct sort_key *keys)
 {
     float low[3], high[3];
@@ -60,7 +61,7 @@ static void make_keys(const struct frame *frame, struct sort_key *keys)
     }
 }
 
-// Sorts by key with a stable radix sort, 11 bits at a time from the lowest.
+// Sorts by key with a stable radix sort, 11 bits at a time, starting with the lowest bits.
 static void sort_keys(struct sort_key *keys, struct sort_key *other, int count)
 {
     for (int shift = 0; shift < 3 * PASS_BITS; shift += PASS_BITS) {
@@ -102,7 +103,7 @@ static float min_cosine(const struct frame_light *light)
     }
 }
 
-// Suballocates rows, each a multiple of 64 bytes. Without a block it only computes the size.
+// Allocates rows from a block, each a multiple of 64 bytes. If `at` is NULL, it only computes the total size.
 struct rows {
     float *at;
     size_t used;
@@ -115,7 +116,7 @@ static float *row(struct rows *rows, int count)
     return part;
 }
 
-// The rows of struct light_bounds, writable, and two rows for sorting.
+// The writable rows of struct light_bounds, and two rows for sorting.
 struct bound_rows {
     uint32_t *number, *all;
     float *position[3], *axis[3], *attenuation[3], *min_cosine, *inverse_range, *max_diffuse, *max_specular;
@@ -241,7 +242,7 @@ bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const
             fill_group(&w, g, count);
     }
     fill_materials(&w, count, capacity, frame, materials);
-    // Tone curves are nowhere steeper than linear light, except those with a sigmoid.
+    // No tone curve is steeper than linear light, except the two sigmoid curves.
     float steep = frame->settings.tone == LAM_TONE_ACES || frame->settings.tone == LAM_TONE_AGX ? 4.0f : 1.0f;
     float slope = steep * (frame->settings.color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;
     *table = (struct light_bounds){

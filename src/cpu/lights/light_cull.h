@@ -7,8 +7,8 @@
 struct light_list {
     uint32_t *numbers; // indices in the frame, ascending
     int count;
-    uint64_t *bits; // one for each light of the frame: whether it is listed
-    float *bound;   // scratch memory: the most that each light can add
+    uint64_t *bits; // one bit for each light of the frame: whether the light is listed
+    float *bound;   // scratch memory: the maximum contribution of each light
 };
 
 #endif

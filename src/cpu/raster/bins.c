@@ -7,7 +7,7 @@
 
 enum {
     SLAB = 2 << 20,   // a huge page
-    FILLED = 1 << 17, // number of triangles for each thread that nearly fill its first slab
+    FILLED = 1 << 17, // number of triangles per thread that nearly fill the thread's first slab
 };
 
 // Allocates `bytes` from a list of slabs. New slabs come from the system and are kept for later frames.
@@ -27,7 +27,7 @@ static void *slab_take(const struct raster_frame *raster, struct slab_list *list
             if (!call_charge(raster->work->call, SLAB))
                 goto out_of_memory;
             size_t held;
-            // Whether all of its pages will be used.
+            // Whether all pages of the slab will be used.
             bool filled = next > 0 || raster->frame->triangle_count / (size_t)raster->thread_count > FILLED;
             void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
             if (!slab) {
@@ -65,7 +65,7 @@ struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread
     return slab_take(raster, &bins->blocks, sizeof(struct bin_block));
 }
 
-// A power of two, so that a clipped triangle's index gives its slab.
+// CLIPPED_PER_SLAB is a power of two, so that the slab of a clipped triangle is found by shifting its index.
 enum { CLIPPED_PER_SLAB = SLAB / 64 };
 _Static_assert(sizeof(struct clipped_triangle) <= 64, "a clipped triangle fits 64 bytes");
 
@@ -102,7 +102,8 @@ void bin_large(const struct raster_frame *raster, struct thread_bins *bins, cons
     y0 = y0 < 0 ? 0 : y0;
     x1 = x1 >= raster->tiles_across ? raster->tiles_across - 1 : x1;
     y1 = y1 >= raster->tiles_down ? raster->tiles_down - 1 : y1;
-    // Edge functions, positive inside. A tile is missed if even its innermost corner is outside an edge.
+    // The edge functions are positive inside the triangle. The triangle does not touch a tile if even the tile's
+    // innermost corner is outside an edge.
     int64_t sign = area > 0 ? 1 : -1, size = (int64_t)1 << shift;
     int64_t a[3], b[3], max[3];
     for (int k = 0; k < 3; k++) {

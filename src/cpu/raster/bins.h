@@ -5,12 +5,12 @@
 #include "raster_frame.h"
 
 // Each tile has two bins: one for small back-facing triangles, and one for all others. A bin is a chain of blocks of
-// triangle numbers. Every thread has its own bins, so binning needs no locks; the picture does not depend on the order
-// of a tile's triangles. Back faces are drawn last, because most are occluded by then; each has a depth bound that is
-// tested first (occlusion.inc).
+// triangle numbers. Every thread fills its own bins, so binning needs no locks. The picture does not depend on the
+// order of a tile's triangles. Back faces are drawn last, because most of them are then occluded. The depth bound of
+// each back face is tested first (occlusion.inc).
 enum {
     TILE_BINS = 2,       // tile t has bin 2·t, and 2·t + 1 for back faces
-    BIN_BLOCK_IDS = 128, // multiples of LANES_MAX, so that whole packets can be read
+    BIN_BLOCK_IDS = 128, // this and the next are multiples of LANES_MAX, so that whole packets can be read
     BIN_BLOCK_BACK_FACES = 64,
     SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit 32 bits
 };
@@ -22,7 +22,7 @@ struct bin_block {
     uint32_t ids[BIN_BLOCK_IDS]; // for back faces, BIN_BLOCK_BACK_FACES numbers followed by as many bounds
 };
 
-// A part of a clipped triangle: its own window coordinates, and the number of the triangle.
+// One triangle of a clipped polygon: its own window coordinates, and the number of the original triangle.
 struct clipped_triangle {
     float x[3], y[3], key[3];
     uint32_t id;
@@ -34,7 +34,7 @@ struct slab_list {
     void **slabs;
     int count, capacity; // slabs
     int current;         // the slab being filled
-    size_t used;         // bytes of it
+    size_t used;         // used bytes of the current slab
 };
 
 // The bins that one thread fills and all threads read.
@@ -47,8 +47,8 @@ struct thread_bins {
     uint64_t work; // units of work that have not been added yet
 };
 
-// Allocate a block for one more bin, or memory for one more clipped triangle. They return NULL if memory runs out; the
-// frame has then failed.
+// Allocate a block for one more bin, or memory for one more clipped triangle. Both functions return NULL if memory runs
+// out; the frame is then marked as failed.
 struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread_bins *bins);
 struct clipped_triangle *new_clipped_triangle(const struct raster_frame *raster, struct thread_bins *bins,
                                               uint32_t *number);

@@ -1,7 +1,8 @@
 // clip.c: clips triangles that cross the near or far plane or leave the guard band, in homogeneous coordinates.
 //
-// Sutherland and Hodgman, "Reentrant polygon clipping", 1974. An edge is always cut from its inner towards its outer
-// end, so that two triangles that share the edge get the same point, bit for bit, without a gap between them.
+// Sutherland and Hodgman, "Reentrant polygon clipping", 1974. An edge is always cut from its inner end towards its
+// outer end. Two triangles that share the edge therefore get the same point, bit for bit, and there is no gap between
+// them.
 #include "clip.h"
 
 #include <string.h>
@@ -14,8 +15,8 @@ struct corner {
 // folded.
 enum { PLANES = 6, CORNERS_MAX = 3 << PLANES };
 
-// Returns the distance to a plane times a positive number; ≥ 0 inside. Near and far planes come first, so that w > 0
-// when the guard band is tested.
+// Returns the distance to a plane times a positive number; it is ≥ 0 inside. The near and far planes are tested first,
+// so that w > 0 when the guard band is tested.
 static float distance(const struct raster_frame *raster, const struct corner *c, int plane)
 {
     float dx = c->x - 0.5f * (float)raster->frame->width * c->w;
@@ -62,7 +63,7 @@ static int clip_polygon(const struct raster_frame *raster, struct corner polygon
 
 static float row(const float m[4], const float *p) { return ((m[0] * p[0] + m[1] * p[1]) + m[2] * p[2]) + m[3]; }
 
-// Bins one triangle of the clipped polygon's fan, if it has an area and is not culled.
+// Bins one triangle of the clipped polygon's fan, if the triangle has an area and is not culled.
 static void bin_clipped(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
                         const struct clipped_triangle *found)
 {
@@ -100,15 +101,15 @@ void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, 
     struct clipped_triangle triangle = {.id = id};
     float x[CORNERS_MAX], y[CORNERS_MAX], key[CORNERS_MAX];
     for (int i = 0; i < count; i++) {
-        // The same operations as in vertex_transform.inc, so that an unclipped corner snaps to the same point in
-        // every triangle.
+        // The operations are the same as in vertex_transform.inc, so that an unclipped corner snaps to the same point
+        // in every triangle.
         float inverse = 1.0f / polygon[i].w;
         x[i] = polygon[i].x * inverse;
         y[i] = polygon[i].y * inverse;
         key[i] = raster->frame->orthographic ? 0.5f - 0.5f * (polygon[i].z * inverse) : inverse;
         float sum = inverse + x[i] + y[i] + key[i];
         if (!(inverse > 0) || sum - sum != 0)
-            return; // invisible: in the plane of the eye, or beyond the range of floats
+            return; // the corner is in the plane of the eye, or beyond the range of floats
     }
     for (int i = 1; i + 1 < count; i++) {
         int fan[3] = {0, i, i + 1};

@@ -4,7 +4,7 @@
 
 #include "bins.h"
 
-// A vertex that needs clipping has x = NaN, whose low bits encode the planes that it is outside of.
+// For a vertex that needs clipping, x is NaN, whose low bits say outside which planes the vertex is.
 enum outside {
     OUTSIDE_LEFT = 1,
     OUTSIDE_RIGHT = 2,
@@ -16,7 +16,8 @@ enum outside {
 };
 #define OUTSIDE_NAN 0x7fc00000
 
-// Clips triangle t of a draw (with the number `id`) against the planes that its corners violate, and bins the parts.
+// Clips triangle t of a draw (with the number `id`) against each plane that has a corner of the triangle outside. Bins
+// the resulting triangles.
 void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
                    uint32_t t, uint32_t id);
 

@@ -8,7 +8,7 @@
 struct fragment_store {
     int count;
     uint32_t lowest; // the lowest triangle number
-    bool narrow;     // all numbers are within 23 bits of `lowest`
+    bool narrow;     // the differences between all triangle numbers and `lowest` fit into 23 bits
     void *fragments;
 };
 

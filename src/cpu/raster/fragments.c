@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-// Sorts the fragments by group: a stable radix sort, 11 bits at a time from the lowest.
+// Sorts the fragments by group with a stable radix sort, 11 bits at a time, starting with the lowest bits.
 static void sort_by_group(struct fragments *fragments, uint32_t largest)
 {
     uint32_t n = (uint32_t)fragments->count;
@@ -31,7 +31,8 @@ static void sort_by_group(struct fragments *fragments, uint32_t largest)
         memcpy(fragments->order, from, n * sizeof *from);
 }
 
-// With one surface, its two sides are the only groups. Returns whether all fragments belong to one of them.
+// Groups the fragments of a single surface, whose two sides are the only groups. Returns whether all fragments belong
+// to the same side.
 static bool group_sides(struct fragments *fragments)
 {
     uint32_t backs = 0, n = (uint32_t)fragments->count;

@@ -16,16 +16,18 @@ struct fragments {
     uint32_t *group; // surface·2 + back
     uint32_t *order; // fragment indices sorted by group
     float *color[4]; // r, g, b, a; not premultiplied
-    // Translucent fragments, if the frame transmits light: the transmittance of each channel; otherwise NULL.
+    // For translucent fragments, if surfaces of the frame transmit light: the transmittance of each channel. Otherwise
+    // NULL.
     float *through[3];
-    // For translucent fragments, if the frame refracts: the offset into the picture behind in pixels to the right and
-    // down, and the square of the blur width in pixels, or −1 if the surface does not transmit light.
+    // For translucent fragments, if the frame refracts: the offset, in pixels to the right and down, at which the
+    // picture behind is read. The third value is the square of the blur width in pixels, or −1 if the surface does not
+    // transmit light.
     float *bend[3];
     // Scratch memory of the current step: three words for each fragment.
     uint32_t *scratch;
 };
 
-// Finds the group of each fragment, and the order by group.
+// Finds the group of each fragment, and sorts the fragments by group.
 void group_fragments(const struct frame *frame, struct fragments *fragments);
 
 #endif

@@ -13,26 +13,26 @@ struct chunk {
     uint32_t draw, first, count;
 };
 
-// The steps only read it, except for the vertices, which vertex_transform fills, and the work.
+// The steps only read this struct. The exceptions are the vertices, which vertex_transform fills, and the work.
 struct raster_frame {
     const struct frame *frame;
     const struct sample_pattern *pattern;
     struct work *work; // every worker adds to it
     int tiles_across, tiles_down;
-    bool without_glass; // surfaces that transmit are omitted, to draw the picture behind them
-    // The guard band: the largest |x| and |y| of a vertex, from the window's centre and in multiples of w, for which a
-    // triangle needs no clipping.
+    bool without_glass; // surfaces that transmit light are omitted, to draw the picture behind them
+    // The guard band: the largest |x| and |y| of a vertex for which a triangle needs no clipping. x and y are measured
+    // from the window's centre, in multiples of w.
     float guard[2];
-    // x, y, key of each vertex of the indexed meshes: pixels (y down, not snapped); larger keys are nearer. Corners of
-    // other meshes are transformed on demand (corners.inc).
+    // x, y and key of each vertex of the indexed meshes. x and y are in pixels (y down, not snapped); larger keys are
+    // nearer. Corners of other meshes are transformed on demand (corners.inc).
     float *vertices;
     const uint32_t *first_vertex;   // the first vertex of each indexed draw
     const struct thread_bins *bins; // the bins of each thread
     int thread_count;
 };
 
-// Rounds to the nearest 1/256 pixel, clamped to ±2²⁹: corners that clip.c computed from very distant ones can be
-// outside the guard band.
+// Rounds to the nearest 1/256 pixel and clamps to ±2²⁹. Clamping is necessary because corners that clip.c computes from
+// very distant corners can be outside the guard band.
 static inline int32_t snap(float x)
 {
     float t = x * 256.0f + 0.5f, max = 536870912.0f;

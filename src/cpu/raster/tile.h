@@ -7,14 +7,15 @@
 enum {
     TILE = 64, // pixels per side; the same on every machine
     TILE_SHIFT = 6,
-    SUBPIXEL = 256, // steps of a snapped vertex per pixel
+    SUBPIXEL = 256, // steps per pixel to which vertices are snapped
     SUBPIXEL_SHIFT = 8,
     LANES_MAX = 16,
-    LAYERS_MAX = 65536, // the most translucent fragments that a thread stores, and therefore the most over one pixel
+    LAYERS_MAX = 65536, // the maximum number of translucent fragments that a thread stores, and therefore that one
+                        // pixel may have
 };
 
 #define NOTHING   0xffffffffu // a sample that no triangle covers
-#define BACK_SIDE 0x80000000u // bit of a triangle number: the back is visible
+#define BACK_SIDE 0x80000000u // flag in a triangle number: the back of the triangle is visible
 
 // A tile: its column and row in the grid, and the number of its pixels inside the picture.
 struct tile {
@@ -32,8 +33,8 @@ struct rectangle {
     int left, top, right, bottom;
 };
 
-// A tile's samples are stored cell by cell. A cell contains CELL samples of an area that is as square as possible, so
-// that a small triangle touches few cells. Within a cell, pixels are stored row by row, and the samples of a pixel are
+// A tile's samples are stored cell by cell. A cell contains CELL samples, whose area is as square as possible, so that
+// a small triangle touches few cells. Within a cell, pixels are stored row by row, and the samples of a pixel are
 // adjacent.
 enum { CELL = 16 };
 struct cells {

@@ -1,5 +1,5 @@
-// visible_triangles.c: collects data of the whole picture before lighting: the visible triangles and their normals, for
-// meshes without normals; and the distances of surfaces, for ambient occlusion.
+// visible_triangles.c: collects data of the whole picture before lighting. For meshes without normals, it finds the
+// visible triangles and their normals. For ambient occlusion, it finds the distances of surfaces.
 #include "visible_triangles.h"
 
 #include "cpu_frame.h"
@@ -36,13 +36,14 @@ struct tile_search {
     struct arena *arenas;
 };
 
-// Number of tiles for each thread: about a quarter of a million fragments, more than a megabyte, if all are covered.
+// Number of tiles for each thread. If all of them are covered, they contain about a quarter of a million fragments,
+// which need more than a megabyte.
 enum { LARGE_PICTURE = 64 };
 
 // Finds the lowest and the highest triangle of the fragments.
 static void range_of_triangles(const struct fragments *fragments, uint32_t *lowest, uint32_t *highest)
 {
-    int32_t low = INT32_MAX, high = 0; // signed, for which every processor has vector comparisons
+    int32_t low = INT32_MAX, high = 0; // signed, because every processor has vector comparisons for signed integers
     for (int i = 0; i < fragments->count; i++) {
         int32_t id = (int32_t)(fragments->id[i] & ~BACK_SIDE);
         low = id < low ? id : low;
@@ -52,8 +53,8 @@ static void range_of_triangles(const struct fragments *fragments, uint32_t *lowe
     *highest = (uint32_t)high;
 }
 
-// Adds the triangles of the fragments to `set`. Whether a fragment's triangle differs from the previous one is
-// unpredictable, so the test is branchless.
+// Adds the triangles of the fragments to `set`. The processor cannot predict whether a fragment's triangle differs from
+// the previous one, so the test has no branch.
 static void add_triangles(struct rank_bitset *set, const struct fragments *fragments)
 {
     uint32_t *ids = fragments->order; // not used yet
@@ -138,8 +139,8 @@ static bool make_set(struct cpu_frame *cpu, struct visible_buffers *buffers, lam
     return true;
 }
 
-// Finds memory for the elements and normals of this many corners: in the scratch memory if it is large enough,
-// otherwise in separate memory, of which fewer pages are touched because corners share normals.
+// Finds memory for the elements and normals of this many corners. The scratch memory is used if it is large enough.
+// Otherwise separate memory is allocated; because corners share normals, not all of its pages are used.
 static bool place_normals(struct visible_buffers *buffers, struct visible_normals *visible, size_t corners,
                           struct scratch_memory *scratch, struct call_control *call, lam_error *error)
 {
@@ -215,8 +216,8 @@ bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, la
     }
     if (!work_continues(&cpu->work))
         return true; // the caller reports the reason
-    // The transformed vertices are no longer needed either, so their memory is reused. (Meshes without indices have
-    // none.)
+    // The transformed vertices are no longer needed either, so their memory is reused. (The vertices of meshes without
+    // indices are not stored.)
     struct scratch_memory scratch = {0};
     if (cpu->fragment_stores) {
         release_bins(cpu);

@@ -1,5 +1,5 @@
-// visible_triangles.h: covers the whole picture before lighting, for frames that compute normals (frame.h) or have
-// ambient occlusion.
+// visible_triangles.h: finds the visible triangles of the whole picture before lighting, for frames that compute
+// normals (frame.h) or have ambient occlusion.
 #ifndef VISIBLE_TRIANGLES_H
 #define VISIBLE_TRIANGLES_H
 
@@ -16,13 +16,12 @@ struct visible_buffers {
     double search_ms;        // the time for finding the visible triangles in the last frame
 };
 
-// Returns whether each tile's fragments are found in advance and kept until they are lit, if anything is found in
-// advance.
+// Returns whether cover_in_advance, if it is called, finds each tile's fragments and keeps them until they are shaded.
 bool keeps_fragments(const struct cpu_frame *cpu);
 
 // Finds the distances of the surfaces (cpu->occlusion), and the visible triangles and their normals, as far as the
 // frame needs them. If all surfaces are opaque, each tile's fragments are found at the same time and kept; otherwise
-// every binned triangle counts as visible.
+// every binned triangle is treated as visible.
 bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error);
 void visible_buffers_empty(struct visible_buffers *buffers, int threads); // frees the fragment stores
 

@@ -32,7 +32,7 @@ bool behind_make(struct behind *behind, struct buffer *memory, int width, int he
     return true;
 }
 
-// Consecutive texels of a level from `first` on, and their weights.
+// Consecutive texels of a level, starting with `first`, and their weights.
 struct taps {
     int first, count;
     float weight[4];
@@ -46,8 +46,9 @@ static const float *texel_at(const struct behind *behind, int level, int x, int 
     return behind->texels[level] + 4 * (row + (size_t)clamped(x, behind->width[level]));
 }
 
-// Returns the texels of a level that texel `i` of `count` of the next level covers, and their covered shares. There are
-// two texels, or three if the size is odd, of which the outer ones are covered partly.
+// Texel `i` of the next level, which has `count` texels, covers several texels of a level. Returns these texels, with
+// the covered fraction of each as its weight. A texel covers two texels, or three if the size is odd; the outer two of
+// three are covered only partly.
 static struct taps covered_taps(int i, int count, int size)
 {
     if (size == 1)
@@ -86,7 +87,7 @@ void behind_fill(struct behind *behind)
     }
 }
 
-// Returns the texels around a position in texels, whose centres are at i + ½.
+// Returns the texels around a position and their weights. The position is in texels; the centre of texel i is at i + ½.
 static struct taps linear_taps(float position)
 {
     float at = position - 0.5f;

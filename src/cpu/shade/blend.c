@@ -1,6 +1,6 @@
 // blend.c: sorts a pixel's translucent fragments by depth at every sample, and blends them.
 //
-// One layer over another:
+// The formula for one layer over another is:
 //
 //  color = src·a + dst·(1 − a)
 //  alpha = a + A·(1 − a)
@@ -28,7 +28,7 @@ static void sort_by_pixel(const struct fragments *fragments, struct blend_scratc
     }
     for (int i = 0; i < fragments->count; i++)
         scratch->order[start[fragments->pixel[i]]++] = (uint32_t)i;
-    // Each start has been advanced to the next pixel's start.
+    // Each pixel's start has been advanced to the start of the next pixel.
     memmove(start + 1, start, TILE * TILE * sizeof *start);
     start[0] = 0;
 }
@@ -45,7 +45,7 @@ static void insertion_sort(struct layer *layers, uint32_t count)
     }
 }
 
-// Sifts the layer at `at` down in a heap with the smallest rank on top.
+// Moves the layer at index `at` down to its position in a heap whose top has the smallest rank.
 static void sift_down(struct layer *heap, uint32_t count, uint32_t at)
 {
     struct layer moved = heap[at];
@@ -91,8 +91,8 @@ static uint64_t rank_of(float key, uint32_t id)
     return (uint64_t)bits << 32 | (uint32_t)~(id << 1 | id >> 31);
 }
 
-// Joins the fragments of one clipped triangle's parts in a pixel. If two of them cover a sample, the nearer key is
-// used.
+// Clipping divides a triangle into several triangles. This function joins the fragments of these triangles in each
+// pixel to one fragment. If two of the fragments cover a sample, the nearer key is used.
 static void join_clipped_parts(const struct fragments *fragments, struct layer_rows *rows,
                                struct blend_scratch *scratch, int samples)
 {
@@ -141,7 +141,7 @@ static void drop_empty(const struct sample_pattern *pattern, struct fragments *f
     fragments->count = (int)kept;
 }
 
-// Lists the layers of a pixel. Returns their number.
+// Lists the layers of a pixel and returns how many there are.
 static uint32_t list_layers(struct blend_scratch *scratch, int pixel)
 {
     uint32_t first = scratch->start[pixel], count = scratch->start[pixel + 1] - first;
@@ -150,8 +150,8 @@ static uint32_t list_layers(struct blend_scratch *scratch, int pixel)
     return count;
 }
 
-// Sorts layers, the nearest at a sample first. All are sorted, whether or not they cover the sample, because the next
-// sample's order will be nearly the same.
+// Sorts the layers of a pixel by depth at a sample, the nearest first. Layers that do not cover the sample are sorted
+// too, because the order at the next sample is nearly the same.
 static void rank_layers(const struct fragments *fragments, const struct layer_rows *rows, struct layer *layers,
                         uint32_t count, int samples, int sample)
 {
@@ -201,9 +201,9 @@ struct layer_sum {
 
 static float mean_of(const float left[3]) { return (left[0] + left[1] + left[2]) * (1 / 3.0f); }
 
-// Sums the layers of a sample with a transmittance per channel: a fragment of opacity a and colour C that lets T
-// through turns the light L behind it into C a + L (1 - a (1 - T)). Behind a surface that refracts, opaque surfaces are
-// omitted, because they are in the picture that it shows.
+// Sums the layers of a sample with a transmittance per channel. A fragment with opacity a, colour C and transmittance T
+// changes the light L behind it to C a + L (1 - a (1 - T)). Behind a surface that refracts, opaque surfaces are
+// omitted, because the picture behind, which this surface shows, already contains them.
 static struct layer_sum sum_layers(const struct fragments *fragments, const struct layer_rows *rows,
                                    const struct layer *layers, uint32_t count, int sample, struct recorder *recorder,
                                    int pixel, float share)
@@ -232,17 +232,17 @@ static struct layer_sum sum_layers(const struct fragments *fragments, const stru
     return l;
 }
 
-// The pixels of a tile with layers that have a transmittance per channel. A picture has one alpha, the mean of the
-// channels; the visible background is tinted by the difference.
+// A pixel with layers that have a transmittance per channel. A picture has only one alpha, which becomes the mean of
+// the channels; the visible background is tinted by the difference.
 struct tinted_pixel {
     int number;      // index in the tile
     float x, y;      // the centre of the pixel in the picture
     int samples;     // per pixel
-    float looked[4]; // the picture behind, at the last sample that refracts
+    float looked[4]; // the value of the picture behind at the last sample that refracts
     struct layer_sum last;
 };
 
-// Adds the picture behind to a sample whose layers refract. The remaining light is from the background.
+// Adds the picture behind the glass to a sample whose layers refract. The remaining light is from the background.
 static void add_behind(struct layer_sum *l, const struct behind *behind, struct tinted_pixel *p)
 {
     if (!p->last.refracts || l->x != p->last.x || l->y != p->last.y || l->square != p->last.square)

@@ -19,12 +19,12 @@ struct layer {
 // Scratch memory of one thread.
 struct blend_scratch {
     uint32_t *order;      // fragment indices in the order of pixels
-    uint32_t *start;      // the start of each pixel in `order`, plus one at the end
+    uint32_t *start;      // the start of each pixel in `order`, and the end of the last pixel
     struct layer *layers; // the layers of one pixel
 };
 
-// Sorts a tile's translucent fragments by pixel, after joining the fragments of one clipped triangle's parts in each
-// pixel. Call it before they are grouped and shaded.
+// Joins the fragments of a tile that belong to the same clipped triangle and the same pixel. Then sorts the tile's
+// translucent fragments by pixel. Call this function before the fragments are grouped and shaded.
 void sort_layers(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows,
                  struct blend_scratch *scratch);
 
@@ -35,13 +35,15 @@ struct tile_part {
     const uint32_t *ids;
 };
 
-// Blends the sorted and shaded fragments of a part of a tile into the sums and `transmittance` of its pixels. Returns
-// how many of the pixels have no opaque fragment. `recorder` is NULL, or receives the numbers of its pixel.
+// Blends the sorted and shaded fragments of a rectangle of a tile into the sums and the `transmittance` of its pixels.
+// Returns how many of these pixels have no opaque fragment. If `recorder` is not NULL, it receives the values of the
+// explained pixel.
 uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragments *fragments,
                       const struct layer_rows *rows, struct blend_scratch *scratch, const struct tile_part *part,
                       struct pixel_sums *sums, struct recorder *recorder);
 
-// Replaces sorting and blending: puts the nearest fragment of each sample into the tile's visibility buffer.
+// For outputs without colours, replaces sorting and blending: stores the nearest fragment of each sample in the tile's
+// visibility buffer.
 void show_layers(const struct sample_pattern *pattern, const struct fragments *fragments, const struct layer_rows *rows,
                  struct tile_samples *samples);
 

@@ -15,7 +15,7 @@ LANE_FN vec3 to_environment_axes(const struct frame *frame, vec3 w)
                    (m[2][0] * w.x + m[2][1] * w.y) + m[2][2] * w.z);
 }
 
-// Does the same as cube_look, but gathers the four texels around each direction channel by channel.
+// Does the same as cube_look, but gathers the four texels around each direction one channel at a time.
 LANE_FN vec3 cube_gathered(const struct lam_environment *cube, vec3 direction)
 {
     struct cube_position on_cube = cube_position(direction.x, direction.y, direction.z, cube->size);

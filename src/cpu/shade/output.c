@@ -1,5 +1,5 @@
-// output.c: writes pixels with surface properties instead of colours (lam_output in lambent/device.h). Plain C, the
-// same for every instruction set.
+// output.c: writes pixels with surface properties instead of colours (lam_output in lambent/device.h). This file is
+// plain C, compiled once for all instruction sets.
 #include "output.h"
 
 #include "encode_values.h"

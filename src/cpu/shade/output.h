@@ -6,12 +6,12 @@
 #include "fragments.h"
 #include "resolve.h"
 
-// Writes a tile's pixels, instead of the kernels' resolve. LAM_OUTPUT_CLIPPED uses sums->unclipped, which contains the
-// tile's pixels row by row.
+// Writes a tile's pixels; for these outputs, it replaces the function `resolve` of the kernels. LAM_OUTPUT_CLIPPED uses
+// sums->unclipped, which contains the tile's pixels row by row.
 void output_tile(const struct resolve_target *target, const struct fragments *fragments,
                  const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
 
-// Sets the value of a pixel without fragments.
+// Sets target->empty_pixel, the value of a pixel without fragments.
 void output_empty(struct resolve_target *target);
 
 #endif

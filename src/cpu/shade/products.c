@@ -75,8 +75,9 @@ struct material_products *products_make(struct buffer *storage, const struct fra
     return products;
 }
 
-// Returns the levels that a roughness needs: the material's number, multiplied by a map's if there is one. A mesh
-// without texture coordinates uses no map. `widens` is true if the variance of normals widens it.
+// Returns the levels of the prefiltered environment that a roughness needs. The roughness is the material's value,
+// multiplied by a map if there is one. A mesh without texture coordinates uses no map. `widens` is true if the variance
+// of normals increases the roughness.
 static unsigned parts_of_number(const struct material_products *m, lam_map slot, float factor, bool stretched,
                                 bool widens)
 {

@@ -12,7 +12,7 @@ struct resolve_target {
     lam_image *image;     // in a working format (pixels.h); it has no pixels if `converted` is set
     lam_image *converted; // the caller's picture in another format, into which tiles are converted; or NULL
     uint8_t empty_pixel[16];
-    const struct behind *behind; // receives the sums in its first level instead of the picture; or NULL
+    const struct behind *behind; // if not NULL, its first level receives the sums instead of the picture
 };
 
 // Sums of a tile's pixels.
@@ -22,13 +22,15 @@ struct pixel_sums {
     float *pixels;    // the tile's pixels before they are converted
     // The fraction of light that the translucent layers let through, for each sample.
     float *transmittance;
-    // The fraction for each channel, if the frame transmits; `transmittance` is then their mean. Otherwise NULL.
+    // The same fraction for each channel, if surfaces of the frame transmit light; `transmittance` is then the mean of
+    // the channels. Otherwise NULL.
     float *tint[3];
-    const float *background;     // the background of such layers (frame.glass_background)
-    const struct behind *behind; // NULL if nothing is blurred or refracted, or if this is the picture behind
+    const float *background;     // the background behind layers that transmit light (frame.glass_background)
+    const struct behind *behind; // NULL if nothing is blurred or refracted, or while the picture behind itself is drawn
 };
 
-// Returns the bytes per pixel of the two working formats: constants, so that short copies are inlined.
+// Returns the number of bytes per pixel of a working format. Both results are constants, so that the compiler inlines
+// short copies.
 static inline size_t working_bytes(const lam_image *image) { return image->format == LAM_RGBA8 ? 4 : 16; }
 
 // Returns a row of a tile in the picture.

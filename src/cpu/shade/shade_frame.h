@@ -10,7 +10,7 @@
 // The products of a light and a material for the sum (conventions, "The sum").
 struct light_products {
     float diffuse[3], specular[3]; // kd ⊙ Ld, ks ⊙ Ls
-    float ambient[3];              // ka ⊙ La, if it is attenuated (gl1)
+    float ambient[3];              // ka ⊙ La, used if ambient light is attenuated (gl1)
 };
 struct material_products {
     float ambient[3]; // ka ⊙ (La_global + Σ La)
@@ -20,15 +20,16 @@ struct material_products {
     bool mirrors;          // there is an environment, kr is not 0, and the material is classic
     const lam_material *given;
     unsigned maps;                       // the maps that shading uses: a bit 1 << LAM_MAP_… for each
-    bool converted;                      // a metallic-roughness material with maps that a classic model lights
+    bool converted;                      // a metallic-roughness material with maps that is lit with a classic model
     float shininess;                     // after match_highlights and gl1
     int layers;                          // LAYER_…; 0 for a plain metallic-roughness surface or a classic material
-    float stretch[2];                    // the unit direction of the anisotropy along tangent and bitangent
+    float stretch[2];                    // the unit direction of the anisotropy: its components along tangent and
+                                         // bitangent
     const struct light_products *lights; // one for each light
     float (*sky)[3], (*ground)[3];       // ka ⊙ sky, ka ⊙ ground for each hemisphere light
 };
 
-// Multiplies all materials by all lights, once per frame. The storage owns the products. Returns NULL on failure.
+// Multiplies all materials by all lights, once per frame. `storage` owns the products. Returns NULL on failure.
 struct material_products *products_make(struct buffer *storage, const struct frame *frame, struct call_control *call,
                                         lam_error *error);
 
@@ -40,7 +41,7 @@ struct shade_frame {
     const struct light_bounds *light_bounds;           // NULL if every light is evaluated everywhere
     const struct hierarchy *hierarchy;                 // NULL if no rays are traced
     const struct light_pattern *light_pattern;         // used for lights with a size
-    // ambient occlusion of each pixel; NULL if there is none or it uses rays
+    // ambient occlusion of each pixel; NULL if there is none or if rays compute it
     const struct screen_occlusion *occlusion;
     const struct occlusion_pattern *occlusion_pattern; // ambient occlusion by rays, or NULL
     const float *decode_srgb, *decode_linear;          // 256 entries each: the value of a colour byte

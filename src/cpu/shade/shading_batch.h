@@ -22,8 +22,8 @@ enum { RUN_CORNERS = 0, RUN_INTERPOLANT = 9, RUN_EXTRA = 18, RUN_ROWS = 21 };
 struct triangle_runs {
     int count;
     uint32_t triangle[BATCH_MAX + LANES_MAX];
-    int32_t first[BATCH_MAX];  // for each LANES fragments, the run of the first one
-    int32_t offset[BATCH_MAX]; // for each fragment, its run relative to that run
+    int32_t first[BATCH_MAX];  // for each group of LANES fragments, the run of the first
+    int32_t offset[BATCH_MAX]; // for each fragment, the number of its run minus that run
     float row[RUN_ROWS][BATCH_MAX + LANES_MAX];
 };
 
@@ -32,11 +32,11 @@ struct light_batch {
     _Alignas(64) float ambient[3][BATCH_ROW]; // each packet is a cache line
     float diffuse[3][BATCH_ROW], specular[3][BATCH_ROW];
     float f0[3][BATCH_ROW], rest[3][BATCH_ROW]; // Fresnel factor of microfacet lobes
-    // the colour of the light after the surfaces that it passed (frame.tints_rays)
+    // the colour of the light after it has passed through surfaces (frame.tints_rays)
     float tint[3][BATCH_ROW];
     float kept_diffuse[3][BATCH_ROW], kept_specular[3][BATCH_ROW];
     float l[3][BATCH_ROW], distance[BATCH_ROW], arriving[BATCH_ROW];
-    // the share of the incoming light: 1 if there is a highlight, otherwise 0
+    // the factor of the incoming light: 1 if there is a highlight, otherwise 0
     float share[BATCH_ROW];
     float base[BATCH_ROW];                     // the bases of the packets listed below, consecutive
     float first[BATCH_ROW], second[BATCH_ROW]; // values passed from one step to the next
@@ -49,9 +49,9 @@ struct shading_batch {
     float color[3][BATCH_ROW], alpha[BATCH_ROW];    // input: the vertices' colours; output: the result
     uint32_t triangle[BATCH_ROW];                   // index in the mesh
     float x[BATCH_ROW], y[BATCH_ROW];               // the pixel's centre, in pixels of the window
-    float sample_x[BATCH_ROW], sample_y[BATCH_ROW]; // the sample nearest to it, if a pixel has several
+    float sample_x[BATCH_ROW], sample_y[BATCH_ROW]; // the sample nearest to the centre, if there are several
     float b1[BATCH_ROW], b2[BATCH_ROW];             // barycentric weights of corners 1 and 2
-    // with ambient occlusion only: the unoccluded share of surrounding light
+    // with ambient occlusion only: the fraction of the surrounding light that is not occluded
     float unoccluded[BATCH_ROW];
     // For materials with maps only (textures.inc).
     struct {
@@ -64,7 +64,7 @@ struct shading_batch {
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
     // The variance of the normals of base and coat within the pixel (lam_specular_aa).
     float variance[BATCH_ROW], coat_variance[BATCH_ROW];
-    // For materials with maps and layers (layered.inc): their numbers after maps.
+    // For materials with maps and layers (layered.inc): the layers' values after the maps are applied.
     struct {
 #define NUMBER_ROW(member, field, map) float member[BATCH_ROW];
 #define COLOR_ROWS(member, field, map) float member[3][BATCH_ROW];
@@ -82,13 +82,13 @@ struct shading_batch {
     struct triangle_runs runs;
 };
 
-// Gouraud and flat shading: the vertices (or triangles) shaded for a tile, found by hashing.
+// For Gouraud and flat shading: a hash table of the vertices (or triangles) that are shaded for a tile.
 struct vertex_cache {
-    uint32_t *table;    // slot → vertex + 1; its size is a power of two, fitted to the group
+    uint32_t *table;    // slot → vertex + 1; its size is a power of two, chosen for each group
     uint32_t (*key)[4]; // identity of a vertex: position, normal, colour, tangent element
     float (*color)[4];  // r, g, b, a
-    // For materials with maps: `color` is the ambient and diffuse light, which the diffuse map multiplies, and this is
-    // the rest (specular, emission without a map, reflection).
+    // For materials with maps, `color` is the ambient and diffuse light, which the diffuse map multiplies. `rest` is
+    // all other light: the highlights, the reflection, and the emission unless it has a map.
     float (*rest)[3];
     uint32_t *run_vertex; // 3 for each run of fragments, stored in the rows fragments->scratch
     uint32_t count;
@@ -103,7 +103,7 @@ struct shadow_rows {
 // Scratch memory of one thread's shading, and its counters.
 struct shading {
     struct shading_batch *batch;
-    struct shadow_rows *shadows; // NULL if the frame has none
+    struct shadow_rows *shadows; // NULL if the frame traces no rays
     struct ray_layers ray_layers;
     struct vertex_cache vertices;
     struct light_list lights;

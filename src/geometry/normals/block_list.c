@@ -1,4 +1,4 @@
-// block_list.c: lists of blocks filled by threads.
+// block_list.c: implements lists of blocks that threads fill.
 #include "block_list.h"
 
 struct list_block *list_block_new(struct block_lists *lists, struct list_block *previous)

@@ -1,5 +1,5 @@
-// block_list.h: lists that threads fill while corners are sorted by position: chains of blocks of one size, which are
-// reused after they have been read.
+// block_list.h: lists that threads fill while corners are sorted by position. A list is a chain of blocks of equal
+// size, which are reused after they have been read.
 #ifndef BLOCK_LIST_H
 #define BLOCK_LIST_H
 
@@ -39,7 +39,7 @@ _Static_assert(sizeof(struct list_block) <= BLOCK_BYTES, "blocks lie side by sid
 struct block_lists {
     struct arena arena;
     struct scratch_memory *scratch; // shared by all threads
-    struct loop_status *loop;       // stopped if memory runs out
+    struct loop_status *loop;       // set to stopped if memory runs out
     size_t slab_bytes;
     char *slab;
     size_t slab_left;
@@ -48,11 +48,11 @@ struct block_lists {
     struct list_block *duplicates;
 };
 
-// Returns an empty block in front of `previous`, or NULL if memory runs out.
+// Returns an empty block whose previous block is `previous`, or NULL if memory runs out.
 struct list_block *list_block_new(struct block_lists *lists, struct list_block *previous);
 
-// Returns the block of a list with space for one more entry, at `capacity` entries per block, or NULL if memory runs
-// out.
+// Returns a block of a list with space for one more entry, or NULL if memory runs out. A block has space for `capacity`
+// entries.
 static inline struct list_block *list_block_with_space(struct block_lists *lists, struct list_block **list,
                                                        uint32_t capacity)
 {

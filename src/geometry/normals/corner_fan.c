@@ -8,16 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-// One of a corner's two edges at the position.
+// One of the two edges of a corner that meet at the position.
 struct fan_edge {
-    uint32_t end[3]; // bits of the other end
+    uint32_t end[3]; // bits of the position of the edge's other end
     uint32_t corner;
-    uint32_t incoming; // 0 means the triangle runs from the position to the end; 1 means from the end to the position
+    uint32_t incoming; // 0: the triangle's edge starts at the position; 1: the edge ends at the position
 };
 _Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
                "a fan's sum must fit into the memory of a corner's edges");
 
-// Tolerance for float positions: the same angle between two pairs of faces may differ in the seventh digit.
+// Tolerance for the rounding of float positions: equal angles between faces may differ in the seventh digit.
 #define CREASE_SLACK 1e-6
 
 double min_crease_cosine(double crease_angle_rad) { return math_cos(crease_angle_rad) - CREASE_SLACK; }
@@ -102,8 +102,8 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct fan_corner *c)
         b[i] = (double)r[i] - (double)p[i];
     }
     double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-    // The length is twice the area. Differences of floats are at most 7e38, so the square is below 1e156, and above
-    // 1e-180 if it is not 0.
+    // The length is twice the triangle's area. Differences of floats are at most 7e38, so the square of the length is
+    // below 1e156, and above 1e-180 if it is not 0.
     double length = __builtin_sqrt(x * x + y * y + z * z);
     bool spans = length > 0 && length < 1e300; // neither infinite nor NaN
     double scale = spans ? 1 / length : 0;
@@ -127,7 +127,8 @@ static uint32_t root_of(struct fan_corner *around, uint32_t i)
     return i;
 }
 
-// Joins two corners that share an edge, if they may share a normal. The lower index becomes the root.
+// Joins two corners that share an edge, if they may also share a normal. The corner with the lower index becomes the
+// root.
 static void join(struct fan_corner *around, uint32_t a, uint32_t b, double min_cosine)
 {
     const struct fan_corner *s = &around[a], *t = &around[b];
@@ -143,7 +144,7 @@ static void join(struct fan_corner *around, uint32_t a, uint32_t b, double min_c
 }
 
 // Neighbours with consistent winding traverse their common edge in opposite directions: the next corner of one is at
-// the previous corner of the other. Tests every pair, for few corners.
+// the previous corner of the other. This function tests every pair, and is used for few corners.
 static void join_few(struct fan_corner *around, uint32_t count, double min_cosine)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -163,8 +164,9 @@ static int compare_edges(const void *left, const void *right)
     return a->corner < b->corner ? -1 : a->corner > b->corner;
 }
 
-// Sorts the edges, for many corners. If an edge has very many triangles, each outgoing edge is tested only against the
-// incoming edge of the same rank, because there would be too many pairs; no real surface has such an edge.
+// Sorts the edges first; this function is used for many corners. If very many triangles share an edge, there would be
+// too many pairs. In this case, each outgoing edge is tested only against the incoming edge of the same rank. No real
+// surface has such an edge.
 static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_t count, double min_cosine)
 {
     enum { PAIRS_MAX = 256 };
@@ -178,7 +180,7 @@ static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_
     }
     size_t total = 2 * (size_t)count;
     qsort(edges, total, sizeof *edges,
-          compare_edges); // no two are equal, so the order does not depend on qsort
+          compare_edges); // no two edges are equal, so the order does not depend on qsort
     for (size_t first = 0; first < total;) {
         size_t split = first, end;
         while (split < total && !edges[split].incoming && same_position(edges[split].end, edges[first].end))
@@ -195,8 +197,8 @@ static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_
     }
 }
 
-// Returns the fan for a corner of a degenerate triangle: the fan of the first neighbour with an area across an edge,
-// otherwise the fan of corner `otherwise`.
+// Returns the fan for a corner of a degenerate triangle: the fan of the first triangle with an area that shares an edge
+// with it, or else the fan of corner `otherwise`.
 static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count, uint32_t i, uint32_t otherwise)
 {
     enum { EXAMINED_MAX = 64 }; // limits the time for a million such corners at one position
@@ -207,7 +209,8 @@ static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count
     return around[otherwise].fan;
 }
 
-// Replaces roots by numbers of fans, in the order of their first corners. Returns the number of fans.
+// Replaces the root of each corner with the number of its fan; fans are numbered in the order of their first corners.
+// Returns how many fans there are.
 static uint32_t number_fans(struct fan_corner *around, uint32_t count, uint32_t *number)
 {
     uint32_t fans = 0;

@@ -10,14 +10,15 @@
 struct fan_corner {
     uint32_t corner;
     uint32_t smoothing_group;
-    // Bits of the positions of the triangle's next and previous corners, with −0 as 0.
+    // Bits of the positions of the triangle's next and previous corners; −0 is stored as 0.
     uint32_t next[3], previous[3];
     double normal[3]; // the triangle's unit normal, zero if it has no area
     double weight;    // twice the area × the angle at the corner in radians
-    uint32_t fan;     // while joining: a corner to which this one is joined; then the number of its fan
+    uint32_t fan;     // while corners are joined: a corner to which this corner is joined; afterwards: the number of
+                      // its fan
 };
 
-// Scratch memory of one thread, which grows with the largest position.
+// Scratch memory of one thread. The memory grows to fit the position with the most corners.
 struct corner_fan_scratch {
     struct arena arena;
     uint32_t *numbers; // input: the corners at the position
@@ -31,16 +32,16 @@ void corner_fan_scratch_free(struct corner_fan_scratch *scratch);
 // Makes space for `count` corners. Returns false if memory runs out.
 bool corner_fan_scratch_reserve(struct corner_fan_scratch *scratch, uint32_t count);
 
-// Computes the fans of the `count` corners in scratch->numbers, which are ascending and at one position, by the rule in
-// normals.h. Returns the number of fans. scratch->normals[fan] is a fan's unit normal (zero if no triangle has an
-// area); fans are numbered by their first corner, and scratch->corners[i].fan is the fan of corner i.
+// Computes the fans of the `count` corners in scratch->numbers, by the rule in normals.h. The corners are in ascending
+// order and all at one position. Returns the number of fans. scratch->normals[fan] is a fan's unit normal (zero if no
+// triangle has an area); fans are numbered by their first corner, and scratch->corners[i].fan is the fan of corner i.
 uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corner_fan_scratch *scratch,
                             uint32_t count);
 
-// Sorts corners; it is fast if they are nearly in order.
+// Sorts corners. The function is fast if the corners are nearly in order.
 void sort_corners(uint32_t *corners, uint32_t count);
 
-// Returns the smallest cosine between the normals of two faces that corner_fan_normals joins, from the crease angle.
+// Converts the crease angle to the smallest cosine between the normals of two faces that corner_fan_normals joins.
 double min_crease_cosine(double crease_angle_rad);
 
 // Returns the vertex of a corner.

@@ -1,4 +1,4 @@
-// corner_fan_batch.c: moves positions with the same number of corners into struct corner_fan_block, so that
+// corner_fan_batch.c: moves positions with the same number of corners to a struct corner_fan_block, so that
 // corner_fan_simd.c can process them in parallel lanes.
 #include "corner_fan_batch.h"
 

@@ -1,6 +1,6 @@
-// corner_fan_batch.h: collects positions until enough of them have the same number of corners to be computed in
-// parallel lanes (corner_fan_simd.h). Positions with more than FAN_CORNERS_MAX corners, or with a degenerate triangle,
-// are processed one by one by corner_fan.h. The results are bit-identical.
+// corner_fan_batch.h: collects positions by their number of corners. As soon as enough positions have the same number,
+// they are computed in parallel lanes (corner_fan_simd.h). Positions with more than FAN_CORNERS_MAX corners, or with a
+// degenerate triangle, are processed one by one by corner_fan.h. The results are bit-identical.
 #ifndef CORNER_FAN_BATCH_H
 #define CORNER_FAN_BATCH_H
 
@@ -9,7 +9,7 @@
 enum { FAN_ROWS = FAN_CORNERS_MAX * (FAN_CORNERS_MAX + 1) / 2 };
 
 struct corner_fan_batch {
-    uint32_t waiting[FAN_CORNERS_MAX + 1]; // number of positions by their number of corners
+    uint32_t waiting[FAN_CORNERS_MAX + 1]; // number of positions for each number of corners
     fan_row rows[FAN_ROWS];                // the corners of the fans: one row for count 1, two for count 2 …
     struct corner_fan_block block;
 };
@@ -20,8 +20,8 @@ static inline void corner_fan_batch_start(struct corner_fan_batch *batch)
         batch->waiting[count] = 0;
 }
 
-// Adds a position with its corners, in any order; 0 < count ≤ FAN_CORNERS_MAX. Returns true if the row is full: then
-// call corner_fan_batch_take.
+// Adds a position with its corners, in any order; 0 < count ≤ FAN_CORNERS_MAX. Returns true if the row is full; the
+// caller must then call corner_fan_batch_take.
 static inline bool corner_fan_batch_add(struct corner_fan_batch *batch, const uint32_t *corners, uint32_t count)
 {
     fan_row *rows = batch->rows + count * (count - 1) / 2;

@@ -1,5 +1,6 @@
-// corner_fan_simd.c: compiled once for each instruction set (meson.build, with ISA and LANES): loops over positions in
-// parallel lanes, which the compiler vectorizes. Choices are branchless, and there is no division by zero.
+// corner_fan_simd.c: contains loops over positions in parallel lanes, which the compiler vectorizes. The file is
+// compiled once for each instruction set (meson.build, with ISA and LANES). The loops contain no branches and no
+// divisions by zero.
 #include "corner_fan_simd.h"
 
 #include "angle_series.h"
@@ -81,7 +82,7 @@ static void fetch(struct corner_fan_block *b, const lam_mesh *mesh)
     }
 }
 
-// Does the same as look() in corner_fan.c, operation by operation; at one position, 0 and −0 are equal.
+// Does the same as look() in corner_fan.c, with the same operations in the same order. Coordinates 0 and −0 are equal.
 static void look(struct corner_fan_block *b)
 {
     memset(b->flat, 0, sizeof b->flat);
@@ -119,13 +120,14 @@ static void look(struct corner_fan_block *b)
         }
 }
 
-// Finds the joined corners, like join_few() in corner_fan.c. No coordinate is NaN: equal floats are equal bits, except
-// for the sign of zero. `by_vertex` also finds open vertices; the function is compiled for both cases.
+// Finds the joined corners, like join_few() in corner_fan.c. No coordinate is NaN, so floats are equal if their bits
+// are equal, except for the sign of zero. `by_vertex` also finds open vertices; the function is compiled for both
+// cases.
 static inline __attribute__((always_inline)) void link(struct corner_fan_block *b, double min_cosine, bool grouped,
                                                        const bool by_vertex)
 {
     fan_row with_next = {0}, with_previous = {0},
-            pairs = {0}; // corners, as bits, whose edge is shared, and their number
+            pairs = {0}; // corners (as bits) with a shared edge, and how many there are
     memset(b->links, 0, b->count * sizeof *b->links);
     for (uint32_t i = 0; i < b->count; i++)
         for (uint32_t j = i + 1; j < b->count; j++) {
@@ -164,7 +166,7 @@ static inline __attribute__((always_inline)) void link(struct corner_fan_block *
                           (b->next[i][2][p] == b->previous[i][2][p]);
 }
 
-// Adds the corners that are joined to members. Returns whether there were any.
+// Adds the corners that are joined to members. Returns whether any corner was added.
 static bool spread(const struct corner_fan_block *b, fan_row members)
 {
     fan_row more;
@@ -179,8 +181,8 @@ static bool spread(const struct corner_fan_block *b, fan_row members)
     return any_of(differ);
 }
 
-// Normalises like v3_unit (linear.c), which does not scale if the square is neither large nor small. It is a separate
-// function, since gcc does not vectorize the loop inside other functions.
+// Normalises like v3_unit (linear.c), which does not scale the vector unless its square is very large or very small.
+// This is a separate function, because gcc does not vectorize the loop inside other functions.
 static __attribute__((noinline)) void unit(double sum[3][FAN_POSITIONS], float out[3][FAN_POSITIONS])
 {
     fan_row odd;
@@ -202,7 +204,8 @@ static __attribute__((noinline)) void unit(double sum[3][FAN_POSITIONS], float o
         }
 }
 
-// Sums in the order of the corners; a corner that is not a member adds 0, which changes nothing.
+// Sums the weighted normals of the members in the order of the corners. A corner that is not a member adds 0, which
+// does not change the sum.
 static void sum(const struct corner_fan_block *b, const fan_row members, float out[3][FAN_POSITIONS])
 {
     double total[3][FAN_POSITIONS] = {0};

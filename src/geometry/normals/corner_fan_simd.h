@@ -1,5 +1,5 @@
-// corner_fan_simd.h: fans (corner_fan.h) at many positions in parallel lanes, compiled once for each instruction set
-// (meson.build). Every version is bit-identical to corner_fan.c.
+// corner_fan_simd.h: computes fans (corner_fan.h) at many positions in parallel lanes. The code is compiled once for
+// each instruction set (meson.build). Every version is bit-identical to corner_fan.c.
 #ifndef CORNER_FAN_SIMD_H
 #define CORNER_FAN_SIMD_H
 
@@ -9,21 +9,21 @@
 
 enum {
     FAN_POSITIONS = 32,   // positions per block; gcc unrolls loops of 16 instead of vectorizing them
-    FAN_CORNERS_MAX = 16, // the most corners at a position
+    FAN_CORNERS_MAX = 16, // the maximum number of corners at a position
 };
 
 // One number for each position.
 typedef uint32_t fan_row[FAN_POSITIONS];
 
-// Positions with the same number of corners, one in each column: row i contains corner i of each.
+// Positions with the same number of corners, one in each column: row i contains corner i of each position.
 struct corner_fan_block {
-    uint32_t count, positions;        // corners per position; the columns after the last position repeat it
+    uint32_t count, positions;        // corners per position; the columns after the last position repeat that position
     bool by_vertex;                   // the corners in a column belong to one vertex
     fan_row corners[FAN_CORNERS_MAX]; // ascending at each position after `make`
     fan_row open;                     // with by_vertex, nonzero if the vertex is not closed (normals.h)
     fan_row flat;                     // nonzero if a triangle is degenerate; the other fields are then invalid
-    // Fans, numbered at each position by their first corners: their corners as bits (0 means the position has fewer
-    // fans), and their normals.
+    // The fans at each position, numbered by their first corners: the corners of a fan as bits (0 if the position has
+    // fewer fans), and the normal of a fan.
     uint32_t fans; // the largest number of fans at a position
     fan_row members[FAN_CORNERS_MAX];
     float unit[FAN_CORNERS_MAX][3][FAN_POSITIONS];
@@ -42,9 +42,9 @@ struct corner_fan_simd {
     int lanes; // floats in a register
     // Computes the fans from count, positions and corners.
     void (*make)(struct corner_fan_block *block, const lam_mesh *mesh, double min_cosine);
-    // Call it after `make`; it fills `elements`. Only corners of triangles in the set remain members; the mesh's
-    // triangle 0 has the number `first`. Corners of open vertices, and of vertices whose bits are set in `done` (may be
-    // NULL), are removed. Returns the number of fans that have members.
+    // Fills `elements`. This function must be called after `make`. Only corners of triangles in the set remain members;
+    // the number of the mesh's triangle 0 in the set is `first`. Corners of open vertices, and of vertices whose bits
+    // are set in `done` (may be NULL), are removed. Returns the number of fans that have members.
     uint32_t (*locate)(struct corner_fan_block *block, const lam_mesh *mesh, const struct rank_bitset *triangles,
                        uint32_t first, const uint64_t *done);
 };

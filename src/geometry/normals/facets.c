@@ -1,4 +1,5 @@
-// facets.c: computes facet normals, for one triangle or for some triangles of a mesh, each as a separate element.
+// facets.c: computes facet normals, for one triangle or for some triangles of a mesh. Each triangle's normal is a
+// separate element.
 #include "facets.h"
 
 #include "corner_fan.h"
@@ -25,8 +26,8 @@ struct facet_loop {
     struct visible_normals *visible;
     struct loop_status loop;
     size_t first, end, first_word; // numbers in the set
-    uint32_t before;               // members of the set in earlier meshes
-    uint32_t element;              // element of the mesh's first member
+    uint32_t before;               // number of members of the set that belong to earlier meshes
+    uint32_t element;              // element of the first member that belongs to the mesh
 };
 
 static uint32_t members_below(const struct rank_bitset *set, size_t number)

@@ -1,7 +1,7 @@
 // normals.c: computes normals for meshes without normals.
 //
-// visible_normals.c computes smooth normals, numbered in an order that depends on the threads. This file renumbers them
-// by their first corner, so that the result does not depend on the threads.
+// visible_normals.c computes smooth normals, numbered in an order that depends on the threads. This file renumbers the
+// normals by their first corner, so that the result does not depend on the threads.
 #include "normals.h"
 
 #include "corner_fan.h"
@@ -30,7 +30,7 @@ struct numbering {
     struct visible_normals made;
     struct rank_bitset first_corners;
     float (*normals)[3]; // indexed by number
-    uint32_t *indices;   // per corner: elements of `made`, then numbers
+    uint32_t *indices;   // per corner: first elements of `made`, later numbers
     size_t corners;
 };
 

@@ -1,4 +1,4 @@
-// rank_bitset.h: a bit set that also gives the number of members below a number.
+// rank_bitset.h: a bit set that also counts the members below a number.
 #ifndef RANK_BITSET_H
 #define RANK_BITSET_H
 
@@ -16,7 +16,7 @@ struct rank_bitset {
 
 static inline size_t rank_bitset_words(size_t size) { return (size + 63) / 64; }
 
-// Adds a number, from any thread.
+// Adds a number. Any thread may call this function.
 static inline void rank_bitset_add(struct rank_bitset *set, size_t number)
 {
     uint64_t bit = (uint64_t)1 << number % 64, *word = &set->bits[number / 64];
@@ -29,8 +29,8 @@ static inline bool rank_bitset_has(const struct rank_bitset *set, size_t number)
     return set->bits[number / 64] >> number % 64 & 1;
 }
 
-// Returns the number of bits set, summed in pairs, in fours, in bytes (the baseline processor has no instruction for
-// it).
+// Returns the number of set bits. The bits are summed in pairs, in fours, and in bytes, because the baseline processor
+// has no instruction that counts bits.
 static inline uint32_t count_bits(uint64_t x)
 {
     x -= x >> 1 & UINT64_C(0x5555555555555555);
@@ -39,7 +39,7 @@ static inline uint32_t count_bits(uint64_t x)
     return (uint32_t)(x * UINT64_C(0x0101010101010101) >> 56);
 }
 
-// Returns the number of members below a number, which is the member's index.
+// Returns how many members are below a number. If the number is a member, this is its index.
 static inline uint32_t rank_bitset_rank(const struct rank_bitset *set, size_t number)
 {
     return set->ranks[number / 64] + count_bits(set->bits[number / 64] & (((uint64_t)1 << number % 64) - 1));

@@ -1,10 +1,11 @@
 // visible_normals.c: computes smooth normals for some or all triangles of a mesh.
 //
-// Closed vertices (normals.h) are processed first; they need no search: the corners that use each vertex are collected.
-// All others take three steps. Positions (shared_positions.c): every vertex at one of their positions gets the
-// position's number. Bins (position_bins.c): the corners there are sorted by ranges of positions. Fans (corner_fan.c):
-// in each range, the corners of each position are sorted and their normals computed; positions with the same small
-// number of corners are collected until 32 of them can be computed in parallel lanes (corner_fan_simd.c).
+// Closed vertices (normals.h) are processed first. Closed vertices need no search, because the corners that use each
+// vertex are simply collected. All other vertices are processed in three steps. First (shared_positions.c), every
+// vertex at one of their positions gets the number of the position. Second (position_bins.c), the corners at these
+// positions are sorted into bins, one for each range of positions. Third (corner_fan.c), the corners of each bin are
+// sorted by position, and the normals are computed. Positions with the same small number of corners are collected until
+// 32 of them can be computed in parallel lanes (corner_fan_simd.c).
 #include "visible_normals.h"
 
 #include "corner_fan.h"
@@ -16,7 +17,7 @@
 #include <string.h>
 
 enum {
-    CLOSED_MAX = 8, // the most corners of a closed vertex
+    CLOSED_MAX = 8, // the maximum number of corners of a closed vertex
     LISTED = 256,   // corners listed together
     WORDS = 1 << 6, // words of vertices per task
 };
@@ -41,7 +42,7 @@ struct fan_loop {
     // While closed vertices are processed, open vertices are only listed.
     bool by_vertex;
     struct rank_bitset open;
-    uint32_t *counts, (*collected)[CLOSED_MAX]; // for each wanted vertex, its number of corners and the first of them
+    uint32_t *counts, (*collected)[CLOSED_MAX]; // for each wanted vertex, its number of corners and its first corners
 };
 
 // Fills an element with the normal x, y, z.
@@ -120,7 +121,7 @@ static bool make_block(struct fan_loop *l, struct fan_worker *worker, uint32_t c
     return ok;
 }
 
-// Computes the normals at one position, immediately or together with others.
+// Computes the normals at one position, immediately or later together with other positions.
 static bool add_position(struct fan_loop *l, struct fan_worker *worker, const uint32_t *corners, uint32_t count)
 {
     if (count > FAN_CORNERS_MAX)
@@ -155,7 +156,7 @@ static void make_bin(void *user, size_t index, int thread)
         no_memory(&l->search->loop);
 }
 
-// Computes the normals at a worker's remaining collected positions.
+// Computes the normals at the collected positions that remain in a worker.
 static void make_rest(void *user, size_t index, int thread)
 {
     (void)thread;
@@ -194,7 +195,7 @@ static bool start_workers(struct fan_loop *l)
     return true;
 }
 
-// Returns the complete lines of 64 bytes between two addresses.
+// Returns the memory between two addresses, reduced to complete lines of 64 bytes.
 static struct scratch_memory lines_between(void *from, void *to)
 {
     uintptr_t first = ((uintptr_t)from + 63) / 64 * 64, end = (uintptr_t)to / 64 * 64;
@@ -202,7 +203,7 @@ static struct scratch_memory lines_between(void *from, void *to)
                        : (struct scratch_memory){0};
 }
 
-// Until fans are computed, the mesh's elements and all unused normals serve as scratch memory.
+// Until fans are computed, the memory of the mesh's elements and of all unused normals is used as scratch memory.
 static void lend_normals(struct position_search *s, const struct visible_normals *visible)
 {
     uint32_t *elements = visible->elements + 3 * (size_t)s->triangles_of_others;
@@ -252,7 +253,7 @@ static void make_vertices(void *user, size_t index, int thread)
     }
 }
 
-// Computes the normals of closed vertices; the others remain wanted.
+// Computes the normals of closed vertices; all other vertices remain wanted.
 static bool make_closed(struct fan_loop *l)
 {
     struct position_search *s = l->search;

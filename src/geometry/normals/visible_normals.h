@@ -1,7 +1,8 @@
 // visible_normals.h: computes normals for some or all triangles of a mesh.
 //
-// A picture of a large model shows few of its triangles. Only the corners at their positions are searched, and their
-// normals are bit-identical to a computation for the whole mesh.
+// A picture of a large model shows only few of the model's triangles. Only the corners at the positions of visible
+// triangles are searched. The normals at these corners are bit-identical to the normals that are computed for the whole
+// mesh.
 #ifndef VISIBLE_NORMALS_H
 #define VISIBLE_NORMALS_H
 
@@ -11,13 +12,13 @@
 
 #include <lambent/mesh.h>
 
-// Normals of a set of triangles, of one mesh or of several meshes, whose triangles are numbered consecutively. Corner k
-// of the triangle with rank r in the set has the normal normals[elements[3r + k]].
+// Normals of a set of triangles of one or several meshes. The triangles of all meshes are numbered consecutively. The
+// normal at corner k of the triangle with rank r in the set is normals[elements[3r + k]].
 struct visible_normals {
     struct rank_bitset triangles;
     uint32_t *elements; // 3 · triangles.count
-    // Capacity for 3 · triangles.count; `used` of them are filled, far fewer if corners share normals. Their order
-    // depends on the threads.
+    // Capacity for 3 · triangles.count normals. `used` of them are filled, which is far fewer if corners share normals.
+    // The order of the normals depends on the threads.
     float (*normals)[3];
     uint32_t used;
     uint32_t *first_corners; // a corner of the mesh for each normal, with the same capacity; NULL if not needed
@@ -31,14 +32,14 @@ static inline uint32_t visible_element(const struct visible_normals *visible, si
 
 // The resources of the computation. The result does not depend on them.
 struct normals_work {
-    struct scratch_memory scratch; // memory to reuse; all zero if there is none
-    int lanes;                     // the most floats at a time
+    struct scratch_memory scratch; // memory to reuse; zeroed if there is none
+    int lanes;                     // the maximum number of floats that are processed at a time
     struct pool *pool;
     struct call_control *call;
 };
 
-// Makes the normals of one mesh, whose triangle t has the number first + t in the set, by the rule in normals.h. The
-// set is finished (rank_bitset_finish). Errors: LAM_LIMIT, LAM_CANCELLED.
+// Computes the normals of one mesh by the rule in normals.h. Triangle t of the mesh has the number first + t in the
+// set. rank_bitset_finish must have been called for the set. Errors: LAM_LIMIT, LAM_CANCELLED.
 bool make_visible_normals(const lam_mesh *mesh, uint32_t first, double crease_angle_rad,
                           struct visible_normals *visible, const struct normals_work *work, lam_error *error);
 

@@ -1,12 +1,12 @@
-// corner_weld.c: finds equal items by hash. The items are sorted by hash; if different items share a hash, they are
-// sorted by their numbers.
+// corner_weld.c: finds equal items by their hashes. The items are sorted by hash. If different items have the same
+// hash, they are sorted by their values.
 #include "corner_weld.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    NUMBERS = 8, // numbers per item: position, normal, texture coordinates
+    NUMBERS = 8, // floats per item: position, normal, texture coordinates
     DIGIT_BITS = 11,
     DIGITS = 3, // digits of 32 bits
     BUCKETS = 1 << DIGIT_BITS,
@@ -17,7 +17,7 @@ struct hashed_item {
     uint32_t hash, item;
 };
 
-// The bit patterns of an item's numbers.
+// The bit patterns of an item's floats.
 struct item_bits {
     uint32_t numbers[NUMBERS], item;
 };
@@ -51,7 +51,8 @@ static uint32_t hash_of(const uint32_t numbers[NUMBERS])
     return (uint32_t)hash;
 }
 
-// Sorts by hash with a radix sort; items with equal hashes stay in order. DIGITS is odd, so the result is in `other`.
+// Sorts by hash with a radix sort; items with equal hashes keep their order. DIGITS is odd, so the result is in
+// `other`.
 static void sort_by_hash(struct hashed_item *items, struct hashed_item *other, uint32_t count)
 {
     for (int digit = 0; digit < DIGITS; digit++) {
@@ -79,7 +80,8 @@ static int by_numbers(const void *a, const void *b)
     return order ? order : (x->item > y->item) - (x->item < y->item);
 }
 
-// Welds the items with one hash. Usually they are equal; otherwise they are sorted in a separate array.
+// Welds the items that have the same hash. Usually all of them are equal; otherwise they are sorted in a separate
+// array.
 static bool weld_run(uint32_t *firsts, bool by_vertex, const lam_mesh *mesh, const struct hashed_item *run,
                      uint32_t count, struct call_control *call, lam_error *error)
 {
@@ -104,7 +106,7 @@ static bool weld_run(uint32_t *firsts, bool by_vertex, const lam_mesh *mesh, con
     }
     for (uint32_t i = 0; i < count; i++)
         bits_of(mesh, by_vertex, run[i].item, &all[i]);
-    qsort(all, count, sizeof *all, by_numbers); // a total order, so the sort method does not matter
+    qsort(all, count, sizeof *all, by_numbers); // the order is total, so the sorting method does not affect the result
     for (uint32_t i = 0, from = 0; i < count; i++) {
         from = memcmp(all[i].numbers, all[from].numbers, sizeof all[i].numbers) == 0 ? from : i;
         firsts[all[i].item] = all[from].item;

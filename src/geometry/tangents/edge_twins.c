@@ -1,5 +1,5 @@
-// edge_twins.c: pairs the edges of adjacent triangles. Each edge is assigned to the lower of its two welded numbers:
-// for each number, the edges to higher numbers, in both directions, are sorted by the other end.
+// edge_twins.c: pairs the edges of adjacent triangles. Each edge is assigned to the lower of the two welded numbers at
+// its ends. For each welded number, the edges to and from higher numbers are sorted by their other end.
 #include "edge_twins.h"
 
 #include "edge_keys.h"
@@ -8,7 +8,7 @@
 
 enum { CHECK_INTERVAL = 1 << 13 }; // welded numbers between two checks of the call
 
-// Pairs edges of opposite directions that have the same other end, in order.
+// Pairs, in order, edges of opposite directions that have the same other end.
 static void join(uint32_t *twin, const uint64_t *out, uint32_t out_count, const uint64_t *in, uint32_t in_count)
 {
     for (uint32_t i = 0, k = 0; i < out_count && k < in_count;) {
@@ -33,7 +33,7 @@ static uint32_t list_corners(struct edge_twins *edges, const struct corner_weld 
         max = edges->first[v + 1] > max ? edges->first[v + 1] : max;
         edges->first[v + 1] += edges->first[v];
     }
-    // Filling advances each start to its end; the loop afterwards restores the starts.
+    // Filling the list advances each start to the end of its section; the next loop restores the starts.
     for (size_t c = 0; c < corners; c++)
         if (!(flags[c / 3] & left_out))
             edges->list[edges->first[weld->of[c]]++] = (uint32_t)c;

@@ -1,8 +1,8 @@
-// mikktspace.c: finds the groups of triangles around each corner, and computes their tangents.
+// mikktspace.c: finds the groups of triangles around each corner, and computes the tangents of the groups.
 //
-// Triangles are processed in order, and each corner without a group starts one. The group grows across the edges that
-// leave the corner, then across the edges that lead to it. A triangle without an orientation takes the orientation of
-// the first group that reaches it, so this order is part of the definition.
+// Triangles are processed in order, and each corner without a group starts one. The group grows first across the edges
+// that start at the corner, then across the edges that end at it. A triangle without an orientation gets the
+// orientation of the first group that reaches it, so this order is part of the definition.
 #include "mikktspace.h"
 
 #include "cpu_features.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 
 enum { CHECK_INTERVAL = 1 << 13 }; // triangles or corners between two checks of the call
-// a sum this short, of summands with a total length of 1, is zero except for the rounding of its floats
+// a sum this short, of summands with a total length of 1, is zero except for rounding errors
 #define ZERO_SUM 1e-6
 
 struct tangent_maker {
@@ -42,7 +42,8 @@ static lam_vec3 field_tangent(lam_vec3 n)
     return v3_dot(around, around) < 1e-8 ? v3(1, 0, 0) : v3_unit(around);
 }
 
-// Adds a corner to a group with this orientation, TRIANGLE_PRESERVING or 0. Returns false if the group ends here.
+// Adds a corner to a group with this orientation, TRIANGLE_PRESERVING or 0. Returns false if the corner cannot join the
+// group.
 static bool join_group(struct tangent_maker *m, uint32_t corner, uint32_t group, unsigned preserving)
 {
     uint8_t *flags = &m->flags[corner / 3];
@@ -74,8 +75,8 @@ static void make_group(struct tangent_maker *m, uint32_t corner)
             break;
 }
 
-// Completes a corner that no group reached: corners of degenerate triangles copy the first equal corner, and all others
-// start their own group.
+// Completes a corner that no group reached. A corner of a degenerate triangle gets the group of the first equal corner
+// that is in a group. All other corners start their own groups.
 static void finish_corner(struct tangent_maker *m, uint32_t corner)
 {
     uint32_t v = m->weld.of[corner];
@@ -108,7 +109,8 @@ static bool make_groups(struct tangent_maker *m, struct call_control *call, lam_
     return true;
 }
 
-// Normalises the sums. A zero sum is replaced by the tangent without texture coordinates, for its corners' normal.
+// Normalises the sums. A zero sum is replaced with the tangent for meshes without texture coordinates, computed from
+// the normal of its corners.
 static void finish_sums(const struct tangent_maker *m, float (*sums)[4])
 {
     bool zeros = false;

@@ -1,4 +1,4 @@
-// tangent_kernels.c: computes the flags of triangles and the sums of their groups. The build defines ISA and LANES.
+// tangent_kernels.c: computes the flags of triangles and the sums of groups. The build defines ISA and LANES.
 #include "tangent_kernels.h"
 
 #include "angle_series.h"
@@ -17,8 +17,8 @@ struct triangles {
     float s[3][LANES], t[3][LANES];
 };
 
-// Fetches the elements of an attribute at the corners of the triangles from `first` on; the mesh's last triangle is
-// repeated.
+// Fetches the elements of an attribute at the corners of LANES triangles, starting with `first`. After the end of the
+// mesh, its last triangle is repeated.
 static void fetch_elements(const lam_mesh *mesh, const uint32_t *own, uint32_t first, uint32_t vertex[3][LANES])
 {
     uint32_t number[LANES];
@@ -123,7 +123,7 @@ static void look(const lam_mesh *mesh, uint32_t first, uint32_t end, uint8_t *fl
     }
 }
 
-// --- shares of groups, in double: squares and products of floats stay within its range
+// --- summands of groups, in double, so that squares and products of floats cannot overflow or underflow
 
 struct dvector {
     dnum x, y, z;
@@ -147,10 +147,11 @@ LANE_FN dnum inverse_length(struct dvector v)
     return dpick(square > none, one / dsquare_root(dpick(square > none, square, one)), none);
 }
 
-// Returns the component of v perpendicular to n, which is unit.
+// Returns the component of v perpendicular to the unit vector n.
 LANE_FN struct dvector in_plane(struct dvector v, struct dvector n) { return dsubtract(v, dscale(n, ddot(n, v))); }
 
-// Returns the angle between two vectors perpendicular to n; a right angle if either is zero.
+// Returns the angle between two vectors that are perpendicular to n. If either vector is zero, the result is a right
+// angle.
 LANE_FN dnum angle_between(struct dvector a, struct dvector b, struct dvector n)
 {
     struct dvector cross = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -1,5 +1,5 @@
-// tangent_kernels.h: MikkTSpace's calculations for each triangle and each corner, for LANES triangles at a time,
-// compiled once for each instruction set (meson.build). All versions give the same bytes.
+// tangent_kernels.h: the calculations of MikkTSpace for each triangle and each corner, for LANES triangles at a time.
+// The code is compiled once for each instruction set (meson.build). All versions give identical results.
 #ifndef TANGENT_KERNELS_H
 #define TANGENT_KERNELS_H
 
@@ -8,18 +8,19 @@
 // The properties of a triangle that determine its group, as bits.
 enum triangle_flags {
     TRIANGLE_PRESERVING = 1,  // the texture is not mirrored
-    TRIANGLE_JOINS_ANY = 2,   // has no direction and, until a group reaches it, no orientation
+    TRIANGLE_JOINS_ANY = 2,   // the triangle has no direction, and no orientation until a group reaches it
     TRIANGLE_DEGENERATE = 4,  // two of its positions are equal
     TRIANGLE_HAS_A_GROUP = 8, // a corner has a group
 };
-enum { TRIANGLES_AFTER = 15 }; // flags after the last triangle's that may be overwritten
+enum { TRIANGLES_AFTER = 15 }; // number of flags after the last triangle that may be overwritten
 
 struct tangent_kernels {
     // Sets the flags of the triangles from `first` to `end`, except TRIANGLE_HAS_A_GROUP.
     void (*look)(const lam_mesh *mesh, uint32_t first, uint32_t end, uint8_t *flags);
-    // Adds the corners of these triangles, in order, to their groups' sums: the triangle's ∂p/∂s, made perpendicular to
-    // the normal and unit, times the angle at the corner in the plane perpendicular to the normal; the fourth number is
-    // the sum of these angles. Degenerate corners, and corners that join any group, add nothing.
+    // Adds the corners of these triangles, in order, to the sums of their groups. Each summand is the triangle's ∂p/∂s,
+    // made perpendicular to the normal, normalized, and multiplied by the angle at the corner, measured in the plane
+    // perpendicular to the normal. The fourth float is the sum of these angles. Corners of triangles with
+    // TRIANGLE_DEGENERATE or TRIANGLE_JOINS_ANY add nothing.
     void (*add)(const lam_mesh *mesh, uint32_t first, uint32_t end, const uint8_t *flags, const uint32_t *groups,
                 float (*sums)[4]);
 };

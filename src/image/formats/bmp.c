@@ -3,8 +3,8 @@
 // https://learn.microsoft.com/windows/win32/gdi/bitmap-storage and, for OS/2's header of 16 to 64 bytes,
 // https://www.fileformat.info/format/os2bmp/egff.htm
 //
-// Without masks, the fourth byte of 32 bits is ignored, as the format specifies. Pixels that run lengths skip get the
-// palette's first colour. Colour profiles are ignored.
+// In pixels of 32 bits without masks, the fourth byte is ignored, as the format specifies. Pixels that the run lengths
+// skip get the first colour of the palette. Colour profiles are ignored.
 #include "codec.h"
 #include "fail.h"
 #include "little_endian.h"
@@ -16,7 +16,7 @@ enum { FILE_HEADER = 14, CORE_HEADER = 12, INFO_HEADER = 40, OS2_SHORTEST = 16, 
 
 // The bits of a colour channel in a pixel of 16 or 32 bits.
 struct mask {
-    uint32_t max; // the largest value; 0 means no such channel
+    uint32_t max; // the largest value; 0 means that there is no such channel
     int shift;
 };
 
@@ -36,7 +36,7 @@ static bool bmp_probe(const uint8_t *bytes, size_t size)
     if (size < FILE_HEADER + 4 || bytes[0] != 'B' || bytes[1] != 'M')
         return false;
     uint32_t header = u32_at(bytes + FILE_HEADER);
-    return header >= CORE_HEADER && header <= 4096; // text that begins with BM has larger values there
+    return header >= CORE_HEADER && header <= 4096; // text that begins with BM has larger values at this position
 }
 
 static bool fail_end(const struct bmp *bmp, const char *within, lam_error *error)
@@ -61,7 +61,7 @@ static bool read_mask(struct bmp *bmp, int index, uint32_t bits, lam_error *erro
     return true;
 }
 
-// Reads the masks, which follow a header of 40 bytes and are part of a longer one.
+// Reads the masks. If the header has 40 bytes, the masks follow it; a longer header contains the masks.
 static bool read_masks(struct bmp *bmp, lam_error *error)
 {
     static const uint32_t usual[2][MASKS] = {{0x7c00, 0x3e0, 0x1f, 0}, {0xff0000, 0xff00, 0xff, 0}};
@@ -76,12 +76,12 @@ static bool read_masks(struct bmp *bmp, lam_error *error)
             return false;
     }
     if (own && bmp->header == INFO_HEADER)
-        bmp->header += 4 * (size_t)count; // the palette would follow the masks
+        bmp->header += 4 * (size_t)count; // if there is a palette, it follows the masks
     return true;
 }
 
-// Reads the palette, blue first: three bytes per entry with a header of 12 bytes, otherwise four. A palette may be
-// shorter than the bits allow.
+// Reads the palette. An entry has three bytes if the header has 12 bytes, otherwise four; blue is first. A palette may
+// have fewer entries than a pixel has values.
 static bool read_palette(struct bmp *bmp, uint32_t used, lam_error *error)
 {
     size_t start = FILE_HEADER + bmp->header, entry = bmp->header == CORE_HEADER ? 3 : 4;
@@ -203,7 +203,7 @@ static bool put_indexed(const struct bmp *bmp, const uint8_t *from, uint32_t y, 
     return true;
 }
 
-// Returns a value of 0…max as a byte: floor(255·v/max + ½).
+// Converts a value v in 0…max to a byte: floor(255·v/max + ½).
 static uint8_t masked(const struct mask *mask, uint32_t pixel)
 {
     uint64_t value = pixel >> mask->shift & mask->max;
@@ -236,8 +236,9 @@ static bool put_rows(const struct bmp *bmp, const lam_image *image, lam_error *e
     return true;
 }
 
-// Decodes run lengths, two bytes at a time: a count and a color (with 4 bits, two alternating colors); 0 0: end of row;
-// 0 1: end of picture; 0 2 x y: move right and up; 0 n: n colors follow, padded to two bytes.
+// Decodes run lengths, two bytes at a time. Usually the bytes are a count and a color (with 4 bits, two alternating
+// colors). If the count is 0, 0 0 means end of row, 0 1 means end of picture, 0 2 x y means move right and up, and 0 n
+// means that n colors follow, padded to two bytes.
 static bool put_runs(const struct bmp *bmp, const lam_image *image, lam_error *error)
 {
     const uint8_t *at = bmp->file->bytes + bmp->pixels, *end = bmp->file->bytes + bmp->file->size;

@@ -1,7 +1,8 @@
-// exr.c: reads and writes OpenEXR, floats in named layers, with OpenEXR's C core, which is loaded on demand (dlopen).
-// It writes one part of scanlines with 32-bit floats and ZIP compression. The picture's channels are R, G, B, A, linear
-// and premultiplied as OpenEXR defines it; the channels of a layer are NAME.R and so on. Neither time nor path is
-// stored, so the same picture gives the same bytes with the same library.
+// exr.c: reads and writes OpenEXR files, which store floats in named layers. The C library OpenEXRCore is used, which
+// is loaded on demand (dlopen). Written files contain one part of scanlines, with 32-bit floats and ZIP compression.
+// The picture's channels are R, G, B and A, linear and premultiplied, as OpenEXR defines them. The channels of a layer
+// are NAME.R and so on. Neither a time nor a path is stored, so with the same library the same picture gives the same
+// bytes.
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
@@ -26,7 +27,8 @@ static bool exr_probe(const uint8_t *bytes, size_t size)
 
 #define LIBRARY "libOpenEXRCore-3_1.so.30"
 
-// The functions of the core that Lambent uses; each is a member of struct core with the type of its declaration.
+// The functions of OpenEXRCore that Lambent uses. Each function becomes a member of struct core, with the type of its
+// declaration.
 #define FUNCTIONS(each)                                                                                                \
     each(exr_start_write) each(exr_add_part) each(exr_initialize_required_attr_simple) each(exr_add_channel)           \
         each(exr_attr_set_string) each(exr_write_header) each(exr_get_scanlines_per_chunk)                             \
@@ -61,7 +63,7 @@ static bool open_core(struct core *core, lam_error *error)
                 "libopenexr-3-1-30 has them");
 }
 
-// Replaces the core's own handler, which prints to standard error.
+// Replaces the error handler of OpenEXRCore, which would print to standard error.
 static void stay_silent(exr_const_context_t context, exr_result_t code, const char *text)
 {
     (void)context, (void)code, (void)text;
@@ -99,7 +101,7 @@ static int64_t write_sink(exr_const_context_t context, void *user, const void *f
     return (int64_t)size;
 }
 
-// A channel of the file: its name, and the address of its first number.
+// A channel of the file: its name, and the address of its first float.
 struct channel {
     char name[NAME_BYTES];
     const float *from;
@@ -111,7 +113,7 @@ static const char *letters_of(const lam_layer *layer)
     return layer->channels ? layer->channels : named ? "RGB" : "RGBA";
 }
 
-// Lists the channels of all layers. Returns NULL on error; in that case there is nothing to free.
+// Lists the channels of all layers. On error, returns NULL and frees everything.
 static struct channel *list_channels(const lam_layer *layers, int count, int *channel_count, lam_error *error)
 {
     struct channel *channels = calloc(4 * (size_t)count, sizeof *channels);
@@ -225,11 +227,12 @@ static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam
         result = core.exr_write_header(file);
     if (result == EXR_ERR_SUCCESS)
         result = write_chunks(&core, file, part, channels, channel_count, width, height);
-    exr_result_t closed = file ? core.exr_finish(&file) : EXR_ERR_SUCCESS; // writes the table of chunks
+    exr_result_t closed = file ? core.exr_finish(&file) : EXR_ERR_SUCCESS; // also writes the table of chunks
     result = result == EXR_ERR_SUCCESS ? closed : result;
     free(channels);
     bool ok = result == EXR_ERR_SUCCESS;
-    // Packing cannot fail for valid data, so an error about a corrupt chunk means that zlib could not allocate memory.
+    // Compression cannot fail for valid data, so an error about a corrupt chunk means that zlib could not allocate
+    // memory.
     if (ok)
         *out = (lam_bytes){sink.bytes, sink.size};
     else if (sink.full || result == EXR_ERR_OUT_OF_MEMORY || result == EXR_ERR_CORRUPT_CHUNK)
@@ -267,8 +270,8 @@ static int64_t size_of_source(exr_const_context_t context, void *user)
     return (int64_t)((const struct source *)user)->size;
 }
 
-// Returns the position of a channel of the file in a pixel of the picture, or −1 if it has none. Y is the luminance,
-// which is used for all three colours.
+// Returns the index that a channel of the file has in a pixel of the picture, or −1 if the picture does not use the
+// channel. Y is the luminance, which is used for all three colours.
 static int place_of(const char *name)
 {
     static const char letters[] = "RGBA";

@@ -1,7 +1,7 @@
-// hdr.c: reads Radiance pictures (.hdr, RGBE): three mantissas and one exponent per pixel, linear light.
+// hdr.c: reads Radiance pictures (.hdr, RGBE), which store linear light as three mantissas and one exponent per pixel.
 //
-// The file consists of lines of text up to an empty one, a line with the size ("-Y 512 +X 1024"), and rows of pixels,
-// each encoded in one of three ways:
+// The file consists of lines of text that end with an empty line, a line with the size ("-Y 512 +X 1024"), and rows of
+// pixels. Each row is encoded by one of three methods:
 //  new runs   2, 2, width as two bytes (8 … 32767), then the row's red, green, blue and exponent bytes one after the
 //             other: a count above 128 is a run of count − 128 equal bytes; otherwise that many single bytes follow
 //  old runs   pixels; 1, 1, 1, n repeats the previous pixel n times; directly after another run n · 256 times, and so on
@@ -21,7 +21,7 @@ static bool hdr_probe(const uint8_t *bytes, size_t size)
 
 struct header {
     int width, height;
-    bool up, left; // rows run upwards, pixels to the left
+    bool up, left; // rows are stored upwards, pixels from right to left
     size_t pixels; // the offset of the pixels
 };
 
@@ -32,7 +32,7 @@ static const uint8_t *line_end(const uint8_t *at, const uint8_t *end)
     return found;
 }
 
-// Parses a number such as " 512" and advances. Returns −1 if it is not 1 … 65535.
+// Parses a number such as " 512" and moves *at to its end. Returns −1 if the number is not 1 … 65535.
 static int side_at(const uint8_t **at, const uint8_t *end)
 {
     int value = 0;
@@ -91,8 +91,8 @@ static bool read_header(const uint8_t *bytes, size_t size, const char *name, str
     return read_size(at, stop, name, header, error);
 }
 
-// The row readers return the end of the row, or NULL if the row is invalid or the file ends within it. `row` has 4
-// bytes per pixel.
+// The next functions read a row, and return the end of the row in the file. If the row is invalid, or if the file ends
+// within the row, they return NULL. `row` receives 4 bytes per pixel.
 
 static const uint8_t *read_new_runs(const uint8_t *at, const uint8_t *end, int width, uint8_t *row)
 {
@@ -151,7 +151,8 @@ static void store_row(const struct header *header, const uint8_t *row, const flo
     }
 }
 
-// Fills the table of 2^(exponent − 136); 0 for the exponent 0 and for results below the smallest normal float.
+// Fills the table of 2^(exponent − 136). The entry is 0 for exponent 0, and if the power is below the smallest normal
+// float.
 static void fill_scale(float scale[256])
 {
     double value = 0x1p119;
@@ -168,7 +169,7 @@ static bool read_rows(const struct picture_file *file, const struct header *head
     const uint8_t *end = file->bytes + file->size;
     float scale[256];
     fill_scale(scale);
-    // If a small file declares a huge picture, its rows are read twice: the first pass checks them before memory is
+    // If a small file declares a huge picture, its rows are read twice. The first pass checks the rows before memory is
     // allocated.
     size_t pixels = (size_t)header->width * (size_t)header->height;
     for (int pass = pixels / PIXELS_OF_A_BYTE < file->size; pass < 2; pass++) {

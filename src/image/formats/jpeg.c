@@ -1,5 +1,5 @@
-// jpeg.c: defines JPEG's row in the table of formats; reads with libjpeg-turbo and its accurate integer transform,
-// bit-identical on every processor.
+// jpeg.c: defines the entry for JPEG in the table of formats, and reads JPEG files with libjpeg-turbo. The accurate
+// integer transform gives bit-identical pictures on every processor.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"
@@ -13,7 +13,7 @@
 
 enum { MAX_SCANS = 200 }; // a progressive picture has about ten scans; each one covers the whole picture
 
-// libjpeg's structs, which its callbacks receive, followed by our members.
+// The structs of libjpeg that its callbacks receive, followed by our own members.
 struct reader {
     struct jpeg_error_mgr errors;
     struct jpeg_progress_mgr progress;
@@ -23,8 +23,8 @@ struct reader {
     const struct picture_file *file;
     bool rgb;           // decodes to LAM_RGB8 instead of LAM_RGBA8, except for CMYK files
     bool stopped;       // the call must stop
-    bool out_of_memory; // in libjpeg
-    size_t charged;     // bytes for libjpeg's coefficients
+    bool out_of_memory; // libjpeg ran out of memory
+    size_t charged;     // number of bytes charged for libjpeg's coefficients
 };
 
 _Noreturn static void give_up(j_common_ptr jpeg)
@@ -35,7 +35,8 @@ _Noreturn static void give_up(j_common_ptr jpeg)
     longjmp(reader->out, 1);
 }
 
-// Warnings (level −1) about missing data end the reading; other warnings are common for cameras and old programs.
+// Reading stops at a warning (level −1), because most warnings are about missing data. Three harmless warnings, which
+// files from cameras and old programs often cause, are ignored.
 static void take_message(j_common_ptr jpeg, int level)
 {
     int code = jpeg->err->msg_code;
@@ -63,15 +64,15 @@ static bool jpeg_probe(const uint8_t *bytes, size_t size)
     return size >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-// Checks the file size: a block of 64 pixels takes at least one bit in the component with the most blocks, which may
-// cover 1/16 of the pixels.
+// Checks that the file is large enough for the declared size. A block of 64 pixels needs at least one bit in the
+// component with the most blocks, and this component may have 1/16 of the picture's pixels.
 static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
 {
     return (uint64_t)jpeg->image_width * jpeg->image_height / (8 * 64 * 16) <= size;
 }
 
 // Charges the coefficients. A file with several scans keeps all of its coefficients in memory before the first row.
-// Each needs two bytes, and there are at most as many as if all components had full resolution.
+// A coefficient needs two bytes, and there are at most as many coefficients as if all components had full resolution.
 static bool charge_coefficients(struct reader *reader, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
@@ -83,9 +84,9 @@ static bool charge_coefficients(struct reader *reader, lam_error *error)
     return reader->charged || call_memory_error(call, bytes, error);
 }
 
-// Converts one row of cyan, magenta, yellow and black ink values to RGBA, without a colour profile: each channel is the
-// product of the light that its ink and the black ink transmit. In files with Adobe's marker, 255 means no ink, a
-// convention of Photoshop that every program follows. In other files, 0 means no ink.
+// Converts one row of cyan, magenta, yellow and black ink values to RGBA, without a colour profile. Each channel is the
+// product of the fractions of light that its ink and the black ink transmit. In files with Adobe's marker, 255 means no
+// ink; this is a convention of Photoshop that every program follows. In other files, 0 means no ink.
 static void mix_inks(uint8_t *row, size_t width, bool inverted)
 {
     const unsigned flip = inverted ? 0 : 255;
@@ -97,7 +98,7 @@ static void mix_inks(uint8_t *row, size_t width, bool inverted)
     }
 }
 
-// libjpeg may leave this function with longjmp, so it changes only memory behind its pointers.
+// libjpeg may leave this function with longjmp, so the function changes only memory that its pointers point to.
 static bool decode(struct reader *reader, lam_image *image, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
@@ -116,9 +117,9 @@ static bool decode(struct reader *reader, lam_image *image, lam_error *error)
     jpeg->out_color_space = inks ? JCS_CMYK : format == LAM_RGB8 ? JCS_RGB : JCS_EXT_RGBA; // alpha 255
     jpeg->dct_method = JDCT_ISLOW;
     jpeg->do_fancy_upsampling =
-        TRUE; // chroma at half the size is interpolated linearly, in integers, which is exact everywhere
+        TRUE; // chroma at half the size is interpolated linearly, with integers, which is identical on every machine
     jpeg->do_block_smoothing = FALSE; // only affects files with missing scans, which are rejected
-    // The picture is allocated first: if that fails, no memory for coefficients is needed.
+    // The picture is allocated first, because no memory for coefficients is needed if this fails.
     if (!picture_make(file, jpeg->image_width, jpeg->image_height, format, image, error) ||
         !charge_coefficients(reader, error))
         return false;
@@ -181,7 +182,7 @@ static bool jpeg_read_wide(const struct picture_file *file, lam_image *image, bo
     return jpeg_read_as(true, file, image, error);
 }
 
-// Returns whether a remark after the markers SOI and JFIF is Lambent's.
+// Returns whether the comment after the markers SOI and JFIF says that Lambent wrote the file.
 static bool jpeg_ours(const uint8_t *bytes, size_t size)
 {
     static const char remark[] = "\xff\xfe\0\x09" JPEG_REMARK;

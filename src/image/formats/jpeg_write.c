@@ -1,5 +1,5 @@
-// jpeg_write.c: writes JPEG with libjpeg-turbo: baseline, the accurate integer transform, optimised Huffman codes. The
-// bytes depend only on the picture, the quality and libjpeg-turbo's version.
+// jpeg_write.c: writes baseline JPEG files with libjpeg-turbo. The accurate integer transform and optimised Huffman
+// codes are used. The bytes depend only on the picture, the quality and the version of libjpeg-turbo.
 #include "codec.h"
 #include "compose.h"
 #include "fail.h"
@@ -12,10 +12,11 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-// From QUALITY_OF_FULL_COLOR on, chroma is stored for every pixel, and below it for every four pixels.
+// If the quality is at least QUALITY_OF_FULL_COLOR, chroma is stored for every pixel. For lower quality, chroma is
+// stored once for every four pixels.
 enum { QUALITY_DEFAULT = 90, QUALITY_OF_FULL_COLOR = 90 };
 
-// libjpeg's error struct, which its callbacks receive, followed by our members.
+// The error struct of libjpeg that its callbacks receive, followed by our own members.
 struct writer {
     struct jpeg_error_mgr errors;
     struct jpeg_compress_struct jpeg;
@@ -26,7 +27,7 @@ struct writer {
     int quality;
     unsigned char *bytes; // from malloc
     unsigned long size;
-    bool has_bytes; // jpeg_mem_dest has returned; if it fails for lack of memory, it leaves its members unset
+    bool has_bytes; // jpeg_mem_dest has returned; if it runs out of memory, it does not set its members
     uint8_t *row;
 };
 
@@ -36,7 +37,7 @@ static void ignore_message(j_common_ptr jpeg, int level) { (void)jpeg, (void)lev
 
 static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 
-// libjpeg may leave this function with longjmp, so it changes only memory behind its pointer.
+// libjpeg may leave this function with longjmp, so the function changes only memory that its pointer points to.
 static bool encode(struct writer *writer, lam_error *error)
 {
     struct jpeg_compress_struct *jpeg = &writer->jpeg;

@@ -1,4 +1,4 @@
-// little_endian.h: reads numbers of a file, lowest byte first.
+// little_endian.h: reads the numbers of a file that stores the lowest byte first.
 #ifndef LITTLE_ENDIAN_H
 #define LITTLE_ENDIAN_H
 

@@ -6,13 +6,13 @@
 
 struct netpbm_header {
     int width, height; // 1 … 65535
-    double last;       // PPM: the largest value; PFM: the scale, whose sign gives the byte order
+    double last;       // PPM: the largest value; PFM: the scale, whose sign is the byte order
     size_t pixels;     // the offset of the pixels
 };
 
-// Reads the header of a file whose first two bytes have been checked: width, height and one more number, separated by
-// white space and comments from '#' to the end of the line, followed by one white-space character. `title` is the
-// format's name.
+// Reads the header of a file whose first two bytes have been checked. The header consists of the width, the height and
+// one more number, followed by one white-space character. The numbers are separated by white space and by comments,
+// from '#' to the end of the line. `title` is the format's name.
 bool netpbm_read_header(const struct picture_file *file, const char *title, struct netpbm_header *header,
                         lam_error *error);
 

@@ -1,8 +1,10 @@
-// pfm.c: reads and writes PFM, floats with a three-line header (Debevec's portable float map), bottom row first.
+// pfm.c: reads and writes PFM files (Debevec's portable float map). A PFM file consists of a header of three lines, and
+// of floats, with the bottom row first.
 //
-// The header is "PF", width and height, and a number whose sign gives the byte order: negative is little-endian.
-// Programs do not agree about its absolute value, the scale: it is written as 1 and ignored when read. PFM has neither
-// alpha nor comments, so the file cannot name the program that wrote it.
+// The header contains "PF", the width and the height, and a number. The sign of this number is the byte order: negative
+// means little-endian. The absolute value of the number is the scale. Programs do not agree about the scale, so Lambent
+// writes 1 and ignores the scale when it reads a file. PFM has neither alpha nor comments, so the file cannot name the
+// program that wrote it.
 #include "codec.h"
 #include "fail.h"
 #include "netpbm.h"

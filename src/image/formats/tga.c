@@ -1,9 +1,9 @@
-// tga.c: reads Truevision TGA: palettes, true colour and grey, uncompressed and run-length encoded, of 8, 15, 16, 24
-// and 32 bits, with the first pixel in any corner. Truevision TGA File Format Specification, version 2.0 (1991).
+// tga.c: reads Truevision TGA files: palettes, true colour and grey, with 8, 15, 16, 24 and 32 bits, uncompressed or
+// run-length encoded, with the first pixel in any corner. Truevision TGA File Format Specification, version 2.0 (1991).
 //
-// A TGA file has no magic number, so the whole header is checked, after all other formats. The fourth byte of 32 bits
-// is used as alpha even if the header declares 0 alpha bits, as many programs write it, unless it is 0 in all pixels
-// then.
+// A TGA file has no magic number, so the whole header is checked, after all other formats. In pixels of 32 bits, the
+// fourth byte is used as alpha, even if the header declares 0 alpha bits, because many programs write such files. If
+// the header declares 0 alpha bits and the fourth byte is 0 in all pixels, the byte is ignored.
 #include "codec.h"
 #include "fail.h"
 #include "little_endian.h"
@@ -26,7 +26,7 @@ struct tga {
 
 static bool is_color_bits(uint32_t bits) { return bits == 15 || bits == 16 || bits == 24 || bits == 32; }
 
-// Parses the header. Returns false if it is not a TGA header; the error (may be NULL) says why.
+// Parses the header. Returns false if it is not a TGA header; `error` (may be NULL) then says why.
 static bool take_header(const struct picture_file *file, struct tga *tga, lam_error *error)
 {
     const uint8_t *bytes = file->bytes;
@@ -102,7 +102,7 @@ static bool put_pixel(const struct tga *tga, const uint8_t *from, uint8_t *to, l
         memset(to, *from, 3);
         to[3] = 255;
     } else {
-        uint32_t index = *from - tga->first; // wraps around below the first entry
+        uint32_t index = *from - tga->first; // an index below the first entry wraps around to a large number
         if (index >= tga->colors)
             return fail(error, LAM_CANNOT_READ, "%s: TGA byte %zu: colour %u, but the palette has %u to %u",
                         tga->file->name, (size_t)(from - tga->file->bytes), *from, tga->first,
@@ -112,7 +112,7 @@ static bool put_pixel(const struct tga *tga, const uint8_t *from, uint8_t *to, l
     return true;
 }
 
-// Returns the address of pixel `x` of row `y` in the file's order.
+// Returns the address in the picture of pixel `x` of row `y`, both counted in the order of the file.
 static uint8_t *place_of(const struct tga *tga, const lam_image *image, uint32_t x, uint32_t y)
 {
     size_t row = tga->top_down ? y : tga->height - 1 - y, column = tga->right_to_left ? tga->width - 1 - x : x;
@@ -125,8 +125,9 @@ static bool fail_end(const struct tga *tga, const char *within, lam_error *error
                 within);
 }
 
-// Decodes packets: a byte, followed by one repeated pixel (bit 7) or by several, 1 to 128. In version 2 of the format
-// packets end with their row; in older files they do not.
+// Decodes packets. A packet begins with one byte, which contains a count (1 to 128) and a flag (bit 7). If the flag is
+// set, one pixel follows, which is repeated; otherwise, as many pixels follow as the count says. In version 2 of the
+// format, packets end at the end of a row; in older files they may continue in the next row.
 static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image *image, lam_error *error)
 {
     const uint8_t *end = tga->file->bytes + tga->file->size;
@@ -157,7 +158,7 @@ static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image
     return true;
 }
 
-// Fills the alpha if the header declares none.
+// Sets the alpha of all pixels if the header declares no alpha.
 static void fill_alpha(const lam_image *image)
 {
     uint8_t *pixels = image->pixels;
@@ -181,7 +182,7 @@ static bool tga_read(const struct picture_file *file, lam_image *image, lam_erro
         return fail_end(&tga, palette > file->size ? "remark" : "palette", error);
     if (!picture_size_check(file, tga.width, tga.height, error))
         return false;
-    // A packet of a byte and one pixel has at most 128 pixels.
+    // A packet that stores a byte and one pixel expands to at most 128 pixels.
     uint64_t count = (uint64_t)tga.width * tga.height, step = bytes_of(tga.bits);
     uint64_t least = tga.runs ? (count + 127) / 128 * (1 + step) : count * step;
     if (least > file->size - pixels)

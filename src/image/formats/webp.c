@@ -1,6 +1,6 @@
-// webp.c: reads and writes WebP, lossy and lossless with alpha, with libwebp, which is loaded on demand (dlopen). It
-// reads chunk by chunk, so that a long decoding can be stopped, and does not support animations. The written bytes
-// depend on the library's version. https://developers.google.com/speed/webp/docs/riff_container
+// webp.c: reads and writes WebP files, lossy and lossless, with alpha. The library libwebp is used, which is loaded on
+// demand (dlopen). Files are read chunk by chunk, so that a long decoding can be stopped. Animations are not supported.
+// The written bytes depend on the version of libwebp. https://developers.google.com/speed/webp/docs/riff_container
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
@@ -13,9 +13,10 @@
 
 enum {
     RIFF_HEADER = 12,
-    CHUNK_BYTES = 1 << 14, // bytes per step, or fewer if they may contain more than PLAIN_PIXELS pixels
+    CHUNK_BYTES = 1 << 14, // bytes per step, or fewer if they contain more than CHUNK_PIXELS pixels on average
     CHUNK_PIXELS = 1 << 22,
-    PLAIN_PIXELS = 1 << 24, // pixels that a file of any size may have: 4096×4096 of one colour take a few bytes
+    PLAIN_PIXELS = 1 << 24, // pixels that a file of any size may have, because 4096×4096 pixels of one colour need only
+                            // a few bytes
 };
 
 static bool webp_probe(const uint8_t *bytes, size_t size)
@@ -71,7 +72,7 @@ static bool fail_status(const struct picture_file *file, int status, lam_error *
     }
 }
 
-// Decodes the file chunk by chunk; after each, all completed rows are available.
+// Decodes the file chunk by chunk. After each chunk, all completed rows are available.
 static bool decode(const struct webp_library *webp, const struct picture_file *file, lam_image *image, lam_error *error)
 {
     size_t stride = 4 * (size_t)image->width;
@@ -93,8 +94,8 @@ static bool decode(const struct webp_library *webp, const struct picture_file *f
     return runs && (status == VP8_STATUS_OK || fail_status(file, status, error));
 }
 
-// libwebp 1.2 may dereference a null pointer if an allocation fails, so the largest amount that it needs, including
-// tables, is allocated and freed first.
+// libwebp 1.2 may dereference a null pointer if an allocation fails. Therefore the largest amount of memory that it may
+// need, including tables, is first allocated and freed.
 static bool has_memory(size_t own, lam_error *error)
 {
     const size_t bytes = own + (4 << 20);
@@ -118,7 +119,7 @@ static bool read_with(const struct webp_library *webp, const struct picture_file
     if (end > file->size)
         return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its WebP header says byte %llu", file->name,
                     file->size, (unsigned long long)end);
-    // Pixels that take no bytes are decoded in one step, which cannot be stopped.
+    // Pixels that need no bytes in the file are decoded in one step, which cannot be stopped.
     uint64_t pixels = (uint64_t)features.width * (uint64_t)features.height;
     uint64_t more = call_expansion_limit(file->call);
     uint64_t most = PLAIN_PIXELS + (more < UINT32_MAX ? file->size * more : UINT32_MAX);
@@ -129,7 +130,8 @@ static bool read_with(const struct webp_library *webp, const struct picture_file
             file->name, features.width, features.height, (unsigned long long)most, file->size);
     if (!picture_make(file, (uint32_t)features.width, (uint32_t)features.height, LAM_RGBA8, image, error))
         return false;
-    // libwebp decodes these at once: all pixels of a lossless picture, and the alpha of a lossy one.
+    // libwebp decodes all pixels of a lossless picture at once, and also the alpha of a lossy picture. `own` is the
+    // memory that libwebp needs for these pixels.
     enum { LOSSLESS = 2 };
     size_t own = (size_t)pixels * (features.format == LOSSLESS ? 4 : features.has_alpha ? 2 : 0);
     bool ok = !file->call || call_charge(file->call, own) || call_memory_error(file->call, own, error);
@@ -203,7 +205,8 @@ static bool fail_encoding(const WebPPicture *picture, const struct sink *sink, l
                 picture->height, (int)picture->error_code);
 }
 
-// Configures lossless encoding that keeps the colours of fully transparent pixels, or lossy encoding at a quality.
+// Configures either lossless encoding, which keeps the colours of fully transparent pixels, or lossy encoding with the
+// given quality.
 bool webp_configure(const struct webp_library *webp, const lam_image *image, const lam_save_params *params,
                     struct call_control *call, WebPConfig *config, WebPPicture *picture, lam_error *error)
 {

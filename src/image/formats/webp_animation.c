@@ -1,5 +1,5 @@
-// webp_animation.c: writes animated WebP with libwebpmux, which is loaded (dlopen) when an animation begins. The
-// library stores the changes of each frame; the bytes depend on its version.
+// webp_animation.c: writes animated WebP files with libwebpmux, which is loaded (dlopen) when an animation begins. For
+// each frame, the library stores only the changes. The written bytes depend on the version of the library.
 #include "animation.h"
 #include "dynamic_library.h"
 #include "fail.h"
@@ -78,7 +78,7 @@ static void *animation_start(const struct animation_settings *settings, lam_erro
     return NULL;
 }
 
-// Returns the start time of a frame in the format's milliseconds.
+// Returns the start time of a frame in milliseconds, the unit of the format.
 static int time_of(const struct webp_animation *animation, int frame)
 {
     return (int)(frame * 1000.0 / animation->settings.frames_per_second + 0.5);
@@ -125,8 +125,8 @@ static bool animation_finish(void *state, const lam_save_params *params, lam_byt
     return out->data || fail_memory(error, data.size);
 }
 
-// Returns the bytes of the encoder's three canvases. It reports the size of its encoded frames only with the finished
-// file.
+// Returns the size in bytes of the encoder's three canvases. The encoder reports the size of its encoded frames only
+// together with the finished file.
 static uint64_t animation_held(const void *state)
 {
     const struct webp_animation *animation = state;

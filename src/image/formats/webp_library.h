@@ -1,4 +1,4 @@
-// webp_library.h: libwebp, loaded by webp.c, for other encoders.
+// webp_library.h: gives other encoders access to libwebp, which webp.c loads.
 #ifndef WEBP_LIBRARY_H
 #define WEBP_LIBRARY_H
 
@@ -16,7 +16,8 @@ bool webp_is_installed(void);
 
 #define WEBP_LIBRARY "libwebp.so.7"
 
-// The functions that Lambent uses; each is a member of struct webp_library with the type of its declaration.
+// The functions that Lambent uses. Each function becomes a member of struct webp_library, with the type of its
+// declaration.
 #define WEBP_FUNCTIONS(each)                                                                                           \
     each(WebPGetFeaturesInternal) each(WebPINewRGB) each(WebPIUpdate) each(WebPIDelete) each(WebPConfigInitInternal)   \
         each(WebPPictureInitInternal) each(WebPPictureImportRGBA) each(WebPEncode) each(WebPPictureFree)               \
@@ -29,14 +30,15 @@ struct webp_library {
 #undef MEMBER
 };
 
-// Opens libwebp. Messages begin with `file`, unless it is NULL. Fails with LAM_UNSUPPORTED.
+// Opens libwebp. Error messages begin with `file`, unless `file` is NULL. Fails with LAM_UNSUPPORTED.
 bool webp_open(struct webp_library *webp, const char *file, lam_error *error);
 
-// Sets up the encoding of an image and starts `call`, to which the encoder reports. Fails with LAM_UNSUPPORTED.
+// Sets up the encoding of an image, and starts `call`, to which the encoder reports its progress. Fails with
+// LAM_UNSUPPORTED.
 bool webp_configure(const struct webp_library *webp, const lam_image *image, const lam_save_params *params,
                     struct call_control *call, WebPConfig *config, WebPPicture *picture, lam_error *error);
 
-// Fails with LAM_LIMIT.
+// Checks that WebP supports the size. Fails with LAM_LIMIT if it does not.
 bool webp_check_size(int width, int height, lam_error *error);
 
 #endif

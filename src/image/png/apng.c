@@ -1,9 +1,9 @@
 // apng.c: writes animated PNG: https://www.w3.org/TR/png-3/ (acTL, fcTL, fdAT).
 //
 // Each frame is encoded immediately, as a PNG of the smallest rectangle that contains all changes since the previous
-// frame, with as few channels as possible. All frames of a file must have one colour type, which is known after the
-// last frame, so frames with fewer channels are then decoded and encoded again. The chunks of these PNGs become the
-// chunks of the animation.
+// frame, with as few channels as possible. All frames of a file must have the same colour type, which is not known
+// until the last frame. Frames with fewer channels are then decoded and encoded again. The chunks of these PNGs become
+// the chunks of the animation.
 #include "animation.h"
 #include "codec.h"
 #include "fail.h"
@@ -20,14 +20,14 @@ struct box {
 };
 
 struct apng_frame {
-    lam_bytes png; // contains only the box
+    lam_bytes png; // the PNG of the box
     struct box box;
     int channels; // enum png_channels
 };
 
 struct apng {
     struct animation_settings settings;
-    lam_image before; // the previous frame; it has no pixels if there is none
+    lam_image before; // the previous frame; it has no pixels before the first frame
     struct apng_frame *frames;
     int count, capacity;
     uint64_t held; // bytes of the frames
@@ -54,7 +54,8 @@ static void *apng_start(const struct animation_settings *settings, lam_error *er
     return apng;
 }
 
-// Returns the smallest box that contains all differences of two pictures, or one pixel if they are equal.
+// Returns the smallest box that contains all differences between two pictures, or a box of one pixel if the pictures
+// are equal.
 static struct box changed_box(const lam_image *a, const lam_image *b)
 {
     const size_t row = 4 * (size_t)a->width;
@@ -181,8 +182,9 @@ static void put_animation_control(struct writer *writer, const struct apng *apng
     close_chunk(writer, "acTL", 8);
 }
 
-// The duration of a frame is a fraction of 16-bit numbers: exact for a whole number of frames per second, otherwise
-// rounded to a thousandth of a frame per second (from 65 on, to a hundredth).
+// Writes the duration of a frame as a fraction of two 16-bit numbers. The duration is exact for a whole number of
+// frames per second. Otherwise the rate is rounded to a thousandth of a frame per second (from 65 frames per second, to
+// a hundredth).
 static void put_delay(double frames_per_second, uint8_t out[4])
 {
     const bool whole = frames_per_second == (double)(int)frames_per_second;
@@ -210,8 +212,8 @@ static uint32_t u32_of(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-// Returns the most bytes that put_frame appends for a frame: its chunks with a sequence number each, one that is still
-// open, and the animation's chunks.
+// Returns the maximum number of bytes that put_frame appends for a frame. The number includes the frame's chunks, each
+// with a sequence number, one chunk that is not closed yet, and the chunks of the animation.
 static size_t frame_bytes(const struct apng_frame *frame)
 {
     const uint8_t *at = frame->png.data, *end = at + frame->png.size;
@@ -221,7 +223,7 @@ static size_t frame_bytes(const struct apng_frame *frame)
     return bytes;
 }
 
-// Copies the chunks of a frame's PNG; for the first frame, also the chunks before the picture.
+// Copies the chunks of a frame's PNG. For the first frame, also copies the chunks before the picture.
 static void put_frame(struct writer *writer, const struct apng *apng, int index)
 {
     const struct apng_frame *frame = &apng->frames[index];
@@ -249,13 +251,13 @@ static void put_frame(struct writer *writer, const struct apng *apng, int index)
     }
 }
 
-// Gives all frames the same channels, and computes the size of the file.
+// Encodes frames again until all have the same channels, and computes the size of the file.
 static bool unify(struct apng *apng, const lam_save_params *params, struct call_control *call, size_t *bytes,
                   lam_error *error)
 {
     const size_t again = (size_t)8 * (size_t)apng->settings.width * (size_t)apng->settings.height;
     int channels = 0;
-    if (!call_charge(call, apng->held) || !call_charge(call, again)) // one frame's pixels and its new encoding
+    if (!call_charge(call, apng->held) || !call_charge(call, again)) // the pixels of one frame, and its new encoding
         return call_memory_error(call, again, error);
     for (int i = 0; i < apng->count; i++)
         channels |= apng->frames[i].channels;

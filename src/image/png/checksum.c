@@ -66,7 +66,7 @@ void adler_zeros(struct adler_part *part, uint64_t count)
 
 void adler_join(struct adler_part *part, const struct adler_part *next)
 {
-    // The weight of every byte of `part` increases by next->size.
+    // In the joined sequence, the weight of every byte of `part` is larger by next->size.
     uint64_t follow = next->size % ADLER_MODULUS * part->sum;
     part->weighted = (uint32_t)((part->weighted + follow + next->weighted) % ADLER_MODULUS);
     part->sum = (part->sum + next->sum) % ADLER_MODULUS;
@@ -84,9 +84,9 @@ typedef uint16_t u16x8 __attribute__((vector_size(16)));
 typedef uint16_t u16x8_memory __attribute__((vector_size(16), aligned(4), may_alias));
 
 // Four pixels form a vector of eight 16-bit lanes, each with an even and an odd byte. Over a block of vectors j = 0 …
-// n−1, two sums are kept per lane: Σ x, and Σ (n−1−j)·x, to which the first sum is added before each step. The position
-// of a byte is first + j·stride + its offset in the vector, so both sums give Σ position·x. With at most 22 vectors the
-// second sum stays below 65536:
+// n−1, two sums are computed per lane: Σ x and Σ (n−1−j)·x. Before each step, the first sum is added to the second. The
+// position of a byte is first + j·stride + its offset in the vector, so Σ position·x follows from both sums. With at
+// most 22 vectors the second sum stays below 65536:
 //  255·22·21/2 = 58905
 void adler_row(struct adler_part *part, const uint32_t *row, int width, int bytes_per_pixel)
 {

@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Tables for CRC-32 of eight bytes at a time (8 KiB). They are made for each encoding, which takes about a microsecond,
-// because the library keeps no global state.
+// Tables for computing the CRC-32 of eight bytes at a time (8 KiB). Because the library keeps no global state, the
+// tables are computed for each encoding, which takes about a microsecond.
 struct crc_tables {
     uint32_t row[8][256];
 };
@@ -16,8 +16,8 @@ void crc_tables_make(struct crc_tables *tables);
 // Returns the CRC-32 (polynomial 0xEDB88320 reflected, PNG specification annex D) of `size` bytes.
 uint32_t crc_of(const struct crc_tables *tables, const uint8_t *bytes, size_t size);
 
-// Adler-32 of a sequence of bytes, in a form in which adjacent sequences from different threads can be joined, modulo
-// 65521:
+// The Adler-32 checksum of a sequence of bytes, in a form that allows joining adjacent sequences from different
+// threads. Both sums are modulo 65521:
 //  sum      = Σ byte
 //  weighted = Σ (size − position)·byte
 struct adler_part {
@@ -25,9 +25,9 @@ struct adler_part {
     uint64_t size;
 };
 
-// These functions append to a part: one byte, several bytes, zeros, a row of pixels, or the following part. A row is
-// `width` 32-bit words whose first `bytes_per_pixel` bytes (1 … 4) are in the stream; the other bytes must be zero, and
-// so must the words after the row up to a multiple of 4.
+// These functions append to a sequence: one byte, several bytes, zeros, a row of pixels, or the sequence that follows.
+// A row consists of `width` 32-bit words. The first `bytes_per_pixel` bytes (1 … 4) of a word are in the stream, and
+// its other bytes must be zero. The words after the row, up to a multiple of 4, must also be zero.
 void adler_byte(struct adler_part *part, uint8_t byte);
 void adler_bytes(struct adler_part *part, const uint8_t *bytes, size_t size);
 void adler_zeros(struct adler_part *part, uint64_t count);

@@ -5,7 +5,7 @@
 
 enum {
     CHUNK = 16, // pixels that are processed together
-    // Padding words before and after a row, so that loops can read its neighbours.
+    // Padding words before and after a row, so that loops may read beyond both ends of the row.
     PADDING_BEFORE = 4,
     PADDING_AFTER = CHUNK,
 };
@@ -17,7 +17,7 @@ typedef u32x4 u32x4_memory __attribute__((aligned(4), may_alias));
 
 static inline u32x4 load(const uint32_t *at) { return (u32x4) * (const u32x4_memory *)at; }
 
-// Tokens are built as 64-bit numbers, the first quarter lowest.
+// Tokens are built as 64-bit integers; the first quarter is the lowest 16 bits.
 static inline void put_token(struct token *at, uint64_t token) { memcpy(at, &token, sizeof token); }
 
 static size_t stride_of(int width) { return PADDING_BEFORE + (size_t)width + PADDING_AFTER; }
@@ -34,8 +34,8 @@ bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int r
     deflate->stride = stride_of(width);
     uint32_t *words = arena_array(arena, (size_t)rows * deflate->stride, sizeof *words);
     deflate->last_positions = arena_array(arena, 1 << DEFLATE_HASH_BITS, sizeof *deflate->last_positions);
-    // There is space for one token more than is kept, because find_runs writes a token for each pixel before it knows
-    // whether to keep it.
+    // There is space for one more token than will be kept, because find_runs writes a token for each pixel before it
+    // decides whether to keep it.
     deflate->tokens = arena_array(arena, (size_t)rows * ((size_t)width + 1) + 1, sizeof *deflate->tokens);
     if (!words || !deflate->last_positions || !deflate->tokens)
         return false;
@@ -55,14 +55,15 @@ void deflate_start(struct deflate *deflate, uint8_t filter, bool matches)
         memset(deflate->last_positions, 0xFF, sizeof *deflate->last_positions << DEFLATE_HASH_BITS); // no positions yet
 }
 
-// Returns a token whose quarters after the first `used` (1 … 4) are empty, and whose others are zero.
+// Returns a token whose first `used` (1 … 4) quarters are zero, and whose other quarters are empty.
 static inline uint64_t unused_after(int used)
 {
     const uint64_t all = (uint64_t)DEFLATE_NOTHING * 0x0001000100010001u;
     return used == 4 ? 0 : all << 16 * used;
 }
 
-// Returns a distance's symbol and extra bits (RFC 1951, 3.2.5): from 5 on, there are two symbols for each power of two.
+// Returns the symbol and the extra bits of a distance (RFC 1951, 3.2.5). From distance 5, there are two symbols for
+// each power of two.
 static inline uint64_t distance_of(uint32_t distance)
 {
     uint32_t before = distance - 1;
@@ -76,13 +77,14 @@ static inline uint64_t distance_of(uint32_t distance)
     return symbol | low << 16 | high << 32;
 }
 
-// Returns a match of 3 … 258 bytes.
+// Returns the token of a match of 3 … 258 bytes.
 static inline uint64_t match_of(size_t length, uint64_t distance)
 {
     return (DEFLATE_MATCH + length - DEFLATE_SHORTEST) | distance << 16;
 }
 
-// Splits a match of any length into matches of at most 258 bytes: the longest first, but never leaving 1 or 2 bytes.
+// Splits a match of any length into matches of at most 258 bytes. Each match is as long as possible, but never leaves a
+// remainder of 1 or 2 bytes.
 static struct token *put_match(struct token *token, size_t left, uint64_t distance)
 {
     while (left) {
@@ -95,7 +97,7 @@ static struct token *put_match(struct token *token, size_t left, uint64_t distan
     return token;
 }
 
-// Returns whether the CHUNK pixels from row[x] on all equal row[x - 1].
+// Returns whether all CHUNK pixels, starting with row[x], are equal to row[x - 1].
 static inline bool chunk_repeats(const uint32_t *row, int x)
 {
     const u32x4 pixel = (u32x4){0} + row[x - 1];
@@ -109,11 +111,11 @@ static inline bool chunk_repeats(const uint32_t *row, int x)
 // The tokens of a chunk's pixels, computed from each pixel and its neighbours.
 struct chunk {
     uint64_t literal[CHUNK]; // the pixel's bytes as a token
-    uint32_t in_run[CHUNK];  // all bits set if the pixel belongs to a run; else 0
-    int32_t step[CHUNK];     // 0 if the run continues after the pixel; else 1
+    uint32_t in_run[CHUNK];  // all bits are set if the pixel belongs to a run; otherwise 0
+    int32_t step[CHUNK];     // 0 if the run continues after the pixel; otherwise 1
 };
 
-// A run repeats the previous pixel at least twice.
+// Computes the tokens of a chunk. A run repeats the previous pixel at least twice.
 static inline __attribute__((always_inline)) void examine(struct chunk *chunk, const uint32_t *at, int bytes_per_pixel)
 {
     const u64x2 unused = (u64x2){0} + unused_after(bytes_per_pixel);
@@ -135,9 +137,9 @@ static inline __attribute__((always_inline)) void examine(struct chunk *chunk, c
     }
 }
 
-// Every pixel writes the next token, but only a literal or a run's last pixel keeps it, so the only branch is the one
-// for whole chunks of one colour. A run that is pending at the start of a chunk is shorter than a chunk, so it fits
-// into a match.
+// Finds the runs of a row. For every pixel, the next token is written, but it is kept only for a literal or for the
+// last pixel of a run. Therefore the only branch is the check for chunks of a single colour. A run that is pending at
+// the start of a chunk is shorter than a chunk, so one match can represent it.
 static inline __attribute__((always_inline)) void find_runs(struct deflate *deflate, unsigned bytes_per_pixel,
                                                             int first, int end)
 {
@@ -145,7 +147,7 @@ static inline __attribute__((always_inline)) void find_runs(struct deflate *defl
     const uint32_t *row = deflate->row;
     struct token *token = deflate->end;
     const uint64_t distance = distance_of(bytes_per_pixel), shortest = match_of(DEFLATE_SHORTEST, distance);
-    uint32_t pending = 0; // length in bytes of the current run
+    uint32_t pending = 0; // length of the current run in bytes
     struct chunk chunk;
     for (int x = 0; x < width;) {
         if (x + CHUNK <= width && chunk_repeats(row, x)) {
@@ -174,7 +176,7 @@ static inline __attribute__((always_inline)) void find_runs(struct deflate *defl
     deflate->end = token;
 }
 
-// Returns a pixel's four bytes, 16 bits apart.
+// Returns the four bytes of a pixel, each in 16 bits.
 static inline uint64_t spread(uint32_t pixel)
 {
     uint64_t x = (pixel | (uint64_t)pixel << 16) & 0x0000FFFF0000FFFFu;
@@ -188,8 +190,8 @@ static inline uint64_t two_pixels(const uint32_t *at)
     return pair;
 }
 
-// Returns the number of equal pixels starting at `a` and `b`, at most `max`. It may read two pixels beyond them, which
-// is safe because rows are padded.
+// Returns the number of equal pixels starting at `a` and `b`, at most `max`. The function may read two pixels beyond
+// the end, which is safe because rows are padded.
 static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
 {
     int count = 0;
@@ -200,13 +202,13 @@ static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
     return count < max ? count : max;
 }
 
-// Limits of find_matches by bytes_per_pixel. Pixels of one or two bytes take few bits as literals, so only longer
-// matches and runs reduce the size (measured).
+// Limits for find_matches, indexed by bytes_per_pixel. Pixels of one or two bytes need few bits as literals, so only
+// longer matches and runs reduce the size (measured).
 static const int key_pixels[5] = {0, 8, 4, 2, 2};  // pixels that are hashed together
 static const int min_match[5] = {0, 20, 12, 2, 2}; // pixels
-static const int min_run[5] = {0, 8, 5, 2, 2};     // pixels that repeat the previous one
+static const int min_run[5] = {0, 8, 5, 2, 2};     // number of pixels that repeat the previous pixel
 
-// Returns the next key_pixels pixels as one number.
+// Returns the next key_pixels pixels as one integer.
 static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
 {
     if (bytes_per_pixel >= 3)
@@ -220,9 +222,9 @@ static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
     return key;
 }
 
-// Uses at each pixel the first of these that is possible: a run; a match with the last position of the same key;
-// literals, as many pixels as fit into a token. If a match may be as short as one pixel, a single repetition is also a
-// match. Source and target of a match are each within one row, so they contain no filter byte.
+// At each pixel, uses the first possible of three encodings: a run, a match with the last position of the same key, or
+// literals for as many pixels as one token can contain. If a match may be as short as one pixel, a single repetition is
+// also a match. The source and the target of a match are each within one row, so they contain no filter byte.
 static inline __attribute__((always_inline)) void find_matches(struct deflate *deflate, const int bytes_per_pixel,
                                                                int first, int end)
 {
@@ -289,7 +291,8 @@ void deflate_row(struct deflate *deflate, int first, int end)
 {
     struct token *token = deflate->end;
     put_token(deflate->end++, deflate->filter | unused_after(1));
-    // The first pixel never repeats another, because the filter byte precedes it; every run ends after the last pixel.
+    // The first pixel of a row never repeats a pixel, because the filter byte is before it. Every run ends at the last
+    // pixel of the row.
     uint32_t *row = deflate->row;
     row[-1] = ~row[0];
     row[deflate->width] = ~row[deflate->width - 1];
@@ -307,8 +310,8 @@ void deflate_row(struct deflate *deflate, int first, int end)
         find_runs(deflate, 3, first, end);
     deflate->row += deflate->stride;
     deflate->y++;
-    // There are two sets of counts, because neighbouring tokens are often equal, and adding to a number that was just
-    // stored takes some cycles.
+    // There are two sets of counts, because neighbouring tokens are often equal. Adding to a counter that was just
+    // stored would have to wait for some cycles.
     for (; token + 2 <= deflate->end; token += 2) {
         count(deflate->counts[0], token);
         count(deflate->counts[1], token + 1);

@@ -3,7 +3,8 @@
 
 #include "huffman.h"
 
-// Lengths above 10 are in groups of four symbols with the same number of extra bits; 258 has its own symbol.
+// The symbols of lengths above 10 form groups of four with the same number of extra bits. Length 258 has its own
+// symbol.
 unsigned length_symbol(unsigned length, unsigned *extra)
 {
     unsigned beyond = length - DEFLATE_SHORTEST;
@@ -27,8 +28,8 @@ static void put_length(struct codes *codes, uint8_t symbol, unsigned extra)
     codes->length_extra[codes->length_symbol_count++] = (uint8_t)extra;
 }
 
-// Run-length codes for the code lengths (RFC 1951, 3.2.7): 16 repeats the previous length 3–6 times, 17 and 18 are 3–10
-// and 11–138 zeros.
+// Encodes the code lengths with run lengths (RFC 1951, 3.2.7). Symbol 16 repeats the previous length 3–6 times; symbols
+// 17 and 18 mean 3–10 and 11–138 zeros.
 static void encode_lengths(struct codes *codes, const uint8_t *lengths, unsigned count)
 {
     for (unsigned i = 0, end; i < count; i = end) {
@@ -63,7 +64,8 @@ void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint
         codes->bits += (uint64_t)counts[i] * codes->length[i];
     for (int i = 0; i < DISTANCES; i++)
         codes->bits += (uint64_t)distance_counts[i] * (codes->distance_length[i] + distance_extra(i));
-    // Trailing zeros are not written, except for the first distance: alone, it means that there are no distances.
+    // Trailing zeros are not written. Only the first distance is always written; if it is the only one and zero, there
+    // are no distances.
     for (codes->literals = LITERALS; !codes->length[codes->literals - 1];)
         codes->literals--;
     for (codes->distances = DISTANCES; codes->distances > 1 && !codes->distance_length[codes->distances - 1];)

@@ -7,16 +7,17 @@
 #include <string.h>
 
 enum {
-    LITERALS = 286, // bytes 0…255, end of block, lengths 257…285
+    LITERALS = 286, // symbols: bytes 0…255, the end of the block, and lengths 257…285
     END_OF_BLOCK = 256,
     FIRST_LENGTH = 257,
     DISTANCES = 30,
     CODE_LENGTHS = 19,
-    CODE_LIMIT = 14,    // a token is written in one 64-bit step: four codes, 4·14 bits, and the 7 pending bits
+    CODE_LIMIT = 14,    // a token is written in one 64-bit step: four codes (4·14 bits) and at most 7 pending bits
     MAX_STORED = 65535, // bytes per stored block
 };
 
-// A bit writer. The bits of an incomplete byte are pending, the first lowest; after put() there are fewer than 8.
+// A bit writer. The bits of an incomplete byte are pending; the first bit is the lowest. After put(), fewer than 8 bits
+// are pending.
 struct bits {
     uint8_t *at;
     uint64_t waiting;
@@ -67,12 +68,12 @@ unsigned length_symbol(unsigned length, unsigned *extra);
 // Returns the number of extra bits of a distance symbol.
 static inline unsigned distance_extra(int symbol) { return symbol < 4 ? 0 : (unsigned)symbol / 2 - 1; }
 
-// Makes the codes of a block from the number of occurrences of each symbol; the end of the block occurs once.
-// `extra_bits` counts those for all lengths; the bits for distances are added here.
+// Makes the codes of a block from the number of occurrences of each symbol. The symbol for the end of the block occurs
+// once. `extra_bits` is the number of extra bits of all lengths; this function adds the extra bits of the distances.
 void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint32_t distance_counts[DISTANCES],
                 uint64_t extra_bits);
 
-// Writes the header of a block with its codes; the block is not the last.
+// Writes the header of a block with its codes. The block is not marked as the last.
 void put_codes(struct bits *bits, const struct codes *codes);
 
 #endif

@@ -3,8 +3,8 @@
 
 size_t deflate_capacity(int width, int rows, int bytes_per_pixel)
 {
-    // The size of the stored blocks, of the empty block at the end, and of the bytes after it that the last 8-byte step
-    // overwrites.
+    // The size of the stored blocks and of the empty block at the end, plus the bytes after them that the last 8-byte
+    // step overwrites.
     size_t bytes = (size_t)rows * ((size_t)width * (unsigned)bytes_per_pixel + 1);
     return bytes + 5 * (bytes / MAX_STORED + 2) + 8;
 }
@@ -52,7 +52,7 @@ static void make_entries(struct entry entries[DEFLATE_KINDS], const struct codes
     }
     for (int i = 0; i < DISTANCES; i++)
         entries[DEFLATE_DISTANCE + i] = (struct entry){codes->distance_code[i], codes->distance_length[i]};
-    entries[DEFLATE_BITS] = (struct entry){0}; // not a kind
+    entries[DEFLATE_BITS] = (struct entry){0}; // this value is not a kind
     for (uint32_t n = 0; n <= 8; n++)
         for (uint32_t value = 0; value < 1u << n; value++)
             entries[DEFLATE_BITS + (1u << n) + value] = (struct entry){value, n};
@@ -85,7 +85,7 @@ static size_t stream_bytes(const struct deflate *deflate)
 // The state of the writer of uncompressed data, in blocks of at most MAX_STORED bytes.
 struct storing {
     uint8_t *at;
-    size_t left, in_block; // remaining bytes in total, and in this block
+    size_t left, in_block; // remaining bytes in total, and in the current block
 };
 
 static void store(struct storing *storing, uint8_t byte)
@@ -101,7 +101,8 @@ static void store(struct storing *storing, uint8_t byte)
     storing->left--;
 }
 
-// Stores a strip uncompressed if compression would make it longer: noise, and pictures with few pixels.
+// Stores a strip uncompressed. Strips are stored if compression would make them longer, as for noise and for pictures
+// with few pixels.
 static uint8_t *put_stored(const struct deflate *deflate, uint8_t *out)
 {
     struct storing storing = {out, stream_bytes(deflate), 0};

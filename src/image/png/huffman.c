@@ -1,9 +1,10 @@
-// huffman.c: builds prefix codes of limited length: a Huffman tree, then a correction for leaves that are too deep.
+// huffman.c: builds prefix codes of limited length: first a Huffman tree, then a correction for leaves that are too
+// deep.
 #include "huffman.h"
 
 #include <string.h>
 
-// Sorts in ascending order. There are at most 286 keys: Shell's sort is short and takes some microseconds.
+// Sorts in ascending order. There are at most 286 keys, for which Shellsort is simple and takes only some microseconds.
 static void sort(uint32_t *keys, int count)
 {
     static const int gaps[] = {132, 57, 23, 10, 4, 1};
@@ -17,9 +18,9 @@ static void sort(uint32_t *keys, int count)
         }
 }
 
-// Finds the depth of each leaf in the Huffman tree of at least two ascending weights. Leaves are nodes 0 … leaves−1;
-// each further node joins the two lightest remaining ones. These are at the front of one of two queues: the leaves, and
-// the joined nodes in order of creation.
+// Finds the depth of each leaf in the Huffman tree of at least two ascending weights. Leaves are nodes 0 … leaves−1.
+// Each further node joins the two lightest nodes that are not joined yet. These two are at the front of two queues: the
+// leaves, and the joined nodes in the order of their creation.
 static void tree_depths(const uint32_t *weights, int leaves, uint8_t *depths)
 {
     uint32_t weight[2 * HUFFMAN_SYMBOLS];
@@ -38,7 +39,7 @@ static void tree_depths(const uint32_t *weights, int leaves, uint8_t *depths)
     }
     depth[nodes - 1] = 0;
     for (int node = nodes - 2; node >= 0; node--)
-        // below 40, because counts grow like Fibonacci numbers with depth
+        // the depth is below 40, because the counts for a deep tree grow like Fibonacci numbers
         depth[node] = (uint8_t)(depth[parent[node]] + 1);
     memcpy(depths, depth, (size_t)leaves);
 }
@@ -63,9 +64,10 @@ void huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *le
         weights[i] = keys[i] >> 9;
     tree_depths(weights, used, depths);
 
-    // The number of codes of each length, with longer codes cut to the limit. A code of length l takes 2^(limit−l) of
-    // 2^limit positions. Cutting takes too many positions; they are released one by one: a code of the longest length
-    // below the limit becomes one bit longer, and shares its position with a code of the limit's length.
+    // The number of codes of each length; codes above the limit are shortened to the limit. A code of length l occupies
+    // 2^(limit−l) of 2^limit positions, so after the shortening, too many positions are occupied. The extra positions
+    // are released one by one. In each step, a code of the longest length below the limit becomes one bit longer, and a
+    // code of the limit's length shares its position.
     uint32_t of_length[64] = {0}, taken = 0;
     for (int i = 0; i < used; i++) {
         int length = depths[i] < limit ? depths[i] : limit;

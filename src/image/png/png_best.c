@@ -1,7 +1,9 @@
-// png_best.c: writes the smallest files, with libdeflate, which is loaded on demand. The bytes depend on its version.
+// png_best.c: writes the smallest files, with libdeflate, which is loaded on demand. The bytes depend on the version of
+// libdeflate.
 //
-// Each strip is filtered in six ways: with one of the five filters for all rows, or with the cheapest filter for each
-// row. Level 7 finds the smallest of these, and level 12 compresses it.
+// Each strip is filtered by six methods: with each of the five filters for all rows, and with the cheapest filter for
+// each row. Compression with level 7 finds the method with the smallest result, and level 12 then compresses this
+// result.
 #include "png_encoding.h"
 
 #include "fail.h"
@@ -21,9 +23,9 @@ enum {
     FILTERS = PNG_FILTER_PAETH + 1,
     BY_ROW = FILTERS, // chooses a filter for each row
     WAYS,
-    TRIAL_LEVEL = 7, // ranks the methods as level 12 does, within 1 %, in 1/20 of the time
+    TRIAL_LEVEL = 7, // finds nearly the same ranking as level 12 (within 1 % of the size), in 1/20 of the time
     BEST_LEVEL = 12,
-    BOUNDARY = 5, // the most bytes of an empty stored block
+    BOUNDARY = 5, // the maximum size of an empty stored block in bytes
 };
 
 struct libdeflate {
@@ -37,7 +39,7 @@ struct libdeflate {
 struct best_thread {
     const struct libdeflate *libdeflate;
     struct libdeflate_compressor *trial, *best;
-    uint8_t *filtered, *smallest; // a strip's filtered rows: the current trial, and the best so far
+    uint8_t *filtered, *smallest; // the filtered rows of a strip: of the current trial, and of the best trial so far
     uint32_t *words;              // two filtered rows
 };
 
@@ -108,7 +110,7 @@ static void best_end(struct png_encoding *encoding)
         library_close(state->libdeflate.library);
 }
 
-// Filters row y into t->words. Returns the filter.
+// Filters row y and stores the result in t->words. Returns the filter.
 static enum png_filter filter_row(const struct png_encoding *encoding, struct best_thread *t, int y, int way)
 {
     const uint8_t *row = png_pixel_row(encoding, y), *above = png_pixel_row(encoding, y - 1);
@@ -132,7 +134,7 @@ static enum png_filter filter_row(const struct png_encoding *encoding, struct be
     return chosen;
 }
 
-// Filters a strip into t->filtered.
+// Filters a strip and stores the result in t->filtered.
 static void filter_strip(const struct png_encoding *encoding, struct best_thread *t, int strip, int way)
 {
     const int top = strip * encoding->rows, rows = png_strip_rows(encoding, strip);
@@ -145,16 +147,17 @@ static void filter_strip(const struct png_encoding *encoding, struct best_thread
     }
 }
 
-// Marks the last block of a deflate stream as not the last, and pads to a byte boundary with an empty stored block.
-// libdeflate writes only complete streams, so zlib finds the start of the last block. `scratch` has capacity for the
-// decompressed bytes. Returns the new size, or 0 if memory runs out.
+// Changes the last block of a deflate stream so that it is not marked as the last, and pads the stream to a byte
+// boundary with an empty stored block. The change is necessary because libdeflate writes only complete streams. zlib
+// finds the start of the last block. `scratch` has capacity for the decompressed bytes. Returns the new size, or 0 if
+// memory runs out.
 static size_t open_stream(uint8_t *stream, size_t size, uint8_t *scratch, size_t capacity)
 {
-    enum { AT_BOUNDARY = 128, IN_LAST = 64, UNUSED_BITS = 7 }; // z_stream's data_type after inflate(…, Z_BLOCK)
+    enum { AT_BOUNDARY = 128, IN_LAST = 64, UNUSED_BITS = 7 }; // bits of z_stream.data_type after inflate(…, Z_BLOCK)
     z_stream z = {.next_in = stream, .avail_in = (uInt)size, .next_out = scratch, .avail_out = (uInt)capacity};
     if (inflateInit2(&z, -15) != Z_OK) // a raw stream
         return 0;
-    size_t last = 0; // position in bits of the last block
+    size_t last = 0; // position of the last block in bits
     int code;
     while ((code = inflate(&z, Z_BLOCK)) == Z_OK && (z.data_type & (AT_BOUNDARY | IN_LAST)) != (AT_BOUNDARY | IN_LAST))
         if (z.data_type & AT_BOUNDARY)
@@ -206,7 +209,7 @@ static bool best_start(struct png_encoding *encoding, struct pool *pool, struct 
 #endif
 
 const struct png_method png_best = {
-    .strip_pixels = 1 << 18, // larger strips do not reduce the total, and delay cancellation
+    .strip_pixels = 1 << 18, // larger strips do not reduce the file size, but delay cancellation
     .zlib_flags = 0xDA,      // the slowest level
     .start = best_start,
     .strip = best_strip,

@@ -14,9 +14,9 @@ struct png_encoding {
     const lam_image *image;
     const uint8_t *zeros; // the row above the first row
     int bytes_per_pixel;  // 1 is grey, 2 is grey and alpha, 3 is RGB, 4 is RGBA
-    int rows;             // the rows of each strip; the last may have fewer
+    int rows;             // the number of rows of each strip; the last strip may have fewer
     int strips;
-    size_t capacity;          // the most bytes of a strip's stream
+    size_t capacity;          // the maximum size of a strip's stream in bytes
     void *threads;            // the method's state, one per thread
     struct call_control call; // the control of the whole encoding
 };
@@ -24,34 +24,35 @@ struct png_encoding {
 // A compression method.
 struct png_method {
     int strip_pixels;   // approximate pixels per strip
-    uint8_t zlib_flags; // the second byte of zlib's header (RFC 1950): the level
+    uint8_t zlib_flags; // the second byte of the zlib header (RFC 1950), which states the level
 
-    // Sets capacity and threads.
+    // Sets `capacity` and `threads`.
     bool (*start)(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);
 
-    // Writes one strip as deflate blocks that are not the last and end on a byte boundary, and adds its filtered rows
-    // to `adler`. Returns the number of bytes, or 0 if memory runs out or the call must stop.
+    // Writes one strip as deflate blocks, none of which is marked as the last, and which end on a byte boundary. Adds
+    // the strip's filtered rows to `adler`. Returns the number of bytes, or 0 if memory runs out or the call must stop.
     size_t (*strip)(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
-    // Frees memory that the arena does not own, also after a failed start. NULL if not needed.
+    // Frees memory that the arena does not own. This function is also called if `start` failed. The pointer is NULL if
+    // there is no such memory.
     void (*end)(struct png_encoding *encoding);
 };
 
 extern const struct png_method png_fast, png_best;
 
-// The channels of a picture besides grey, as bits.
+// The channels that a picture has in addition to grey, as bits.
 enum png_channels { PNG_COLORED = 1, PNG_TRANSLUCENT = 2, PNG_ALL_CHANNELS = 3 };
 
 // Does the same as png_write, with at least the channels in *channels; *channels becomes the file's channels.
 bool png_write_channels(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
                         lam_bytes *out, lam_error *error);
 
-// Write numbers of a PNG file, highest byte first. png_end_chunk completes a chunk with `size` bytes of data at out + 8
-// and returns the chunk's size.
+// png_put_u32 writes a number of a PNG file, highest byte first. png_close_chunk completes a chunk with `size` bytes of
+// data at out + 8, and returns the size of the chunk.
 void png_put_u32(uint8_t *at, uint32_t value);
 size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size);
 
-// Returns a row's RGBA pixels; row −1 is zero.
+// Returns the RGBA pixels of a row. The pixels of row −1 are zero.
 static inline const uint8_t *png_pixel_row(const struct png_encoding *encoding, int y)
 {
     if (y < 0)

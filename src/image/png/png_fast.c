@@ -1,4 +1,4 @@
-// png_fast.c: the default compression: one filter for each strip, then deflate.h.
+// png_fast.c: implements the default compression: one filter for each strip, then the compression of deflate.h.
 #include "deflate.h"
 #include "fail.h"
 #include "png_encoding.h"
@@ -25,7 +25,8 @@ static void filter_span(const struct png_encoding *encoding, enum png_filter fil
                    span.end - span.first, encoding->bytes_per_pixel, out);
 }
 
-// Returns the filter with the lowest cost over some of the strip's rows; of equal ones, the highest.
+// Returns the filter with the lowest cost, summed over some of the strip's rows. If several costs are equal, the filter
+// with the highest number is used.
 static enum png_filter choose_filter(const struct png_encoding *encoding, struct deflate *scratch, int top, int rows)
 {
     uint64_t cost[PNG_FILTER_PAETH + 1] = {0};
@@ -52,7 +53,7 @@ static bool is_grey(const struct png_encoding *encoding, int top, int rows)
         for (int x = 0; x < encoding->image->width; x++) {
             uint32_t pixel;
             memcpy(&pixel, row + 4 * (size_t)x, 4);
-            differ |= pixel ^ pixel >> 8; // red against green, green against blue
+            differ |= pixel ^ pixel >> 8; // compares red with green, and green with blue
         }
     }
     return (differ & 0xFFFF) == 0;
@@ -97,7 +98,8 @@ static bool fast_start(struct png_encoding *encoding, struct pool *pool, struct 
 }
 
 const struct png_method png_fast = {
-    .strip_pixels = 1 << 15, // a strip's words fit the second-level cache; its Huffman codes cost about 80 bytes
+    .strip_pixels = 1 << 15, // the words of a strip fit into the second-level cache; its Huffman codes need about 80
+                             // bytes
     .zlib_flags = 0x01,      // the fastest level
     .start = fast_start,
     .strip = fast_strip,

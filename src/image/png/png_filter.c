@@ -1,4 +1,4 @@
-// png_filter.c: applies PNG's row filters, sixteen bytes at a time.
+// png_filter.c: applies the row filters of PNG, sixteen bytes at a time.
 #include "png_filter.h"
 
 #include <stdbool.h>
@@ -15,19 +15,20 @@ typedef u8x16 u8x16_memory __attribute__((aligned(1), may_alias));
 INLINE u8x16 load(const uint8_t *at) { return (u8x16) * (const u8x16_memory *)at; }
 INLINE u8x16 choose(u8x16 mask, u8x16 a, u8x16 b) { return (a & mask) | (b & ~mask); }
 INLINE u8x16 below(u8x16 a, u8x16 b) { return (u8x16)(a < b); }
-// Returns |a − b|, given a < b as a mask.
+// Returns |a − b|; `a_below` is the mask of a < b.
 INLINE u8x16 distance(u8x16 a, u8x16 b, u8x16 a_below) { return ((a - b) ^ a_below) - a_below; }
 
-// Returns the mean, rounded down, without a ninth bit.
+// Returns the mean, rounded down, with 8-bit arithmetic only.
 INLINE u8x16 average(u8x16 a, u8x16 b)
 {
     u16x8 half = (u16x8)((a ^ b) & 0xFE) >> 1; // clearing the lowest bit keeps bits from moving to the next byte
     return (a & b) + (u8x16)half;
 }
 
-// Paeth's predictor in bytes. With p = a + b − c: |p − a| = |b − c|, |p − b| = |a − c|, and |p − c| is the difference
-// of these two if a and b are on different sides of c. On the same side it is their sum, which is never the smallest,
-// so 255 replaces it. Ties go to a, then b.
+// The Paeth predictor in 8-bit arithmetic. With p = a + b − c, |p − a| = |b − c| and |p − b| = |a − c|. If a and b are
+// on different sides of c, |p − c| is the difference between these two. If a and b are on the same side of c, |p − c|
+// is the sum of the two, which is never the smallest distance, so 255 is used instead. If distances are equal, a is
+// preferred to b, and b to c.
 INLINE u8x16 paeth(u8x16 a, u8x16 b, u8x16 c)
 {
     u8x16 b_below = below(b, c), a_below = below(a, c);
@@ -55,8 +56,8 @@ INLINE u8x16 filtered(enum png_filter filter, u8x16 here, u8x16 left, u8x16 abov
 
 enum { VECTOR = 16, BLOCK = 4 * VECTOR, BLOCK_PIXELS = BLOCK / 4 };
 
-// Filters one vector at a time. The first vector, which has no left neighbour, and the last, which may be short, use
-// copies. `low` selects the bytes of a pixel that are kept; `gather` means that alpha follows red.
+// Filters one vector at a time. The first vector, which has no left neighbour, and the last, which may be incomplete,
+// are read from copies. `low` selects the bytes of a pixel that are kept; `gather` means that alpha follows red.
 INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
                        bool gather, uint32_t *out)
 {
@@ -66,7 +67,7 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
         if (at > 0 && at + VECTOR <= bytes) {
             result = filtered(filter, load(row + at), load(row + at - 4), load(above + at), load(above + at - 4));
         } else {
-            // this row and the one above, starting at the left pixel
+            // this row and the row above, starting at the left pixel
             uint8_t near[VECTOR + 4] = {0}, far[VECTOR + 4] = {0};
             const int before = at > 0 ? 4 : 0, after = bytes - at < VECTOR ? bytes - at : VECTOR;
             memcpy(near + 4 - before, row + at - before, (size_t)(before + after));
@@ -82,7 +83,7 @@ INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t
     }
 }
 
-// The filter is a constant in each call, so that each loop is compiled for its filter.
+// Calls filter_row with a constant filter, so that the compiler makes one loop for each filter.
 INLINE void filter_row_by(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
                           bool gather, uint32_t *out)
 {
@@ -134,7 +135,7 @@ struct png_span png_span_of(const uint8_t *row, int width)
 
 struct png_span png_span_filtered(struct png_span row, struct png_span above, int width)
 {
-    enum { FURTHER = VECTOR / 4 }; // one pixel, and whole vectors
+    enum { FURTHER = VECTOR / 4 }; // a filter changes one more pixel, and processes whole vectors
     struct png_span both = row.first == row.end ? above : row;
     if (above.first < above.end) {
         both.first = above.first < both.first ? above.first : both.first;

@@ -1,5 +1,5 @@
-// png_read.c: defines PNG's row in the table of formats; reads with libspng, and the pixels of common files with
-// png_whole.c.
+// png_read.c: defines the entry for PNG in the table of formats, and reads PNG files with libspng. png_whole.c reads
+// the pixels of common files.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"
@@ -15,7 +15,7 @@ static bool png_probe(const uint8_t *bytes, size_t size)
     return size >= sizeof signature && memcmp(bytes, signature, sizeof signature) == 0;
 }
 
-// Finds the text "Software: lambent" in a chunk before the pixels.
+// Returns whether a chunk before the pixels contains the text "Software: lambent".
 static bool png_ours(const uint8_t *bytes, size_t size)
 {
     static const char wanted[] = "tEXtSoftware\0lambent";
@@ -34,8 +34,8 @@ static bool png_ours(const uint8_t *bytes, size_t size)
     return false;
 }
 
-// Deflate expands a byte to at most 1032, so a small file that declares a huge picture is rejected before memory is
-// allocated.
+// One byte of a deflate stream expands to at most 1032 bytes, so a small file that declares a huge picture is rejected
+// before memory is allocated.
 static bool fits(const struct spng_ihdr *header, size_t size)
 {
     static const int channels[7] = {1, 0, 3, 1, 2, 0, 4};
@@ -43,8 +43,8 @@ static bool fits(const struct spng_ihdr *header, size_t size)
     return (bits / 8 + 1) * header->height / 1032 <= size;
 }
 
-// The 16-bit numbers are in the second half of the pixels' memory; in ascending order none is overwritten before it is
-// read.
+// Converts 16-bit numbers to floats. The numbers are in the second half of the pixels' memory, so in ascending order no
+// number is overwritten before it is read.
 static void widen(lam_image *image)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
@@ -67,7 +67,7 @@ static bool has_alpha(spng_ctx *spng, const struct spng_ihdr *header)
            spng_get_trns(spng, &transparent) != SPNG_ECHUNKAVAIL;
 }
 
-// Returns the channels of a picture that png_read_whole supports, or 0 if it does not.
+// Returns the number of channels of a picture, or 0 if png_read_whole does not support the picture.
 static int whole_channels(const struct spng_ihdr *header, bool alpha)
 {
     if (header->bit_depth != 8 || header->interlace_method != SPNG_INTERLACE_NONE)
@@ -78,7 +78,8 @@ static int whole_channels(const struct spng_ihdr *header, bool alpha)
                                                                        : 0;
 }
 
-// Decodes row by row, in the order of the file: an interlaced file has seven passes over the picture.
+// Decodes row by row, in the order of the file. In an interlaced file, seven passes over the picture are stored one
+// after the other.
 static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool keep, lam_image *image, lam_error *error)
 {
     struct spng_row_info row = {0};
@@ -98,20 +99,20 @@ static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool ke
             code = spng_decode_row(spng, pixels + (size_t)row.row_num * row_bytes, row_bytes);
     }
     if (code == SPNG_EOI)
-        // to the end of the file, so that a truncation after the pixels is an error too
+        // reads to the end of the file, so that a truncation after the pixels is also an error
         code = spng_decode_chunks(spng);
-    // allocation is the only step of zlib's initialisation that can fail
+    // only an allocation can fail in the initialisation of zlib
     if (code == SPNG_EMEM || code == SPNG_EZLIB_INIT)
         return fail_memory(error, row_bytes);
     return !code || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
 }
 
-// Sets `wide` to whether the file has 16 bits, which are then kept. If `wide` is NULL, they are cut to 8 bits, and
-// there is always an alpha.
+// Sets *wide to whether the file has 16 bits per channel; if so, all bits are kept. If `wide` is NULL, 16 bits are
+// reduced to 8, and the picture always has alpha.
 static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
 {
     struct spng_ihdr header;
-    enum { MAX_CHUNK_BYTES = 64 << 20 }; // texts and profiles, decompressed
+    enum { MAX_CHUNK_BYTES = 64 << 20 }; // for texts and profiles after decompression
     int code = spng_set_chunk_limits(spng, MAX_CHUNK_BYTES, MAX_CHUNK_BYTES);
     if (!code)
         code = spng_set_png_buffer(spng, file->bytes, file->size);

@@ -1,8 +1,9 @@
-// png_whole.c: decompresses a PNG's pixels at once with libdeflate, which is opened on first use, and unfilters them
-// here. It takes a third of the time of libspng, which reads row by row through zlib.
+// png_whole.c: decompresses all pixels of a PNG file at once with libdeflate, which is opened on first use, and then
+// unfilters them. This method takes a third of the time of libspng, which reads row by row with zlib.
 //
-// It supports the common pictures: 8 bits per channel, grey, RGB or RGBA without a transparent colour, not interlaced,
-// with only the end after the pixels. libspng reads all other pictures, and damaged ones, and reports their errors.
+// Only common pictures are supported: grey, RGB or RGBA with 8 bits per channel, without a transparent colour, not
+// interlaced, and without chunks between the pixels and the end. libspng reads all other pictures and damaged pictures,
+// and reports errors.
 #include "png_whole.h"
 
 #ifdef HAVE_LIBDEFLATE
@@ -14,8 +15,8 @@
 #include <string.h>
 
 enum {
-    PIXELS_MIN = 1 << 14,  // for smaller pictures, opening the library takes longer than it saves
-    BYTES_MAX = 128 << 20, // the most decompressed bytes; cancelling waits for them
+    PIXELS_MIN = 1 << 14,  // for smaller pictures, opening the library takes more time than it saves
+    BYTES_MAX = 128 << 20, // maximum number of decompressed bytes, because the decompression cannot be cancelled
     CHUNK_EXTRA = 12,      // length, type and checksum of a chunk
 };
 
@@ -38,7 +39,7 @@ static bool open_inflater(struct inflater *d)
 
 // --- the chunks
 
-// Returns whether a complete chunk of a type is at a position, and gets its length.
+// Returns whether there is a complete chunk of a type at a position, and gets the length of the chunk.
 static bool chunk_at(const struct picture_file *file, size_t at, const char *type, uint32_t *length)
 {
     const uint8_t *chunk = (const uint8_t *)file->bytes + at;
@@ -54,7 +55,7 @@ static bool is_intact(const struct inflater *d, const struct picture_file *file,
     return d->crc(0, chunk + 4, (size_t)length + 4) == png_u32_at(chunk + 8 + length);
 }
 
-// Returns the first chunk of pixels, or 0 if there is none.
+// Returns the position of the first chunk of pixels, or 0 if there is none.
 static size_t find_pixels(const struct picture_file *file)
 {
     uint32_t length;
@@ -64,8 +65,8 @@ static size_t find_pixels(const struct picture_file *file)
     return 0;
 }
 
-// Joins the compressed bytes of the pixel chunks, which the end of the file must follow. Returns 0 if another chunk
-// follows.
+// Joins the compressed bytes of the pixel chunks and returns their number. Returns 0 if they are not followed by the
+// end chunk.
 static size_t join_pixels(const struct inflater *d, const struct picture_file *file, size_t at, uint8_t *joined)
 {
     size_t used = 0;
@@ -81,7 +82,8 @@ static size_t join_pixels(const struct inflater *d, const struct picture_file *f
 
 // --- filters
 
-// A pixel's channels in the lower four of eight lanes; the fourth is arbitrary if the file has three or one.
+// The channels of a pixel are in the lower four of eight lanes. If the file has three channels or one, the fourth lane
+// is arbitrary.
 typedef uint8_t bytes8 __attribute__((vector_size(8)));
 typedef uint8_t bytes16 __attribute__((vector_size(16)));
 typedef uint32_t words4 __attribute__((vector_size(16)));
@@ -114,7 +116,7 @@ static inline void store_pixel(uint8_t *at, wide8 v)
     memcpy(at, &bytes, 4);
 }
 
-// Returns the smaller number in each lane. It is written so that compilers emit the vector instructions.
+// Returns the smaller number in each lane. The code is written so that compilers use vector instructions.
 static inline wide8 min8(wide8 x, wide8 y)
 {
     for (int i = 0; i < 8; i++)
@@ -129,10 +131,11 @@ static inline wide8 max8(wide8 x, wide8 y)
     return x;
 }
 
-// Returns, per channel, the left, upper or upper left pixel that is nearest to a + b − c; ties go to the first. For c
-// between a and b, the lower of them has the distance high − c, the higher c − low, and c itself |low + high − 2c|. The
-// lower is nearest if 3c − a − b ≥ high, and the higher if it is ≤ low, which also holds for other c. Few steps depend
-// on a, the most recent pixel.
+// Returns, per channel, the left, upper or upper left pixel (a, b or c) that is nearest to a + b − c. If distances are
+// equal, the first of them is used. If c is between a and b, the distance is high − c for the lower of both, c − low
+// for the higher, and |low + high − 2c| for c itself. The lower is nearest if 3c − a − b ≥ high, and the higher is
+// nearest if 3c − a − b ≤ low. These conditions are also correct for all other c. Only few steps depend on a, the most
+// recent pixel.
 static inline wide8 paeth(wide8 a, wide8 b, wide8 c)
 {
     const wide8 low = min8(a, b), high = max8(a, b), middle = (c + c + c - b) - a;
@@ -141,8 +144,8 @@ static inline wide8 paeth(wide8 a, wide8 b, wide8 c)
     return (takes_high & high) | (~takes_high & other);
 }
 
-// Unfilters to pixels of `size` bytes, 3 or 4. The fourth byte is always read and written, also after a row. `filter`
-// and `channels` are constants after inlining.
+// Unfilters to pixels of `size` bytes, 3 or 4. A fourth byte is always read and written, even after the end of a row.
+// `filter` and `channels` are constants after inlining.
 static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const uint8_t *above, const uint8_t *from,
                                                            size_t width, size_t size, int filter, int channels)
 {
@@ -175,7 +178,7 @@ static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const u
         unfilter(row, above, from, width, size, 4, channels);                                                          \
         break;
 
-// Unfilters a row of the file: its filter byte, then its pixels. Returns false if the filter is unknown.
+// Unfilters a row of the file, which consists of a filter byte and the pixels. Returns false if the filter is unknown.
 static bool unfilter_row(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t width, size_t size,
                          int channels)
 {
@@ -204,7 +207,7 @@ static bool decompress(const struct inflater *d, const uint8_t *compressed, size
     return ok;
 }
 
-// Unfilters rows in place: the file's rows are at the end of the picture's memory, so that no pixel is overwritten
+// Unfilters rows in place. The file's rows are at the end of the picture's memory, so that no pixel is overwritten
 // before it is read.
 static bool unfilter_rows(const lam_image *image, const uint8_t *rows, const uint8_t *zeros, int channels)
 {

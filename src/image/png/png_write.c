@@ -2,7 +2,8 @@
 //
 // The picture is divided into strips of rows, whose height depends only on the width. Each strip is filtered and
 // compressed separately (png_fast.c, png_best.c) and becomes one IDAT chunk with its own CRC. Any thread can process
-// any strip, and the bytes do not depend on threads; only the Adler-32 of the whole is combined at the end.
+// any strip, and the bytes do not depend on the threads. Only the Adler-32 checksums of the strips are combined at the
+// end.
 #include "codec.h"
 #include "fail.h"
 #include "png_encoding.h"
@@ -13,7 +14,7 @@
 enum {
     BATCH_STRIPS = 256, // strips per batch, which limits the memory reserved for the worst case
     CHUNK_BYTES = 12,   // a chunk's length, type and CRC
-    ZLIB_HEADER = 2,    // in the first strip's chunk
+    ZLIB_HEADER = 2,    // bytes in the chunk of the first strip
     HEAD_BYTES = 128,   // maximum
     TAIL_BYTES = 6 + 2 * CHUNK_BYTES,
 };
@@ -70,7 +71,7 @@ static int channels_of(const uint8_t *pixels, size_t count)
     for (; i + 16 <= count; i += 16)
         for (size_t k = i; k < i + 16; k += 4) {
             const u32x4 four = *(const u32x4_memory *)(pixels + 4 * k);
-            differ |= four ^ four >> 8; // red against green, green against blue
+            differ |= four ^ four >> 8; // compares red with green, and green with blue
             all &= four;
         }
     for (; i < count; i++) {
@@ -84,8 +85,8 @@ static int channels_of(const uint8_t *pixels, size_t count)
     return (colored ? PNG_COLORED : 0) | (opaque ? 0 : PNG_TRANSLUCENT);
 }
 
-// Adds the channels that a strip's pixels need. A strip is abandoned early only if all channels are already needed, so
-// the result does not depend on the order of the strips.
+// Adds the channels that a strip's pixels need. Strips are skipped only if all channels are already needed, so the
+// result does not depend on the order of the strips.
 static void find_channels(void *user, size_t index, int thread)
 {
     (void)thread;
@@ -145,7 +146,7 @@ static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
     return (size_t)(at - out);
 }
 
-// Writes the last block, which is empty and uses fixed codes, and the checksum.
+// Writes the last block, which is empty and uses fixed codes, and then the checksum.
 static size_t put_tail(const struct png_writer *writer, const struct adler_part *adler, uint8_t *out)
 {
     uint8_t end[6] = {3, 0};
@@ -154,8 +155,8 @@ static size_t put_tail(const struct png_writer *writer, const struct adler_part 
     return size + put_chunk(&writer->crc, "IEND", NULL, 0, out + size);
 }
 
-// Encodes the strips of a batch, and moves their chunks together at bytes + *size. Strips are encoded at distances that
-// fit the worst case; unused pages are never touched, so this costs only address space.
+// Encodes the strips of a batch, and stores their chunks consecutively at bytes + *size. Each strip is first encoded at
+// its own address, with space for the worst case. Unused pages are never accessed, so this needs only address space.
 static bool encode_batch(struct png_writer *writer, int count, struct pool *pool, uint8_t *bytes, size_t *size,
                          struct adler_part *adler, lam_error *error)
 {

@@ -62,7 +62,7 @@ FILE *windows_fopen(const char *path, const char *mode)
     return stream;
 }
 
-// --- facts
+// --- file information
 
 static struct timespec time_of(uint64_t ticks)
 {
@@ -94,7 +94,7 @@ static int stat_handle(HANDLE handle, struct windows_stat *about)
     return 0;
 }
 
-// Opens a handle that only queries a file's attributes; returns INVALID_HANDLE_VALUE and sets errno on failure.
+// Opens a handle that can only query a file's attributes. Returns INVALID_HANDLE_VALUE and sets errno on failure.
 static HANDLE open_name(const char *path)
 {
     wchar_t *wide = wide_path(path);
@@ -136,7 +136,7 @@ int windows_access(const char *path, int mode)
 
 char *realpath(const char *path, char *buffer)
 {
-    enum { SIZE = 32768 }; // the longest path in Windows
+    enum { SIZE = 32768 }; // the length of the longest path in Windows
     HANDLE handle = open_name(path);
     wchar_t *wide = handle != INVALID_HANDLE_VALUE ? malloc(SIZE * sizeof *wide) : NULL;
     DWORD length = wide ? GetFinalPathNameByHandleW(handle, wide, SIZE, FILE_NAME_NORMALIZED) : 0;

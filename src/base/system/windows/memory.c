@@ -11,7 +11,7 @@ enum { PAGE = 4096 };
 
 static size_t whole_pages(size_t bytes) { return bytes ? (bytes + PAGE - 1) / PAGE * PAGE : PAGE; }
 
-// Windows commits memory at the request, and provides physical memory at the first touch.
+// Windows commits memory when it is requested, and provides physical memory on first access.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)
@@ -50,7 +50,7 @@ uint64_t memory_of_groups(const char *root)
     return UINT64_MAX;
 }
 
-// A job object of Windows limits a process as a control group does.
+// A Windows job object limits the memory of a process, like a Linux control group.
 uint64_t lam_memory_available(void)
 {
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits;

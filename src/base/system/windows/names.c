@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <windows.h>
 
-// Longer paths must be absolute and begin with "\\?\" (MAX_PATH minus an 8.3 name, the limit for folders).
+// Longer paths must be absolute and begin with "\\?\". The value is the limit for folders: MAX_PATH minus the length of
+// an 8.3 name.
 enum { LONG_PATH = 248 };
 
 static wchar_t *full_path(wchar_t *path)

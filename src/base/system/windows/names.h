@@ -5,10 +5,11 @@
 #include <stddef.h>
 #include <wchar.h>
 
-// Returns a path for the Windows API, from malloc: with backslashes, and absolute if it is long. Returns NULL and sets
-// errno on failure.
+// Converts a path for the Windows API: with backslashes, and absolute if it is long. The result is allocated with
+// malloc. Returns NULL and sets errno on failure.
 wchar_t *wide_path(const char *path);
-// Returns UTF-8 text from malloc; with `is_path`, replaces backslashes with slashes. Returns NULL if memory runs out.
+// Converts text to UTF-8, allocated with malloc. With `is_path`, replaces backslashes with slashes. Returns NULL if
+// memory runs out.
 char *narrow_text(const wchar_t *text, int is_path);
 // Sets errno from GetLastError(), and returns −1.
 int fail_with_errno(void);

@@ -10,7 +10,7 @@
 int main(int count, char **words);
 int wmain(int count, wchar_t **wide);
 
-static UINT before; // the console's code page
+static UINT before; // the console's code page before the program started
 
 static void restore_console(void) { SetConsoleOutputCP(before); }
 

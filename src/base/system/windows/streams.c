@@ -1,7 +1,7 @@
 // streams.c: memory streams, reading of lines, and waiting for pipes.
 //
-// Streams of Windows cannot call a program's functions: a memory stream is a temporary file, which Windows keeps in its
-// cache and removes when it is closed. fflush and fclose copy its bytes.
+// A Windows stream cannot call functions of the program, so a memory stream is a temporary file. Windows keeps the file
+// in its cache and removes it when it is closed. fflush and fclose copy its bytes.
 #include "names.h"
 
 #include <errno.h>
@@ -62,7 +62,8 @@ FILE *fmemopen(void *data, size_t size, const char *mode)
     return start((struct memory_stream){.fixed = data, .capacity = size});
 }
 
-// Passes the stream's bytes to the caller. Returns false if memory runs out, or an earlier write has failed.
+// Copies the stream's bytes to the memory that its user reads. Returns false if memory runs out or an earlier write has
+// failed.
 static bool give_text(const struct memory_stream *stream)
 {
     if (fflush(stream->file) != 0 || ferror(stream->file))
@@ -84,8 +85,8 @@ static bool give_text(const struct memory_stream *stream)
     return *stream->size == (size_t)end && _fseeki64(stream->file, end, SEEK_SET) == 0;
 }
 
-// Returns the pointer to a stream in the list, whose lock the caller holds; if the stream is not in the list, the
-// pointer at its end.
+// Returns the address of the pointer to a stream in the list. If the stream is not in the list, returns the address of
+// the last pointer, which is NULL. The caller must hold the list's lock.
 static struct memory_stream **find(FILE *file)
 {
     struct memory_stream **at = &streams;
@@ -136,7 +137,7 @@ ssize_t getline(char **line, size_t *capacity, FILE *file)
 
 // --- waiting
 
-// Returns whether a read returns at once. Only pipes are queried.
+// Returns whether a read would return immediately. Only pipes are checked; other files are always ready.
 static bool is_ready(int file)
 {
     HANDLE handle = (HANDLE)_get_osfhandle(file);

@@ -1,4 +1,4 @@
-// position_bins.c: sorts the corners at shared positions by ranges of positions.
+// position_bins.c: collects the corners at shared positions and sorts them into bins, one for each range of positions.
 #include "position_bins.h"
 
 #include <string.h>
@@ -24,15 +24,15 @@ static inline bool put(const struct position_bins *bins, struct block_lists *lis
 
 #define PENDING ((uint32_t)1 << 31) // marks a pending lookup; it is larger than any position
 
-// Returns the number of a position from the corner that represents it: its rank among the corners of the set's
+// Returns the number of the position that a corner represents: the corner's rank among the corners of the set's
 // triangles.
 static inline uint32_t position_of_corner(const struct position_search *s, uint32_t corner)
 {
     return corner == NONE ? NONE : 3 * triangles_before(s, corner / 3) + corner % 3;
 }
 
-// Lists the corners at positions of the table, at most BATCH from `first`. Positions that were looked up recently come
-// from the cache.
+// Of at most BATCH corners, starting with `first`, lists those whose positions are in the table. Positions that were
+// looked up recently are found in the cache.
 static uint32_t look_up(const struct position_search *s, uint32_t first, uint32_t count, struct cached_position *cache,
                         uint32_t corners[BATCH], uint32_t positions[BATCH], size_t *probes)
 {

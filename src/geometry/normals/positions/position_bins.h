@@ -1,5 +1,5 @@
-// position_bins.h: sorts the corners at the positions from shared_positions.h by ranges of positions: the second step
-// of visible_normals.h.
+// position_bins.h: collects the corners at the positions from shared_positions.h and sorts them into bins, one for each
+// range of positions. This is the second step of visible_normals.h.
 #ifndef POSITION_BINS_H
 #define POSITION_BINS_H
 
@@ -12,7 +12,7 @@ struct position_bins {
     size_t count;
 };
 
-// Puts the corners into bins. Returns false if it ended early (search->loop), or exceeded the probe limit.
+// Puts the corners into bins. Returns false if the call was stopped (search->loop) or the probe limit was exceeded.
 bool position_bins_fill(struct position_bins *bins, struct position_search *search);
 
 // Returns the number of corners in a bin.

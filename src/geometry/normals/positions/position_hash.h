@@ -1,31 +1,31 @@
 // position_hash.h: a hash table of positions, each represented by one vertex.
 //
-// The table and its filter are divided into parts by the hash. First each thread distributes its vertices to the parts
-// (block_list.h), then one thread fills each part, within its cache.
+// The table and its filter are divided into sections by the hash. First, each thread distributes its vertices to the
+// sections (block_list.h). Then one thread fills each section, which fits into the processor's cache.
 #ifndef POSITION_HASH_H
 #define POSITION_HASH_H
 
 #include "block_list.h"
 #include "position_simd.h"
 
-// Four slots: a cache line, compared as a whole.
+// Four slots, which fill a cache line and are compared together.
 struct position_slots {
     int32_t bits[3][4];
-    int32_t vertex[4]; // NONE if free, like the slots after it
+    int32_t vertex[4]; // NONE if this slot and all slots after it are free
 };
 
 struct position_hash {
     struct position_slots *lines;
     struct position_filter filter;
-    uint32_t part_bits; // bits of the hash that select one of 2^part_bits parts
+    uint32_t part_bits; // bits of the hash that select one of 2^part_bits sections
     uint32_t part_lines, part_words;
 };
 
-// Chooses the number of parts for about this many vertices.
+// Chooses the number of sections for about this many vertices.
 void position_hash_plan(struct position_hash *table, size_t vertices);
 
-// Returns the bytes of the table for this many vertices in all parts together. `strict` doubles the bits of the filter,
-// so that fewer other positions pass it.
+// Returns the size of the table in bytes, for this many vertices in all sections together. `strict` doubles the bits of
+// the filter, so that fewer positions outside the table pass it.
 size_t position_hash_size(struct position_hash *table, size_t vertices, bool strict);
 void position_hash_place(struct position_hash *table, void *memory);
 
@@ -39,13 +39,13 @@ static inline uint32_t position_hash_part(const struct position_hash *table, uin
     return (uint32_t)((uint64_t)hash << table->part_bits >> 32);
 }
 
-// Returns the line at which the search for a hash starts, in its part.
+// Returns the line at which the search for a hash starts.
 static inline size_t position_hash_start(const struct position_hash *table, uint32_t hash)
 {
     return (size_t)(hash * ((uint64_t)table->part_lines << table->part_bits) >> 32);
 }
 
-// Copies the numbers one by one, because a wide load would stall on the narrow stores before it.
+// Copies the integers one by one, because a wide load would have to wait for the narrow stores before it.
 static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
 {
     to[0] = from[0];
@@ -53,17 +53,17 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
     to[2] = from[2];
 }
 
-// Returns the vertex that represents a position, or NONE if it is not in the table. Adds the number of probes after the
-// first line to *probes.
+// Returns the vertex that represents a position, or NONE if the position is not in the table. Adds the number of probes
+// after the first line to *probes.
 uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
-// Fills one part of the table with the entries of its bin in each of `threads` lists, then empties these bins. With
-// `duplicates`, each vertex whose position is represented by another vertex is added to that list of `mine`. Returns
-// false if the probe limit is reached or memory runs out.
+// Fills one section of the table with the entries of its bin in each thread's list, then empties these bins. With
+// `duplicates`, each vertex whose position another vertex represents is added to the list of duplicates of `mine`.
+// Returns false if the probe limit is reached or memory runs out.
 bool position_hash_fill(struct position_hash *table, uint32_t part, struct block_lists *lists, int threads,
                         struct block_lists *mine, bool duplicates);
 
-// Returns true if there are so many probes that the file must have been made to cause collisions.
+// Returns true if there are so many probes that the file was probably made to cause collisions.
 static inline bool probe_limit_exceeded(size_t probes, size_t searches) { return probes > 16 * searches + 4096; }
 
 #endif

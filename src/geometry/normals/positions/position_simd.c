@@ -1,4 +1,5 @@
-// position_simd.c: compiled once for each instruction set (meson.build, with ISA and LANES).
+// position_simd.c: implements position_simd.h, compiled once for each instruction set (meson.build, with ISA and
+// LANES).
 #include "position_simd.h"
 
 #include "lanes.h"

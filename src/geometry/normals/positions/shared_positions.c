@@ -1,4 +1,4 @@
-// shared_positions.c: finds the vertices of a mesh at the positions of given triangles.
+// shared_positions.c: finds the vertices of a mesh that are at the positions of given triangles.
 //
 // The vertices of these triangles are inserted into a hash table of positions. Then every other vertex of the mesh is
 // looked up; a filter rejects most of them before the table is searched. The order of the threads affects only the
@@ -12,13 +12,13 @@
 
 enum {
     WORDS = 1 << 8,      // words of a bit set per task
-    AHEAD = 16,          // how many words ahead the positions of triangles are prefetched
+    AHEAD = 16,          // number of words by which the positions of triangles are prefetched ahead
     TOGETHER = 8,        // words whose vertices are looked up together, after prefetching
-    SLAB = 2 << 20,      // bytes of blocks allocated together
+    SLAB = 2 << 20,      // size in bytes of the blocks that are allocated together
     CACHE_MAX = 1 << 13, // positions in a thread's cache, which fits the second-level cache
 };
 
-// Allocates memory that is free again before the first fan is computed; it may overlap the memory for normals.
+// Allocates memory that is no longer used when the first fan is computed, so it may overlap the memory for normals.
 static void *alloc_until_fans(struct position_search *s, size_t count, size_t size)
 {
     for (int i = 0; i < 2; i++) {
@@ -89,7 +89,7 @@ bool find_wanted(struct position_search *s)
         return false;
     if (triangles_before(s, s->mesh->triangle_count) < s->mesh->triangle_count) {
         pool_run(s->pool, chunks_of(triangle_words(s), WORDS), add_wanted, s);
-    } else if (words) { // all vertices; a vertex without a triangle is a position without corners
+    } else if (words) { // all vertices are wanted; a vertex without triangles becomes a position without corners
         memset(s->wanted.bits, 0xff, words * sizeof *s->wanted.bits);
         s->wanted.bits[words - 1] >>= 64 * words - s->vertices;
     }
@@ -99,7 +99,7 @@ bool find_wanted(struct position_search *s)
 
 // --- the table
 
-// Puts a vertex into its part's bin, unless another vertex at its position was added recently.
+// Puts a vertex into the bin of its section of the table, unless another vertex at its position was added recently.
 static inline bool spread(struct position_search *s, int thread, size_t vertex)
 {
     struct block_lists *lists = &s->lists[thread];
@@ -190,14 +190,14 @@ void position_search_free(struct position_search *s)
     arena_free(&s->arena);
 }
 
-// Cache entries are cleared to all ones, which is no valid position.
+// Clears the cache entries to bits that are all ones, which no valid position has.
 static void clear_caches(struct position_search *s)
 {
     for (int i = 0; i < pool_threads(s->pool); i++)
         memset(s->caches[i], 0xff, (s->caches_mask + (size_t)1) * sizeof **s->caches);
 }
 
-// Without indices the same positions recur, usually soon after one another.
+// Starts the caches. In meshes without indices, the same positions occur several times, usually soon after one another.
 static bool start_caches(struct position_search *s)
 {
     size_t threads = (size_t)pool_threads(s->pool), capacity = 64;
@@ -251,7 +251,7 @@ static bool fill_table(struct position_search *s)
 
 // --- the other vertices of indexed meshes
 
-// Looks up the few vertices of some words of the set that are not wanted but pass the filter. Returns the number of
+// In some words of the set, looks up the few vertices that are not wanted but pass the filter. Returns the number of
 // probes.
 static size_t place_some(const struct position_search *s, size_t word, size_t end)
 {

@@ -1,5 +1,5 @@
-// shared_positions.h: finds the vertices of a mesh at the positions of given triangles, and groups them by position:
-// the first step of visible_normals.h.
+// shared_positions.h: finds the vertices of a mesh that are at the positions of given triangles, and groups them by
+// position. This is the first step of visible_normals.h.
 #ifndef SHARED_POSITIONS_H
 #define SHARED_POSITIONS_H
 
@@ -13,10 +13,10 @@ enum {
     CHUNK = 1 << 16, // vertices or corners per task
 };
 
-// A recent result of the table. An empty entry contains bits that no position has.
+// The result of a recent lookup in the table. An empty entry contains bits that no position has.
 struct cached_position {
     uint32_t bits[3];
-    uint32_t position; // NONE if it is not in the table
+    uint32_t position; // NONE if the position is not in the table
 };
 
 struct position_search {
@@ -24,11 +24,11 @@ struct position_search {
     const lam_mesh *mesh;
     const struct rank_bitset *triangles;
     uint32_t first;               // number of the mesh's triangle 0 in the set
-    uint32_t triangles_of_others; // members of the set in earlier meshes
+    uint32_t triangles_of_others; // number of members of the set that belong to earlier meshes
     const struct position_simd *simd;
     struct pool *pool;
     struct loop_status loop;
-    struct scratch_memory scratch, until_fans[2]; // until_fans: memory that is free until fans are computed
+    struct scratch_memory scratch, until_fans[2]; // until_fans: memory that may be used until fans are computed
     size_t vertices, corners;
 
     struct arena arena;
@@ -37,10 +37,10 @@ struct position_search {
     int probe_limit_reached;   // set atomically if positions collide more often than in any ordinary file
     struct rank_bitset done;   // vertices whose normals are already computed; it has no bits if there are none
 
-    // Output. A position has the rank of its representative vertex among `wanted`; without indices, the rank of the
-    // corner in the set's triangles.
+    // Output. The number of a position is the rank of its representative vertex among `wanted`. In meshes without
+    // indices, it is the rank of the representative corner among the corners of the set's triangles.
     struct rank_bitset wanted; // vertices of the set's triangles, for indexed meshes
-    // the position of each vertex, NONE if not wanted; NULL if corners are looked up in the table
+    // the position of each vertex, or NONE if it has none; NULL if corners are looked up in the table
     uint32_t *position_of;
     struct cached_position **caches; // the cache of each thread
     uint32_t caches_mask;
@@ -69,17 +69,19 @@ static inline size_t chunk_end(size_t index, size_t total, size_t chunk)
 // Finds the vertices of the set's triangles, for indexed meshes. Returns false if memory runs out.
 bool find_wanted(struct position_search *s);
 
-// Numbers the wanted vertices in `position_of`. Returns false if memory runs out.
+// Numbers the wanted vertices, and stores the numbers in `position_of`. Returns false if memory runs out.
 bool number_wanted(struct position_search *s);
 
-// Starts the lists and fills the table and, for indexed meshes, `position_of`.
+// Starts the lists, and fills the table. For indexed meshes, also fills `position_of`.
 bool find_positions(struct position_search *s, lam_error *error);
 void position_search_free(struct position_search *s);
 
-// Finds the positions by sorting all vertices, if the probe limit is reached. Its time is bounded for every file.
+// Finds the positions by sorting all vertices. This function is used if the probe limit is reached, because its time is
+// bounded for every file.
 bool find_positions_by_sorting(struct position_search *s, lam_error *error);
 
-// Returns the number of the mesh's triangles in the set, before one triangle or in total.
+// Returns how many of the mesh's triangles before `triangle` are in the set. For the triangle count, the result is the
+// total.
 static inline uint32_t triangles_before(const struct position_search *s, size_t triangle)
 {
     size_t number = s->first + triangle;
@@ -87,7 +89,7 @@ static inline uint32_t triangles_before(const struct position_search *s, size_t 
            s->triangles_of_others;
 }
 
-// Checks the number of probes for this many searches. Returns false if the probe limit is reached.
+// Checks the number of probes that `searches` searches needed. Returns false if the probe limit is reached.
 bool within_probe_limit(struct position_search *s, size_t probes, size_t searches);
 
 #endif

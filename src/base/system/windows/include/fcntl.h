@@ -5,7 +5,7 @@
 #include_next <fcntl.h>
 
 #define O_CLOEXEC _O_NOINHERIT
-// Windows has no such files, or needs no request for them.
+// On Windows, these flags have no effect or are not needed.
 #define O_NONBLOCK  0
 #define O_NOCTTY    0
 #define O_NOFOLLOW  0
@@ -13,7 +13,7 @@
 
 #define POSIX_FADV_WILLNEED 3
 
-// Ignores the advice and returns an error number.
+// Ignores the advice and returns ENOSYS, as for an unsupported call.
 static inline int posix_fadvise(int file, long long at, long long size, int advice)
 {
     (void)file, (void)at, (void)size, (void)advice;

@@ -1,4 +1,4 @@
-// poll.h: waits for a pipe. Any other file counts as ready.
+// poll.h: waits for a pipe. Any other file is reported as ready.
 #ifndef WINDOWS_POLL_H
 #define WINDOWS_POLL_H
 

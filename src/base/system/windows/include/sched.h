@@ -1,5 +1,5 @@
-// sched.h: extends the header of winpthreads with the number of processors that this process may use, in the form of
-// Linux.
+// sched.h: extends the header of winpthreads with a Linux function that returns the processors that this process may
+// use.
 #ifndef WINDOWS_SCHED_H
 #define WINDOWS_SCHED_H
 

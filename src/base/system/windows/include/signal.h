@@ -1,5 +1,5 @@
-// signal.h: extends mingw-w64's header with signal masks, which block nothing: Windows sends a process no signal except
-// Ctrl-C.
+// signal.h: extends mingw-w64's header with signal masks. The masks block nothing, because the only signal that Windows
+// sends is Ctrl-C.
 #ifndef WINDOWS_SIGNAL_H
 #define WINDOWS_SIGNAL_H
 

@@ -15,8 +15,7 @@ int windows_rmdir(const char *path);
 #define rmdir(path)        windows_rmdir(path)
 
 int fsync(int file);
-// Reads or writes at a position, and leaves the file's own position unchanged for later calls of these two. Any thread
-// may call it.
+// Read or write at the offset `at`, independently of the file's own position. Any thread may call these two functions.
 ssize_t pread(int file, void *data, size_t size, off_t at);
 ssize_t pwrite(int file, const void *data, size_t size, off_t at);
 // Gets the name of this machine.
@@ -24,10 +23,10 @@ int windows_hostname(char *name, size_t size);
 #define gethostname(name, size) windows_hostname(name, size)
 
 #define _SC_NPROCESSORS_ONLN 84
-// Returns the number of processors; −1 for any other name.
+// Returns the number of processors, or −1 if `name` asks for another value.
 long sysconf(int name);
 
-// Fails: links cannot be read, and users have no numbers.
+// Always fails, because Lambent does not read links on Windows.
 static inline ssize_t readlink(const char *path, char *out, size_t size)
 {
     (void)path, (void)out, (void)size;

@@ -5,7 +5,7 @@
 #define LOCK_EX 2
 #define LOCK_NB 4
 
-// Takes an exclusive lock without waiting for it. Fails with EWOULDBLOCK while another process has the lock.
+// Acquires an exclusive lock without waiting for it. Fails with EWOULDBLOCK while another process has the lock.
 int flock(int file, int operation);
 
 #endif

@@ -11,7 +11,7 @@
 #undef lstat
 
 struct windows_stat {
-    unsigned st_dev; // of the volume
+    unsigned st_dev; // number of the volume
     unsigned long long st_ino;
     unsigned short st_mode;
     unsigned st_nlink;

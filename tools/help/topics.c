@@ -28,17 +28,16 @@ const struct topic topics[] = {
      "Lambent's source folder. Lambent serves the page only on 127.0.0.1, at an address with a secret token. Press "
      "Ctrl-C to stop the viewer. For details, see `docs/view.md`."},
     {"formats", "Model formats", 0, TOPIC_NO_TABLE,
-     "`lambent formats` lists the formats that Lambent reads and writes; `docs/formats.md` describes how it draws each "
-     "element of each format.\n3MF (`.3mf`): a ZIP archive for 3D printing, with units, components, colours, textures, "
-     "layered textures and metals. Lambent loads libzip and expat (Debian's `libzip4` or `libzip5`, and `libexpat1`) "
-     "only for these files. Lambent ignores beams, slices and displacements, with a warning. `--lenient` reads files "
-     "that "
-     "require unknown extensions or use an undeclared XML prefix.\nSTL (`.stl`): triangles, text or binary. Z is up. "
-     "The format defines no unit. Binary files may contain colours.\nOBJ (`.obj`): polygons, with `.mtl` materials and "
-     "textures. Y is up.\nPLY (`.ply`): triangles, points and lines with colours, text or binary.\nglTF (`.gltf`, "
-     "`.glb`): scenes with physical materials, lights, cameras, skins and animations, in metres. Y is up. `--scene`, "
-     "`--variant`, `--animation` and `--time` select parts of a file. Lambent decodes Draco and meshoptimizer data if "
-     "their libraries are installed."},
+     "`lambent formats` lists the formats that Lambent reads and writes. `docs/formats.md` describes how Lambent draws "
+     "each element of each format.\n3MF (`.3mf`): a ZIP archive for 3D printing, with units, components, colours, "
+     "textures, layered textures and metals. Lambent loads libzip and expat (Debian's `libzip4` or `libzip5`, and "
+     "`libexpat1`) only for these files. Lambent ignores beams, slices and displacements, with a warning. `--lenient` "
+     "reads files that require unknown extensions or use an undeclared XML prefix.\nSTL (`.stl`): triangles, text or "
+     "binary. Z is up. The format defines no unit. Binary files may contain colours.\nOBJ (`.obj`): polygons, with "
+     "`.mtl` materials and textures. Y is up.\nPLY (`.ply`): triangles, points and lines with colours, text or "
+     "binary.\nglTF (`.gltf`, `.glb`): scenes with physical materials, lights, cameras, skins and animations, in "
+     "metres. Y is up. `--scene`, `--variant`, `--animation` and `--time` select parts of a file. Lambent decodes "
+     "Draco and meshoptimizer data if their libraries are installed."},
     {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
     {"output", "Output", 0, TOPIC_NO_TABLE,
      "Without `-o`, Lambent writes the picture of `models/koala.obj` to `koala.png` in the current folder. Lambent "
@@ -91,20 +90,16 @@ const struct topic topics[] = {
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. The command lists the format, "
      "the program that wrote the file, the size and the up axis, triangles, meshes, parts and objects, and the names "
-     "that "
-     "`--hide` accepts. The command also lists materials (numbers and maps), textures and their sizes, lights, "
-     "cameras, scenes, "
-     "animations and their lengths, variants, and glTF extensions (supported, ignored or unknown). At the end, the "
-     "command prints the memory, the loading time and the warnings. Each list is limited to 8 "
-     "rows; `--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF (in metres) and 3MF "
-     "(which states its unit), it prints size, area and volume in millimetres. Other formats define no unit. `info` "
-     "prints the volume only for closed surfaces. In a closed surface, each edge belongs to as many triangles in one "
-     "direction as in the other. `info` also reads files that require an unknown extension, as with `--lenient`, and "
-     "reports the "
-     "extension. The memory is the sum of the model's size and the memory needed to draw a picture of 1024x1024 "
-     "pixels. To measure this memory, Lambent draws a picture of the depths. If Lambent cannot read a model, it "
-     "reports the error and "
-     "continues; the exit code is then the highest exit code of all models."},
+     "that `--hide` accepts. The command also lists materials (numbers and maps), textures and their sizes, lights, "
+     "cameras, scenes, animations and their lengths, variants, and glTF extensions (supported, ignored or unknown). At "
+     "the end, the command prints the memory, the loading time and the warnings. Each list is limited to 8 rows; "
+     "`--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF (in metres) and 3MF (which "
+     "states its unit), the command prints the size, area and volume in millimetres. Other formats define no unit. "
+     "`info` prints the volume only for closed surfaces. In a closed surface, each edge belongs to as many triangles "
+     "in one direction as in the other. `info` also reads files that require an unknown extension, as with "
+     "`--lenient`, and reports the extension. The memory is the sum of the model's size and the memory needed to draw "
+     "a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the depths. If Lambent cannot "
+     "read a model, it reports the error and continues; the exit code is then the highest exit code of all models."},
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares "
      "these pictures with the pictures of the CPU device. Without `--vertex`, Lambent generates a correct vertex "
@@ -152,10 +147,9 @@ const struct topic topics[] = {
     {"glass", "Glass", 0, TOPIC_NO_TABLE,
      "`--material glass` is clear, smooth glass: `white,roughness=0,transmission=1`. You can change this material with "
      "keys: `--material glass,roughness=0.3` blurs the scene behind the glass, `glass,diffuse=0.2/0.8/0.5` tints the "
-     "glass, "
-     "and `thickness` refracts the light. Glass requires the CPU device, Phong shading and a physical reflection "
-     "model. For the formulas, see `docs/lighting/layers.md`. For opaque surfaces that let some light through, use "
-     "`--material opacity=0.5`."},
+     "glass, and `thickness` refracts the light. Glass requires the CPU device, Phong shading and a physical "
+     "reflection model. For the formulas, see `docs/lighting/layers.md`. For surfaces that are partly transparent and "
+     "refract no light, use `--material opacity=0.5`."},
     {"settings", "The user's own defaults", BIT(SETTINGS), TOPIC_NO_TABLE,
      "The file `lambent.json` in the folder `~/.config/lambent` overrides the default picture settings. The file "
      "contains keys of scene files: `{\"image\": {\"background\": \"white\"}, \"shadows\": true}`. Looks and options "
@@ -201,8 +195,8 @@ const struct topic topics[] = {
      "`SECURITY.md` describes Lambent's security guarantees and their tests."},
     {"reports", "Reports", BIT(REPORT), TOPIC_NO_TABLE, NULL},
     {"bytes", "Same picture everywhere", 0, TOPIC_NO_TABLE,
-     "The same model and options give identical bytes on every instruction set, number of threads, compiler and "
-     "machine."},
+     "The same model and options give identical bytes with every instruction set, number of threads and compiler, on "
+     "every machine."},
     {"variables", "Environment", 0, TOPIC_NO_TABLE,
      "If `NO_COLOR` is set and not empty, Lambent prints messages without colours. `TERM=dumb` also disables the "
      "progress bar. The locale has no effect: numbers always use a decimal point."},

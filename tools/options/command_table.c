@@ -30,9 +30,10 @@ static const struct own_default diff_defaults[] = {
     {"output", "no picture, no page", "a picture of the difference between two pictures, or a page: FILE.html"},
     {"size", "384x384", "of the pictures of models: 800 or 1920x1080"},
     {NULL, NULL, NULL}};
-static const struct own_default hash_defaults[] = {{"output", "none: --check compares", "the text file of hashes"},
-                                                   {"size", NULL, "of the pictures: 800 or 1920x1080"},
-                                                   {NULL, NULL, NULL}};
+static const struct own_default hash_defaults[] = {
+    {"output", "required, except with --check", "the text file of hashes"},
+    {"size", NULL, "of the pictures: 800 or 1920x1080"},
+    {NULL, NULL, NULL}};
 static const struct own_default plot_defaults[] = {
     {"output", "KIND.png", NULL}, {"size", "1600x1000", NULL}, {NULL, NULL, NULL}};
 static const struct own_default materials_defaults[] = {{"output", "no sheet", NULL},
@@ -49,8 +50,8 @@ const struct command command_table[] = {
                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
                        .defaults = batch_defaults},
     [COMMAND_journal] = {"journal", "JOURNAL|FOLDER...",
-                         "Summarise the journals of a batch: written, failed and missing pictures; -o FILE merges the "
-                         "journals of its shards.",
+                         "List the written, failed and missing pictures of a batch from its journals; -o FILE merges "
+                         "the journals of the shards.",
                          ABOUT | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_REPORT, .min_operands = 1,
                          .max_operands = -1, .defaults = journal_defaults},
     [COMMAND_compare] = {"compare", "MODEL",
@@ -73,16 +74,18 @@ const struct command command_table[] = {
          .min_operands = 1, .max_operands = -1},
     [COMMAND_check] =
         {"check", "SHADER.frag...",
-         "Compare GLSL shaders with reference scenes, and find the known mistakes that explain the differences.",
+         "Compare the pictures of GLSL shaders with reference pictures, and find the mistakes that explain the "
+         "differences.",
          ABOUT | 1ull << GROUP_CHECK | 1ull << GROUP_DIFF | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE |
              TAKES_JSON | TAKES_QUIET | TAKES_THREADS | TAKES_MEMORY,
          .min_operands = 0, .max_operands = -1, .defaults = check_defaults},
     [COMMAND_shader] = {"shader", "[MODEL]",
-                        "Print the shaders that light a model, for use in another program, and their inputs.",
+                        "Print the shaders that light a model, with the values of their inputs, for use in another "
+                        "program.",
                         ALL | 1ull << GROUP_SHADER, .min_operands = 0, .max_operands = 1, .defaults = shader_defaults},
     [COMMAND_diff] = {"diff", "OLD NEW",
-                      "Compare two pictures, two models or the models of two folders; -o writes a picture, or a page "
-                      "of models before and after.",
+                      "Compare two pictures, two models or the models of two folders; -o writes a picture of the "
+                      "difference, or a page that shows the models before and after.",
                       (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_DIFF | TAKES_JSON | TAKES_QUIET | TAKES_MANY |
                           TAKES_TITLE,
                       .min_operands = 2, .max_operands = 2,
@@ -111,13 +114,14 @@ const struct command command_table[] = {
              1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
          .min_operands = 1, .max_operands = 1, .one_more = "it prints the lights of one model"},
     [COMMAND_shape] = {"shape", "[NAME]",
-                       "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save it as "
-                       "OBJ, STL or PLY.",
+                       "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save the "
+                       "shape as OBJ, STL or PLY.",
                        ALL | 1ull << GROUP_SHAPE | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 0,
                        .max_operands = 1, .defaults = shape_defaults},
     [COMMAND_view] =
         {"view", "MODEL|FOLDER",
-         "Show a model in the browser, and update the picture when its file changes; or show the gallery of a folder.",
+         "Show a model in the browser and update the picture when the model file changes, or show the gallery of a "
+         "folder.",
          ABOUT | 1ull << GROUP_VIEWER | 1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW |
              1ull << GROUP_LIGHTS | 1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_LIMITS |
              TAKES_THREADS | TAKES_QUIET | WRITES_NO_FILE,
@@ -183,19 +187,21 @@ uint64_t find_groups(const char *name)
 
 const struct example examples[] = {
     {"lambent koala.obj", "writes koala.png, 1024x1024", true},
-    {"lambent part.stl -o shot.png -b white", "writes shot.png on white", true},
-    {"lambent scan.ply -s 640 --view front", "draws 640x640 pixels from the front", false},
+    {"lambent part.stl -o shot.png -b white", "writes shot.png on a white background", true},
+    {"lambent scan.ply -s 640 --view front", "draws a picture of 640x640 pixels, seen from the front", false},
     {"lambent teapot --color '#ff8800'", "draws a built-in shape (`lambent shapes`)", true},
     {"lambent -q *.stl -o pictures/", "writes all pictures to one folder", true},
-    {"lambent batch models/ -o 'thumbs/{dir}/{stem}.png'", "draws a folder and its sub-folders, and keeps a journal",
-     false},
-    {"lambent - -o - < part.stl > part.png", "reads standard input and writes standard output", false},
+    {"lambent batch models/ -o 'thumbs/{dir}/{stem}.png'",
+     "draws all models in a folder and its sub-folders, and keeps a journal", false},
+    {"lambent - -o - < part.stl > part.png",
+     "reads the model from standard input and writes the picture to standard output", false},
     {"lambent koala.obj -o koala.html", "writes a web page on which you can turn the model (after `make web`)", false},
-    {"lambent view koala.obj", "shows the model in the browser and updates it (after `make web`)", false},
+    {"lambent view koala.obj",
+     "shows the model in the browser, and the new model when the file changes (after `make web`)", false},
     {"lambent view models/", "shows a gallery of the folder (after `make web`)", false},
     {"lambent koala.obj --turntable 36 --fps 12", "writes an animated PNG of the turning model", false},
     {"lambent koala.obj --sweep light.azimuth=0..360 -o 'light-{frame}.png'",
-     "draws 36 pictures while the light circles the model", false},
+     "draws 36 pictures of the model, with a light that moves around the model", false},
     {"lambent koala.obj --json", "reports the files read, the camera and the duration of each step", false},
     {"lambent info ship.glb", "lists the model's size, triangles, materials and animations", false},
     {"lambent compare koala.obj --sheet terms", "shows the lighting terms side by side, with captions", false},

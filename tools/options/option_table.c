@@ -52,7 +52,7 @@ static const struct choice sandbox_words[] = {{"auto", SANDBOX_AUTO, "use every 
 
 static const struct choice shard_by_words[] = {
     {"name", SHARD_BY_NAME,
-     "by the hash of each model's name: adding a model does not move other models to another shard"},
+     "by the hash of each model's name, so that adding a model does not move other models to another shard"},
     {"list", SHARD_BY_LIST, "into consecutive blocks of one sorted list, so that each shard reads only its own models"},
     {NULL, 0, NULL}};
 static const struct choice light_frame_words[] = {
@@ -71,48 +71,53 @@ static const struct choice term_words[] = {{"all", LAM_CHECK_TERM_ALL, NULL},
 
 static const struct choice compress_words[] = {
     {"fast", LAM_COMPRESS_FAST, "compresses a million pixels in a few milliseconds"},
-    {"best", LAM_COMPRESS_BEST, "writes the smallest file, in a second or two"},
+    {"best", LAM_COMPRESS_BEST, "makes the file about a third smaller, in a second or two for a million pixels"},
     {NULL, 0, NULL}};
 
 static const struct choice term_words_list[] = {
-    {"auto", TERM_AUTO, "kitty, iterm2 or sixel, if the terminal supports it and no file is named"},
-    {"kitty", TERM_KITTY, "sends the PNG file: kitty, Ghostty, Konsole"},
-    {"iterm2", TERM_ITERM2, "sends the PNG file: iTerm2, WezTerm"},
-    {"sixel", TERM_SIXEL, "256 colours: xterm, foot, mlterm; needs libchafa"},
-    {"blocks", TERM_BLOCKS, "coloured characters, on any terminal; needs libchafa"},
+    {"auto", TERM_AUTO, "kitty, iterm2 or sixel, if the terminal supports one of them and `-o` names no file"},
+    {"kitty", TERM_KITTY, "sends the PNG file, for kitty, Ghostty and Konsole"},
+    {"iterm2", TERM_ITERM2, "sends the PNG file, for iTerm2 and WezTerm"},
+    {"sixel", TERM_SIXEL, "sends 256 colours, for xterm, foot and mlterm; needs libchafa"},
+    {"blocks", TERM_BLOCKS, "draws coloured characters, on any terminal; needs libchafa"},
     {"off", TERM_OFF, "shows no picture"},
     {NULL, 0, NULL}};
 
 static const struct choice color_mode_words[] = {
-    {"srgb", LAM_COLOR_SRGB, "Lambent decodes the colours of files, computes linear light and encodes the picture"},
+    {"srgb", LAM_COLOR_SRGB,
+     "Lambent decodes the colours of files, computes lighting in linear light and encodes the picture"},
     {"raw", LAM_COLOR_RAW, "no conversion; the file stores the results of the equations"},
     {NULL, 0, NULL}};
 
 static const struct choice show_words[] = {
     {"ambient", LAM_OUTPUT_AMBIENT, "the ambient term"},
-    {"diffuse", LAM_OUTPUT_DIFFUSE, "the diffuse term of all lights, and of the environment on physical materials"},
-    {"specular", LAM_OUTPUT_SPECULAR, "the highlights of all lights, and of the environment on physical materials"},
+    {"diffuse", LAM_OUTPUT_DIFFUSE,
+     "the diffuse term of all lights; on physical materials, also the environment's diffuse light"},
+    {"specular", LAM_OUTPUT_SPECULAR,
+     "the highlights of all lights; on physical materials, also the environment's reflection"},
     {"emission", LAM_OUTPUT_EMISSION, "the light that the surface emits"},
-    {"reflection", LAM_OUTPUT_REFLECTION, "the reflection of the environment by classic materials"},
-    {"environment", LAM_OUTPUT_ENVIRONMENT, "the light of the environment on all materials"},
-    {"light:NAME", LAM_OUTPUT_LIGHT, "the contribution of one light, by its name or its number from 1"},
-    {"normals", LAM_OUTPUT_NORMALS, "in eye space: (n + 1)/2"},
-    {"tangents", LAM_OUTPUT_TANGENTS, "in eye space: (t + 1)/2"},
+    {"reflection", LAM_OUTPUT_REFLECTION, "the environment's reflection on classic materials"},
+    {"environment", LAM_OUTPUT_ENVIRONMENT, "the light that surfaces of all materials reflect from the environment"},
+    {"light:NAME", LAM_OUTPUT_LIGHT,
+     "the contribution of one light, given by its name or its number (the first light is 1)"},
+    {"normals", LAM_OUTPUT_NORMALS, "normals in eye space: (n + 1)/2"},
+    {"tangents", LAM_OUTPUT_TANGENTS, "tangents in eye space: (t + 1)/2"},
     {"depth", LAM_OUTPUT_DEPTH,
      "distance from the eye along the view direction: the nearest point is white, the farthest point black"},
-    {"n.l", LAM_OUTPUT_N_L, "cosine between normal and light: max(n.l, 0)"},
-    {"n.h", LAM_OUTPUT_N_H, "cosine between normal and half vector: max(n.h, 0)"},
-    {"facing", LAM_OUTPUT_FACING, "front blue, back red"},
+    {"n.l", LAM_OUTPUT_N_L, "cosine of the angle between the normal and the direction to the light: max(n.l, 0)"},
+    {"n.h", LAM_OUTPUT_N_H, "cosine of the angle between the normal and the half vector: max(n.h, 0)"},
+    {"facing", LAM_OUTPUT_FACING, "front faces blue, back faces red"},
     {"ids", LAM_OUTPUT_IDS, "a colour for each triangle"},
-    {"coverage", LAM_OUTPUT_COVERAGE, "the fraction of covered samples"},
-    {"overdraw", LAM_OUTPUT_OVERDRAW, "the number of triangles that cover a pixel: c/(c + 3)"},
-    {"clipped", LAM_OUTPUT_CLIPPED, "pixels with a channel outside 0 to 1: red above 1, blue below 0"},
-    {"base-color", LAM_OUTPUT_BASE_COLOR, "the base or diffuse colour, with maps and vertex colours"},
+    {"coverage", LAM_OUTPUT_COVERAGE, "the fraction of a pixel's samples that the model covers"},
+    {"overdraw", LAM_OUTPUT_OVERDRAW, "c/(c + 3) for a pixel that c triangles cover"},
+    {"clipped", LAM_OUTPUT_CLIPPED, "red if a channel of the picture is above 1, blue if a channel is below 0"},
+    {"base-color", LAM_OUTPUT_BASE_COLOR,
+     "the base colour of a physical material, or the diffuse colour of a classic one, times maps and vertex colours"},
     {"roughness", LAM_OUTPUT_ROUGHNESS, "the roughness of physical materials"},
     {"metallic", LAM_OUTPUT_METALLIC, "the metalness of physical materials"},
     {"occlusion", LAM_OUTPUT_OCCLUSION, "the factor of an occlusion map"},
-    {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour's map: level / 10"},
-    {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: white where nothing is occluded"},
+    {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour's map, divided by 10"},
+    {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: the fraction of surrounding light that reaches the point"},
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of one .exr file"},
     {NULL, 0, NULL}};
 
@@ -128,7 +133,7 @@ static const struct choice style_words[] = {
     {NULL, 0, NULL}};
 
 static const struct choice lights_in_words[] = {
-    {"auto", LAM_SHADER_LIGHTS_AUTO, "an array in GLSL 120 and in the lecture style, a block otherwise"},
+    {"auto", LAM_SHADER_LIGHTS_AUTO, "an array in GLSL 120 and in the lecture style, otherwise a block"},
     {"array", LAM_SHADER_LIGHTS_ARRAY, "plain uniforms, set one by one: lights[0].position"},
     {"block", LAM_SHADER_LIGHTS_BLOCK, "uniform blocks, std140"},
     {"texture", LAM_SHADER_LIGHTS_TEXTURE, "floating-point textures, for thousands of lights"},
@@ -137,14 +142,14 @@ static const struct choice lights_in_words[] = {
 static const struct choice host_words[] = {{"c", 1, NULL}, {NULL, 0, NULL}};
 
 static const struct choice view_words[] = {
-    {"three-quarter", LAM_SIDE_THREE_QUARTER, "30 degrees to the right of the front, 20 above"},
+    {"three-quarter", LAM_SIDE_THREE_QUARTER, "30 degrees to the right of the front, 20 degrees above the horizon"},
     {"front", LAM_SIDE_FRONT, "from the front (+Z with Y up), level"},
     {"back", LAM_SIDE_BACK, "from behind, level"},
     {"left", LAM_SIDE_LEFT, "from the left (-X), level"},
     {"right", LAM_SIDE_RIGHT, "from the right (+X), level"},
     {"top", LAM_SIDE_TOP, "from above"},
     {"bottom", LAM_SIDE_BOTTOM, "from below"},
-    {"iso", LAM_SIDE_ISO, "isometric: 45 degrees to the right, 35.26 above"},
+    {"iso", LAM_SIDE_ISO, "isometric: 45 degrees to the right of the front, 35.26 degrees above the horizon"},
     {NULL, 0, NULL}};
 
 static const struct choice projection_words[] = {{"perspective", 0, "a vertical field of view of 30 degrees (`--fov`)"},
@@ -164,29 +169,30 @@ static const struct choice up_words[] = {{"auto", LAM_UP_AUTO, "z for STL and 3M
 static char reflection_summary[400], output_summary[200];
 
 static const struct choice tone_words[] = {
-    {"auto", LAM_TONE_AUTO, "khronos-neutral for physical materials, none for others"},
+    {"auto", LAM_TONE_AUTO, "khronos-neutral for pictures with physical materials, otherwise none"},
     {"none", LAM_TONE_NONE, "each channel is clipped at 1"},
     {"reinhard", LAM_TONE_REINHARD, "x / (1 + x) for each channel"},
-    {"aces", LAM_TONE_ACES, "film-like contrast: Hill's fit of ACES"},
+    {"aces", LAM_TONE_ACES, "film-like contrast (Hill's fit of ACES)"},
     {"agx", LAM_TONE_AGX, "soft contrast; bright colours fade to white"},
     {"khronos-neutral", LAM_TONE_KHRONOS_NEUTRAL, "unchanged colours, compressed highlights"},
     {NULL, 0, NULL}};
 
 static const struct choice look_words[] = {
     {"studio", 0, "the default"},
-    {"classic", 1, "the old studio: directional lights, no occlusion"},
+    {"classic", 1, "the former studio, with directional lights and without occlusion"},
     {"catalog", 2, "for web pages: the studio and a ground plane that catches a soft shadow"},
-    {"technical", 3, "for print: feature edges over light, flat-shaded faces"},
+    {"technical", 3, "for print: feature edges over pale, flat-shaded faces"},
     {NULL, 0, NULL}};
 
 static const struct choice rig_words[] = {
-    {"auto", LAM_RIG_AUTO, "the model's own lights; without any, the studio (for glTF the studio environment)"},
+    {"auto", LAM_RIG_AUTO,
+     "the model's own lights; if there are none, the studio (for physical materials, the studio environment)"},
     {"none", RIG_DARK, "only ambient light"},
     {"default", RIG_DEFAULT, "the studio instead of the model's own lights"},
     {"file", LAM_RIG_NONE, "only the model's own lights"},
     {"studio", LAM_RIG_STUDIO, "key, fill and rim lights fixed to the camera, with sky and ground light"},
     {"headlight", LAM_RIG_HEADLIGHT, "one light from the eye"},
-    {"three-point", LAM_RIG_THREE_POINT, "key, fill and back lights as for portraits, fixed to the camera"},
+    {"three-point", LAM_RIG_THREE_POINT, "key, fill and back lights as in portrait photography, fixed to the camera"},
     {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
     {NULL, 0, NULL}};
 
@@ -195,11 +201,12 @@ static const struct choice turntable_light_words[] = {
     {"model", TURNTABLE_LIGHT_MODEL, "lights and environment turn with the model, as if the camera circled the model"},
     {NULL, 0, NULL}};
 
-static const struct choice device_words[] = {{"auto", DEVICE_AUTO, "the CPU; OpenGL if `--gl-device` names a device"},
-                                             {"cpu", DEVICE_CPU, "the processor: identical bytes on every machine"},
-                                             {"gl", DEVICE_GL, "OpenGL 3.3"},
-                                             {"gles", DEVICE_GLES, "OpenGL ES 3.0, as in WebGL 2"},
-                                             {NULL, 0, NULL}};
+static const struct choice device_words[] = {
+    {"auto", DEVICE_AUTO, "OpenGL if `--gl-device` names a device, otherwise the CPU"},
+    {"cpu", DEVICE_CPU, "the processor, which draws identical bytes on every machine"},
+    {"gl", DEVICE_GL, "OpenGL 3.3"},
+    {"gles", DEVICE_GLES, "OpenGL ES 3.0, as in WebGL 2"},
+    {NULL, 0, NULL}};
 
 static const struct choice texture_filter_words[] = {
     {"exact", TEXTURE_FILTER_EXACT, "filtering in the shader: within 1/255 of the CPU device's picture"},
@@ -223,15 +230,17 @@ static const struct choice normals_words[] = {
 
 static const struct choice sheet_words[] = {
     {"summary", SHEET_SUMMARY,
-     "flat, smooth, normal interpolation, reflection (of --environment, or of the sky) and anisotropic"},
+     "flat, Gouraud and Phong shading, a reflection of the environment (--environment, or the sky), and an anisotropic "
+     "highlight"},
     {"terms", SHEET_TERMS,
      "ambient, diffuse and specular alone; all terms at shininess 50, at 1000, and at 1000 with flat shading"},
     {"stages", SHEET_STAGES, "lighting per vertex and per fragment, with the brightest highlight enlarged"},
-    {"light", SHEET_LIGHT, "the model under white and green light, in its own colours and in orange"},
-    {"ambient", SHEET_AMBIENT, "ambient and diffuse light: first both white, then red and white, then both red"},
+    {"light", SHEET_LIGHT, "the model in its own colours and in orange, each under white light and under green light"},
+    {"ambient", SHEET_AMBIENT,
+     "white ambient and white diffuse light; red ambient and white diffuse light; red ambient and red diffuse light"},
     {"frames", SHEET_FRAMES,
      "one light in the frames of the world, the camera and the model, before and after a rotation"},
-    {"surfaces", SHEET_SURFACES, "specular, diffuse and translucent"},
+    {"surfaces", SHEET_SURFACES, "a specular, a diffuse and a translucent surface"},
     {NULL, 0, NULL}};
 
 static const struct choice isa_words[] = {
@@ -249,26 +258,24 @@ struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
      "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. If "
      "the name of a file, pipe or device has no known extension, Lambent also writes a PNG. By default, Lambent writes "
-     "`MODEL.png` to the current folder (`model.png` if the model comes from standard input), and never overwrites a "
-     "file that another program created. `-o pictures/`, with a trailing slash, writes to that folder and creates the "
-     "folder if it is missing; every command that writes files accepts a folder in this form. `--out` is an alias of "
-     "`--output`.\nA file name may contain placeholders in braces, which Lambent replaces for each model: `-o "
-     "'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without its extension, `{ext}` is the "
-     "extension, and `{dir}` is the model's folder (without `..` and a leading slash). `{view}` is the value of "
-     "`--view`, and `{size}` is the size in pixels (`256` or `256x128`). Lambent creates missing folders and replaces "
-     "existing files. "
-     "If two models would be written to the same file, Lambent reports an error before it starts. To write a literal "
-     "brace, use `{{` or `}}`.\n`.html` writes one file that contains the picture and the model. Open the file in a "
-     "browser to turn the model and change every option; the page works offline (`docs/web.md`). This format requires "
-     "the page built by "
-     "`make web`.",
+     "`MODEL.png` to the current folder (`model.png` if the model comes from standard input). By default, Lambent "
+     "never overwrites a file that another program created. `-o pictures/`, with a trailing slash, writes to that "
+     "folder and creates the folder if it is missing. Every command that writes files accepts a folder in this form. "
+     "`--out` is an alias of `--output`.\nA file name may contain placeholders in braces, which Lambent replaces for "
+     "each model: `-o 'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without the extension, "
+     "`{ext}` is the extension, and `{dir}` is the model's folder (without `..` or a leading slash). `{view}` is the "
+     "value of `--view`, and `{size}` is the size in pixels (`256` or `256x128`). Lambent creates missing folders and "
+     "replaces existing files. If the pictures of two models would have the same file name, Lambent reports an error "
+     "before it starts. To write a literal brace, use `{{` or `}}`.\nWith the extension `.html`, Lambent writes one "
+     "file that contains the picture and the model. Open the file in a browser to turn the model and change every "
+     "option. The page works offline (`docs/web.md`). This format requires the page built by `make web`.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
      FIELD(picture.output), .single = TAKES_OUTPUT},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800, 1920x1080, or a list of sizes.",
      "`render` and `batch` accept up to 16 sizes, such as `1024,256x128`. These commands read each model once and draw "
-     "each picture separately, without scaling. If `--view` lists several sides, Lambent draws every side in every "
-     "size. Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
+     "each picture separately, without scaling. If `--view` lists several sides, Lambent draws each side in each size. "
+     "Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
      .several = "sizes", .brief = "pixels: 800, 1920x1080, or a list", .store = store_size,
      .others = "resolution resolutions thumbnails width height dimensions pixels viewport window", .max = 65535,
      .single = TAKES_SIZE},
@@ -279,25 +286,25 @@ struct option option_table[OPTIONS_MAX] = {
      sample_words, .store = store_word,
      .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples)},
     {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
-     "A pixel on a slanted surface covers a long, narrow area of the texture. With a single texture sample, the whole "
-     "area is blurred. With N samples along the area, textures look up to N times as sharp.",
+     "A pixel on a slanted surface covers a long, narrow area of the texture. A single texture sample blurs the whole "
+     "area. With N samples along the area, textures look up to N times as sharp.",
      .others = "anisotropic anisotropic-filtering"},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
      "Lambent draws the lines of OBJ (`l`), PLY (`edge`) and glTF files with the same width at every distance. Lambent "
      "moves lines towards the eye by their width, so that lines on a surface are visible. Lines have no end caps.",
      .others = "linewidth stroke-width thickness"},
-    {"point-size", 0, GROUP_PICTURE, "PIXELS", "by their number", NULL,
+    {"point-size", 0, GROUP_PICTURE, "PIXELS", "by the number of points", NULL,
      "Lambent draws the points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, at "
-     "the same size at every distance. The default is 3 pixels, or at least 8 pixels if the model contains fewer than "
-     "100 points.",
+     "the same size at every distance. The default is 16 % of the picture's shorter side, divided by the square root "
+     "of the number of points, but at most 2.5 % of the shorter side. The minimum is 3 pixels. If there are fewer than "
+     "100 points, the minimum is 8 pixels.",
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
-     "The background fills all pixels that the model does not cover. The same applies to `--show` and to sheets. The "
-     "sheets of `compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), "
-     "three or four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a name. The names are `black`, `white`, "
-     "`gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour names of "
-     "HTML 4.",
+     "The background fills all pixels that the model does not cover, also with `--show` and on sheets. The sheets of "
+     "`compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), three or "
+     "four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a name. The names are `black`, `white`, `gray`, "
+     "`silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour names of HTML 4.",
      .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
      .others = "bg background-color backdrop transparent", FIELD(picture.background)},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
@@ -308,22 +315,22 @@ struct option option_table[OPTIONS_MAX] = {
      "milliseconds. The pixels are identical. Other formats ignore the option. `best` needs libdeflate, and the bytes "
      "of the file depend on the version of libdeflate. With `fast`, the bytes depend only on the picture.",
      compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress)},
-    {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG; lossless WebP", "The quality of JPEG and WebP files, 1 to 100.",
+    {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG, lossless for WebP",
+     "The quality of JPEG and WebP files, 1 to 100.",
      "A lower number gives a smaller file of lower quality. At 90 and above, JPEG files store a colour for every "
      "pixel; below 90, they store one colour for every four pixels. WebP is lossless at 100 and by default. Other "
      "formats ignore the option. The bytes depend on the version of libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
      .max = 100},
     {"term", 0, GROUP_PICTURE, "METHOD", "auto",
-     "Also show the picture in the terminal, with this method; off disables it.",
+     "The method that shows the picture in the terminal; off shows no picture there.",
      "If the terminal can show pictures and `-o` is missing, Lambent shows a single picture above the line that names "
-     "its file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and WezTerm by "
-     "their environment variables, and queries other terminals (for at most half a second). If the picture is wider "
-     "than the window, Lambent scales the picture down. With a value other than `auto`, Lambent also shows the picture "
-     "if `-o` names a file "
-     "with 8 bits per channel. Lambent shows no picture with `--json` or `--quiet`, with several models, or if "
-     "standard output is not a terminal. `sixel` and `blocks` need libchafa (Debian's package `libchafa0`). "
-     "`docs/terminal.md` lists the terminals.",
+     "the picture's file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and "
+     "WezTerm by their environment variables, and queries other terminals (for at most half a second). If the picture "
+     "is wider than the window, Lambent scales the picture down. With a value other than `auto`, Lambent also shows "
+     "the picture if `-o` names a file with 8 bits per channel. Lambent shows no picture with `--json` or `--quiet`, "
+     "with several models, or if standard output is not a terminal. `sixel` and `blocks` need libchafa (Debian's "
+     "package `libchafa0`). `docs/terminal.md` lists the terminals.",
      term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,
      .others = "terminal sixel kitty preview inline", FIELD(picture.term)},
     {"durable", 0, GROUP_PICTURE, NULL, NULL, "Flush each picture and its folder to disk before continuing (fsync).",
@@ -332,7 +339,7 @@ struct option option_table[OPTIONS_MAX] = {
      "guarantee.",
      .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable)},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
-     "Brighten or darken the picture: 1 doubles the light, -1 halves it; or auto.",
+     "The exposure in stops: 1 doubles the light, -1 halves the light; or auto.",
      "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. The "
      "exposure also applies to `--color-mode raw`, to float pictures and to the light terms of `--show`. The "
      "background keeps its colour. If "
@@ -351,10 +358,10 @@ struct option option_table[OPTIONS_MAX] = {
      "Show a term of the light, one light, or a surface quantity instead of the picture.",
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. `light:key` shows "
      "the contribution of the light named key, and `light:1` shows the contribution of the first light. `n.l` and "
-     "`n.h` use the first light that has a direction; `n.l:key` and `n.h:key` select another light. The other names "
-     "show surface quantities. `all` writes the picture, every term and every light as layers of one `.exr` file. "
-     "`.pfm` and `.exr` store the values unchanged; 8-bit pictures encode them without the sRGB curve. For the "
-     "complete table, see `docs/show.md`.",
+     "`n.h` use the first light that has a direction; `n.l:key` and `n.h:key` select another light. Other names, such "
+     "as `normals` and `depth`, show surface quantities. `all` writes the picture, every term and every light as "
+     "layers of one `.exr` file. `.pfm` and `.exr` files store surface quantities unchanged; `docs/show.md` lists "
+     "their codes in 8-bit pictures.",
      show_words, .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
      .others = "unlit pass aov channel layer debug term only", FIELD(picture.show)},
 
@@ -366,20 +373,20 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(picture.save_scene)},
 
     {"scene", 0, GROUP_MODEL, "NAME|N", "the file's default",
-     "The scene to draw from a glTF file with several scenes: its name, or its number from 0.", NULL,
+     "The scene to draw from a glTF file with several scenes: its name or number (the first scene is 0).", NULL,
      .store = store_text, .others = "scene-name scene-index", FIELD(model.scene)},
     {"variant", 0, GROUP_MODEL, "NAME|N", "none",
-     "The material variant of a glTF file (KHR_materials_variants): its name, or its number from 0.", NULL,
+     "The material variant of a glTF file (KHR_materials_variants): its name or number (the first variant is 0).", NULL,
      .store = store_text, .others = "material-variant skin", FIELD(model.variant)},
     {"animation", 0, GROUP_MODEL, "NAME|N", "none",
-     "The animation that poses a glTF model: its name, or its number from 0.",
-     "Lambent poses nodes, morph target weights and skins at the time given by `--time`.", NULL, .store = store_text,
-     .others = "anim clip action", FIELD(model.animation)},
-    {"time", 0, GROUP_MODEL, "SECONDS", "0",
-     "The time, in seconds, in the animation given by `--animation`, or in the file's first animation.",
-     "Before the first keyframe, Lambent shows the first pose; after the last keyframe, it shows the last pose.", NULL,
-     .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time), .min = -1e9,
-     .max = 1e9, .others = "seconds", .loads = true},
+     "The animation that poses a glTF model: its name or number (the first animation is 0).",
+     "Lambent evaluates the animation of nodes, morph target weights and skins at the time given by `--time`.", NULL,
+     .store = store_text, .others = "anim clip action", FIELD(model.animation)},
+    {"time", 0, GROUP_MODEL, "SECONDS", "0", "The time in the animation, in seconds.",
+     "Without `--animation`, Lambent uses the file's first animation. Before the first keyframe, Lambent shows the "
+     "first pose; after the last keyframe, it shows the last pose.",
+     NULL, .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time),
+     .min = -1e9, .max = 1e9, .others = "seconds", .loads = true},
     {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
      "Without this option, Lambent refuses such a file (exit 3), because the picture could be wrong without the "
      "extension. With this option, Lambent also accepts index values that glTF reserves (primitive restart) and "
@@ -387,12 +394,12 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
-     "The side to view the model from, or a list: front, back, left, right, top, bottom, iso or three-quarter.",
+     "The side from which to view the model, or a list of sides: front, back, left, right, top, bottom, iso or "
+     "three-quarter.",
      "By default, the camera is 30 degrees to the right of the front and 20 degrees above the horizon. The model fills "
-     "92 % of the picture's width or height. `--azimuth` and `--elevation` override the angles of "
-     "a side.\n`render` and `batch` accept up to 16 sides, such as `front,left,iso`; they read each model once. "
-     "Without a pattern in "
-     "`-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
+     "92 % of the picture's width or height. `--azimuth` and `--elevation` override the angles of a side.\n`render` "
+     "and `batch` accept up to 16 sides, such as `front,left,iso`. These commands read each model once. Without a "
+     "pattern in `-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
      view_words, .several = "views", .brief = "front, left, top, iso ...; or a list: front,left", .store = store_word,
      .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
      FIELD(view.side)},
@@ -408,38 +415,39 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "scale magnify magnification distance", FIELD(view.zoom), .min = 0.001,
      .max = 1000},
     {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The camera's vertical field of view, above 0 and below 180.",
-     "A wide angle moves the camera closer, which exaggerates the perspective. The model still fills the picture. "
-     "`--camera fovy=60` is equivalent.",
+     "With a wide angle, the camera is closer to the model, so that the model still fills the picture. The perspective "
+     "is then stronger. `--fov 60` and `--camera fovy=60` are equivalent.",
      .store = store_number, .others = "field-of-view view-angle perspective-angle focal-length", .alias = "fovy",
      FIELD(view.fov_deg), .min = FOV_MIN, .max = FOV_MAX},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
      projection_words, .store = store_word, .others = "ortho orthographic perspective parallel",
      FIELD(view.projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
-     "The camera and the lights attached to it follow the axis; the model's coordinates do not change. Lambent reads "
-     "STL and 3MF files as Z up, as in CAD and 3D printing; other formats as Y up, except terrains in the xy plane. "
-     "Lambent also accepts capital letters and a plus sign (`+Z`).",
+     "The camera and the lights that are fixed to the camera follow the axis; the model's coordinates do not change. "
+     "Lambent reads STL and 3MF files as Z up, as in CAD and 3D printing, and other formats as Y up. Lambent also "
+     "reads OBJ and PLY files as Z up if they contain a terrain in the xy plane. Lambent also accepts capital letters "
+     "and a plus sign (`+Z`).",
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
      "The axis is x, y or z of the scene. Lambent applies rotations in the given order. Lights do not move, except "
-     "lights in the "
-     "model's frame. Lengths with the unit r refer to the model before the rotation. Lambent also fits the camera to "
-     "the model before "
-     "the rotation. If the model would leave the picture at any angle, the camera moves back, so that the model has "
-     "the same size and position at every angle. All pictures of a sheet share this camera.",
+     "lights that are fixed to the model. Lengths with the unit r refer to the model before the rotation. Lambent also "
+     "fits the camera to the model before the rotation. If the model would leave the picture at any angle, the camera "
+     "moves back, so that the model has the same size and position at every angle. All pictures of a sheet share this "
+     "camera.",
      .brief = "rotate the model: y:30", .store = store_rotation, .others = "r rotation turn spin",
      FIELD(shading.rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
-     "A camera: eye=x/y/z,target=x/y/z,fovy=30 and more keys; or a camera of the file, by name or number.",
+     "A camera: eye=x/y/z,target=x/y/z,fovy=30 and more keys; or a camera of the model file, given by its name or "
+     "number.",
      "A value without `=` is the name of a camera in the model file (glTF), or its number, counted from 0. Otherwise, "
-     "the value is a list of keys, separated by commas, in the model's own coordinates. `eye` is required. By default, "
-     "`target` is the middle of the model, and `up` is the model's up axis. The projection is `fovy` (the full "
-     "vertical "
-     "angle in degrees: 30; without other keys, the same as `--fov`), or `ortho` (parallel projection: model units "
-     "from the picture's middle to its top). Give `near` and `far`, or neither; they are fitted by default. You cannot "
-     "combine this option with `--view`, `--azimuth`, "
-     "`--elevation`, `--zoom`, `--fov` or `--projection`. `--json` reports the camera of any picture with these keys.",
+     "the value is a list of keys, separated by commas, in the model's own coordinates. `eye` is required, unless "
+     "`fovy` is the only key. By default, `target` is the middle of the model, and `up` is the model's up axis. In a "
+     "perspective projection, `fovy` is the full vertical angle in degrees (default: 30); without other keys, `fovy` "
+     "is the same as `--fov`. In a parallel projection, `ortho` is the distance from the picture's middle to its top, "
+     "in model units. Give both `near` and `far`, or neither; by default, Lambent fits both to the scene. You cannot "
+     "combine this option with `--view`, `--azimuth`, `--elevation`, `--zoom`, `--fov` or `--projection`. `--json` "
+     "reports the camera of any picture with these keys.",
      .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
      .min = FOV_MIN, .max = FOV_MAX},
 
@@ -447,31 +455,30 @@ struct option option_table[OPTIONS_MAX] = {
      "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
      "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`, followed by a colon and keys separated by "
      "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds a light "
-     "without replacing others, and `none` removes all lights except ambient light. If you also give `--rig`, the "
-     "lights of the rig are "
-     "kept.\nPosition: `position=x/y/z` is in the model's units or, with r after each number, in radii of the model's "
-     "bounding sphere, from its centre (default: `1r/2r/3r`; `1r/-3r/2r` with Z up). `position=x/y/z/0` is a "
-     "directional light that shines from this direction. `direction=x/y/z` is the direction in which the light "
-     "travels, and `target=x/y/z` is the point at which it aims. By default, a directional light travels along 0/0/-1, "
-     "and a spot aims at the model's centre. `frame=world|camera|view|object|object:NAME` selects the coordinate "
-     "frame. `world` is the frame of the scene. `camera` is the frame of the eye: x right, y up, looking along -z; a "
-     "light without a position is at the eye. `view` uses the axes of the eye, with the origin at the middle of the "
-     "scene's box. `object` is the frame of the model before `--rotate`, and `object:NAME` is the frame of a named "
-     "object.\nEmission: `color` times `intensity` (1) is the diffuse and specular light; `ambient` (0), `diffuse` and "
-     "`specular` set each separately. A colour is `#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light "
-     "uses `color` or `ambient` (0.2), a hemisphere light `sky` (0.4), `ground` (0.1) and `up`.\nFalloff: "
-     "`attenuation=a/b/c` is 1/(a + b d + c d^2). With r after b and c, the distance d is in radii (`1/2.7r/5r`). "
-     "`range` (also with r) is the distance beyond which the light contributes nothing. The cone of a spot is given by "
-     "`cutoff` (half angle in degrees, 45) and `exponent`, or by the half angles `inner` and `outer`. `name` appears "
-     "in reports.\n`lambent help lights` lists all keys.",
+     "without replacing others, and `none` removes all lights except ambient light. If you also give `--rig`, Lambent "
+     "uses the lights of the rig and these lights.\nPosition: `position=x/y/z` is in the model's units. With r after "
+     "each number, the position is relative to the centre of the model's bounding sphere, in radii of this sphere. The "
+     "default is `1r/2r/3r`, or `1r/-3r/2r` with Z up. `position=x/y/z/0` is a directional light that shines from this "
+     "direction. `direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` is the point at "
+     "which the light aims. By default, a directional light travels along 0/0/-1, and a spot aims at the model's "
+     "centre. `frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the frame of the "
+     "scene. `camera` is the frame of the eye: x right, y up, looking along -z; a light without a position is at the "
+     "eye. `view` uses the axes of the eye, with the origin at the middle of the scene's box. `object` is the frame of "
+     "the model before `--rotate`, and `object:NAME` is the frame of a named object.\nEmission: `color` times "
+     "`intensity` is the diffuse and specular light (default: 1). `ambient` (default: 0), `diffuse` and `specular` set "
+     "each term separately. A colour is `#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light uses "
+     "`color` or `ambient` (default: 0.2). A hemisphere light uses `sky` (default: 0.4), `ground` (default: 0.1) and "
+     "`up`.\nFalloff: `attenuation=a/b/c` is 1/(a + b d + c d^2). With r after b and c, the distance d is in radii "
+     "(`1/2.7r/5r`). `range` (also with r) is the distance beyond which the light contributes nothing. The cone of a "
+     "spot is defined by `cutoff` (half angle in degrees, default: 45) and `exponent`, or by the half angles `inner` "
+     "and `outer`. `name` appears in reports.\n`lambent help lights` lists all keys.",
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... replace the studio", .store = store_light,
      .others = "l lamp sun spot point directional lighting", FIELD(lighting.lights)},
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
      "A named set of options: studio, classic, catalog, technical, or your own file.",
-     "A look is a file with one option per line. Options on the command line override options of the look; a rig or "
+     "A look is a file with one option per line. Options on the command line override options of the look. A rig or "
      "lights on the command line replace the look's lights. `lambent looks` lists the built-in looks. `lambent looks "
-     "catalog` "
-     "prints a look's file, which you can copy and edit.",
+     "catalog` prints a look's file, which you can copy and edit.",
      look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look)},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, default, file, none or auto.",
@@ -484,8 +491,9 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_COLOR, .store = store_opaque_color, .others = "ambient-light", FIELD(lighting.ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw a marker at each light: a ball, with a cone in the light's direction.",
-     "The marker of a directional light is one and a half radii from the model's centre. Each marker has the colour of "
-     "its light. The markers do not change the camera. Lambent reports markers outside the picture.",
+     "The distance between the marker of a directional light and the model's centre is 1.5 radii of the model's "
+     "bounding sphere. Each marker has the colour of its light. The markers do not change the camera. Lambent reports "
+     "markers outside the picture.",
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
      "With more than 16 lights, Lambent skips the weakest lights in each part of the picture. Together, the skipped "
@@ -528,35 +536,36 @@ struct option option_table[OPTIONS_MAX] = {
      "and `silver` without keys are physical metals that reflect the studio. `glass` is clear glass (`lambent help "
      "glass`). Properties that you do not list keep the model's values. `lambent help materials` lists the keys (a "
      "colour is `#rrggbb`, a name, `r/g/b` or one number). `color` sets ambient and diffuse; `specular_color` sets "
-     "specular. The factors `ka`, `kd`, `ks` and `kr` multiply ambient, diffuse, specular and mirrored light (`kr` "
-     "multiplies the specular colour, white by default).\n`@NAME` limits the option to the objects of that name, or "
-     "else to the parts (OBJ groups, STL solids), or else to the model's materials: `ruby@handle`. If several options "
-     "match a surface, the last one wins.",
+     "specular. The factors `ka`, `kd` and `ks` multiply the ambient, diffuse and specular colour. `kr` sets the "
+     "reflectivity to `kr` times `specular_color` (default: white).\n`@NAME` limits the option to the surfaces of that "
+     "name: `ruby@handle`. Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and "
+     "then for materials of the model. If several options match a surface, the last one wins.",
      .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
      .others = "m mat specular diffuse", FIELD(material.materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
-     "The colour replaces the ambient and diffuse colour of every material, including those set by `--material`; "
-     "highlights keep their colour. The option is short for `--material color=COLOR`. A colour alone is also a valid "
+     "The colour replaces the ambient and diffuse colour of every material, including colours set by `--material`. "
+     "Highlights keep their colour. The option is short for `--material color=COLOR`. A colour alone is also a valid "
      "material: `--material '#ff8800@handle'`. (`--color raw` and `--color srgb` still mean `--color-mode`.)",
      .kind = VALUE_COLOR, .brief = "of the model: red, '#ff8800'", .store = store_opaque_color,
      .others = "c paint tint albedo model-color mesh-color surface-color", FIELD(material.model_color),
      .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
-     "The material of back faces, written as for `--material`; unlisted properties are copied from the front.", NULL,
-     .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
+     "The material of back faces, written as for `--material`; properties that you do not list are copied from the "
+     "front.",
+     NULL, .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
-     "NAME selects the objects of that name, or else the parts (OBJ groups, STL solids), or else the surfaces with the "
-     "material of that name. Lambent does not draw the selected surfaces, and these surfaces cast no shadows. `lambent "
-     "view` and the web page "
-     "list the names.",
+     "Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and then for surfaces "
+     "with the material of that name. Lambent does not draw the hidden surfaces, and they cast no shadows. `lambent "
+     "view` and the web page list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
-    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL, "The exponent of all highlights: 10 is wide, 1000 is sharp.",
+    {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL,
+     "The exponent of all highlights: 10 gives wide highlights, 1000 gives sharp highlights.",
      "The value replaces the shininess of every material, including materials set by `--material`.", .now = "material",
      .key = "shininess", .store = store_number, .others = "gloss glossiness specular-exponent exponent",
      FIELD(material.shininess), .has_field = offsetof(struct options, material.has_shininess), .min = 0, .max = 1e30},
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
      "The value replaces the opacity of every material, including materials set by `--material`. The alpha of vertex "
-     "colours still multiplies it.",
+     "colours still multiplies this opacity.",
      .now = "material", .key = "opacity", .store = store_number, .others = "alpha transparency translucency",
      FIELD(material.opacity), .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
 
@@ -576,9 +585,9 @@ struct option option_table[OPTIONS_MAX] = {
      "Rough metals then look darker, as in renderers without multiple scattering.", .words = NULL},
     {"reference", 0, GROUP_SHADING, "N", NULL, NULL,
      "By default, Lambent approximates environment light by the split sum. This option integrates the light "
-     "numerically, for comparison. With 1024 directions, most results are within 0.5 % of the exact integral, and with "
-     "4096 directions within 0.2 %. "
-     "The directions are the same at every point and on every machine. CPU only.",
+     "numerically, for comparison. Most results are within 0.5 % of the exact integral with 1024 directions, and "
+     "within 0.2 % with 4096 directions. The directions are the same at every point and on every machine. Only the CPU "
+     "device supports this option.",
      .others = "ground-truth importance-samples"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "
@@ -587,10 +596,9 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "shadow cast-shadows raytrace shadow-map"},
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
      "Lights then cast shadows on the ground plane and on the model. The kind `shadow` draws only the shadows, over "
-     "any background or a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular to the "
-     "up axis (`--up`) and fades out with distance. The ground plane is invisible from below. A ground plane requires "
-     "Phong shading. "
-     "For pictures, see `docs/lighting/ground.md`.",
+     "any background, including a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular "
+     "to the up axis (`--up`) and fades out with distance. The ground plane is invisible from below. A ground plane "
+     "requires Phong shading. For pictures, see `docs/lighting/ground.md`.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
@@ -599,13 +607,11 @@ struct option option_table[OPTIONS_MAX] = {
      "points in full light or full shadow still use only 48 rays. Fewer rays are faster but cause visible banding.",
      .others = "soft-shadow-samples light-samples"},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, NULL,
-     "`--wireframe width=2,color=red` sets the width in pixels (1) and the colour (black). If the alpha of the colour "
-     "is "
-     "below 1, the surfaces show through. Lambent omits edges behind surfaces (see `--hidden-lines`) and edges that "
-     "split polygons of OBJ and PLY files into triangles. `--surfaces off` draws only the lines. Lines are smooth with "
-     "any value of `--samples`. Light, "
-     "exposure, tone curve and distance do not affect the colour and width of lines. For pictures, see "
-     "`docs/edges.md`.",
+     "`--wireframe width=2,color=red` sets the width in pixels (default: 1) and the colour (default: black). If the "
+     "alpha of the colour is below 1, the surfaces show through. Lambent omits edges behind surfaces (see "
+     "`--hidden-lines`) and edges that split polygons of OBJ and PLY files into triangles. `--surfaces off` draws only "
+     "the lines. Lines are smooth with any value of `--samples`. Lines keep their colour and width in any light, with "
+     "any exposure and tone curve, and at any distance. For pictures, see `docs/edges.md`.",
      .keyed = true, .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
     {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .now = "wireframe", .key = "width", .others = "wire-width"},
     {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "If the alpha is below 1, the surfaces show through.",
@@ -613,10 +619,10 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
      "At a `crease` edge, two faces meet at an angle larger than `angle`, or more than two faces meet. A `boundary` "
-     "edge "
-     "belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing face. The keys "
-     "`angle` (40 degrees), `width` (1.5 pixels) and `color` (black) may follow: `--edges all,width=2,color=red`. Keys "
-     "alone draw all edges. `--edges all --surfaces off` makes a technical drawing.",
+     "edge belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing face. The keys "
+     "`angle` (default: 40 degrees), `width` (default: 1.5 pixels) and `color` (default: black) may follow: `--edges "
+     "all,width=2,color=red`. If you give only keys, Lambent draws all edges. `--edges all --surfaces off` makes a "
+     "technical drawing.",
      .keyed = true, .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", .now = "edges", .key = "angle", .others = "feature-angle sharp-angle"},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", .now = "edges", .key = "width", .others = "outline-width"},
@@ -647,23 +653,24 @@ struct option option_table[OPTIONS_MAX] = {
     {"normals", 0, GROUP_SHADING, "SOURCE", "file",
      "The source of normals: the file, or computed smooth or facet normals.", NULL, normals_words, .store = store_word,
      .others = "recompute-normals smooth-normals facet-normals", FIELD(shading.normals)},
-    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40", "Computed normals are split at edges sharper than this angle.",
-     NULL, .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth",
-     FIELD(shading.crease_angle_deg), .min = 0, .max = 180, .loads = true},
+    {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40",
+     "At edges sharper than this angle, the faces on the two sides do not share computed normals.", NULL,
+     .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth", FIELD(shading.crease_angle_deg),
+     .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
-     "Segments of a built-in shape, such as 64x32: slices around the axis, and stacks along it.",
+     "The segments of a built-in shape: N slices around the axis, and M stacks along the axis.",
      "With `--parametric`, N is the number of segments along u and M is the number along v; N alone sets both. N is 3 "
      "to 16384; `lambent shapes` describes the segments of each shape. The default of M depends on the shape. "
-     "`gyroid`, `metaballs` and `--implicit` accept only N, at most 1024 cells.",
+     "`gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "none",
      "The environment that shiny surfaces reflect: an image, six faces, sky or studio.",
-     "An image is a cross of six squares (4:3 or 3:4) or equirectangular (2:1), in PNG, JPEG, WebP, BMP, TGA, PPM, "
-     "PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in OpenGL's order: "
-     "`px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are built in. To use a "
-     "file named `sky`, write `./sky`. Classic materials reflect the environment only if they have a reflectivity "
-     "(`--material reflectivity=0.5`). `docs/lighting/reflection.md` describes how Lambent maps each kind around the "
-     "model.",
+     "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
+     "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
+     "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
+     "built in. To use a file named `sky`, write `./sky`. Classic materials reflect the environment only if they have "
+     "a reflectivity (`--material reflectivity=0.5`). `docs/lighting/reflection.md` describes how Lambent maps each "
+     "kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
@@ -679,9 +686,9 @@ struct option option_table[OPTIONS_MAX] = {
      "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
      "exposure. By default, and with a name that ends in `.png` or `.webp`, Lambent writes all frames to one animated "
      "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame "
-     "to a "
-     "separate file, in any format. `36,light=model` turns the lights with the model instead of keeping them with the "
-     "camera; lights in an object's frame always turn with the object. For examples, see `docs/animation.md`.",
+     "to a separate file, in any format. `36,light=model` turns the lights with the model instead of keeping them with "
+     "the camera. Lights that are fixed to an object always turn with the object. For examples, see "
+     "`docs/animation.md`.",
      .store = store_integer, .keyed = true, .others = "spin turnaround orbit rotate360 animate gif apng",
      FIELD(animation.turntable), .min = 2, .max = 100000},
     {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
@@ -693,16 +700,16 @@ struct option option_table[OPTIONS_MAX] = {
      "KEY is an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, `ambient`, "
      "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. KEY may also be a key of `--material` (`roughness`, `kd`, "
      "`roughness@NAME`) or a numeric property of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's "
-     "name or its number from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the first "
-     "light that has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; angles in "
-     "degrees), `intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which the light "
-     "comes, in the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. `time` is the "
-     "time in a glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can give more than "
-     "two values: `light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole turn, Lambent "
-     "ends the sweep one step earlier, so that the loop is seamless. You can combine several sweeps, also with "
-     "`--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and `elevation`, the distance of "
-     "the camera is constant. For `time`, the camera fits the bounding boxes of all frames. Only `zoom` and `fov` "
-     "change the camera between frames.",
+     "name, or its number counted from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the "
+     "first light that has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; "
+     "angles in degrees), `intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which "
+     "the light comes, in the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. "
+     "`time` is the time in a glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can "
+     "give more than two values: `light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole "
+     "turn, Lambent ends the sweep one step earlier, so that the loop is seamless. You can combine several sweeps, "
+     "also with `--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and `elevation`, the "
+     "distance of the camera is constant. For `time`, the camera fits the bounding boxes of all frames. Only `zoom` "
+     "and `fov` change the camera between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
     {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames in a sweep.",
@@ -711,9 +718,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
      .store = store_number, .others = "frame-rate framerate speed delay", FIELD(animation.fps), .min = 0.1, .max = 240},
 
-    {"threads", 'j', GROUP_WORK, "N", "one per processor", "The number of threads; the picture does not depend on it.",
-     NULL, .store = store_integer, .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024,
-     .single = TAKES_THREADS},
+    {"threads", 'j', GROUP_WORK, "N", "one per processor",
+     "The number of threads; the picture is the same with any number.", NULL, .store = store_integer,
+     .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024, .single = TAKES_THREADS},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
      "All instruction sets draw identical pictures. Lambent rejects an instruction set that this machine or this build "
      "does not support (exit 3).",
@@ -722,8 +729,10 @@ struct option option_table[OPTIONS_MAX] = {
      "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If OpenGL is unavailable, the error message "
      "states the reason (exit 3). Lambent does not switch to another device. `lambent devices` lists the devices.",
      device_words, .store = store_word, .others = "d gpu cpu backend renderer engine opengl gl", FIELD(work.device)},
-    {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable", "The OpenGL device, by number or part of its name.",
-     "`lambent devices` lists the numbers, hardware before software.", .store = store_text, FIELD(work.gl_device)},
+    {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable",
+     "The OpenGL device, given by its number or by a part of its name.",
+     "`lambent devices` lists the devices with their numbers, hardware before software.", .store = store_text,
+     FIELD(work.gl_device)},
     {"texture-filter", 0, GROUP_WORK, "NAME", "exact",
      "How OpenGL filters textures: exact (in the shader) or hardware.",
      "Graphics cards round the weights of their filters, mostly to 1/256, and approximate the level of detail. "
@@ -731,9 +740,9 @@ struct option option_table[OPTIONS_MAX] = {
      "`hardware`. In the `shader` command, the option selects how the printed shaders read textures.",
      texture_filter_words, .store = store_word, .others = "texture-filtering texturefilter",
      FIELD(work.texture_filter)},
-    {"repeat", 0, GROUP_WORK, "N", "1", "Draw N frames and report the median time.", NULL, .store = store_integer,
-     .others = "iterations benchmark bench", FIELD(work.repeat), .min = 1, .max = 100000},
-    {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter",
+    {"repeat", 0, GROUP_WORK, "N", "1", "Draw each picture N times and report the median time.", NULL,
+     .store = store_integer, .others = "iterations benchmark bench", FIELD(work.repeat), .min = 1, .max = 100000},
+    {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter of the available memory",
      "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
      "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
      "counts memory before the allocation. The default is a quarter of the available memory, divided by the number of "
@@ -752,8 +761,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"triangle-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a model has more triangles than this (exit 4).",
      "Lines and points count as triangles. Each object counts with all triangles of its mesh, even if several objects "
-     "share the mesh. The default is 50 million plus 100 per byte of the model's files, at most 200 million. k, M and "
-     "G are powers of 1000.",
+     "share the mesh. The default is 50 million plus 100 per byte of the model's files, but at most 200 million. k, M "
+     "and G are powers of 1000.",
      .store = store_count, .others = "max-triangles polygon-limit vertex-limit", FIELD(limits.triangle_limit),
      .max = 2147483647},
     {"object-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
@@ -806,7 +815,7 @@ struct option option_table[OPTIONS_MAX] = {
      .single = TAKES_PICTURE_LIMITS},
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL,
      "Allow models to use this file, or the files in this folder; repeatable.",
-     "By default, a model may use only the files in its own folder. If its textures are in `../textures`, add "
+     "By default, a model may use only the files in its own folder. If the textures are in `../textures`, add "
      "`--allow-path ../textures`. Scene files with `--files-inside`, and links in the folders of `batch`, may then "
      "also point to the allowed folder, and the sandbox permits reading it. With `--jobs`, all files named in jobs "
      "must be in an allowed folder, but models can still use only the files in their own folders. Pages (`-o "
@@ -838,28 +847,26 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
     {"retry-failed", 0, GROUP_BATCH, "N", "0", "Retry a picture that failed, at most N times.",
      "Lambent retries failed pictures at the end of the run. With `--resume`, Lambent also retries failures of earlier "
-     "runs. Each line "
-     "of "
-     "the journal counts as one attempt. At the end Lambent lists the models that still fail.",
+     "runs. Each line of the journal counts as one attempt. At the end, Lambent lists the models that still fail.",
      .store = store_integer, .others = "retries retry attempts", FIELD(batch.retry_failed), .max = 1000},
     {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
      "Exit with 0 even if models fail, provided that the journal records each result.",
-     "Open MPI stops all ranks if one rank exits with a code other than 0. Other systems repeat the task. The "
+     "Open MPI stops all ranks if one rank exits with a code other than 0. Other systems repeat such a task. The "
      "journal and the messages still report the failures. If a run ends early, for example after a wrong option or an "
-     "interrupt, it still exits with an error code.",
+     "interrupt, the command still exits with an error code.",
      .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
      .single = TAKES_MANY},
     {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Skip pictures whose files and options match the journal.",
-     "Lambent skips a picture if its hash and its key match the journal. The key is a hash of three inputs: all files "
-     "that Lambent looked for while reading the model (including textures and material libraries), all options with "
-     "their defaults, and the program's version.",
+     "Lambent skips a picture if the picture's hash and key match the journal. The key is a hash of three inputs: all "
+     "files that Lambent looked for while reading the model (including textures and material libraries), all options "
+     "with their defaults, and the program's version.",
      .store = store_switch, .others = "incremental update changed newer cache", FIELD(batch.skip_same)},
     {"isolate", 0, GROUP_BATCH, NULL, NULL, "Draw each model in a separate process.",
      "If a model crashes the process or exhausts the memory, only that model fails. The journal records the class "
      "`crashed`, and the run continues.",
      .store = store_switch, .others = "process fork sandbox-process", FIELD(batch.isolate), .single = TAKES_MANY},
     {"shard", 0, GROUP_BATCH, "K/N", "1/1",
-     "Draw only shard K of N of the models, counted from 1; other machines draw the other shards.",
+     "Divide the models into N shards and draw only shard K (1 to N); other machines draw the other shards.",
      "A model's shard depends only on the model's path, so adding a model does not move other models. `auto` reads K "
      "and N from SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and the corresponding counts. `auto/N` reads K from these "
      "variables or from JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent reports an error. "
@@ -914,8 +921,8 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(report.quiet), .single = TAKES_QUIET},
 
     {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
-     "The largest allowed difference of a channel, in steps of 1/255; above it the exit code is 6.", NULL,
-     .store = store_number, .others = "threshold epsilon", FIELD(diff.tolerance), .min = 0, .max = 1e9},
+     "The largest allowed difference of a channel, in steps of 1/255; if a difference is larger, the exit code is 6.",
+     NULL, .store = store_number, .others = "threshold epsilon", FIELD(diff.tolerance), .min = 0, .max = 1e9},
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "Amplify the difference picture by this factor.", NULL,
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
 
@@ -932,14 +939,13 @@ struct option option_table[OPTIONS_MAX] = {
      "picture is available only if `--pictures` stored it, because a hash does not contain the picture.",
      .store = store_switch, .others = "renew accept bless", FIELD(hash.update)},
     {"pictures", 0, GROUP_HASH, "DIR", NULL,
-     "Store the pictures in this folder, so that the next `--update` can build its sheet from them.",
+     "Store the pictures in this folder, so that the next `--update` can show them as old pictures on the sheet.",
      "Each picture is a PNG file named after its model: `DIR/models/koala.obj.png`. `-o` and `--update` write the "
      "pictures, and `--update` reads them. The folder need not be in the repository; a CI cache is sufficient.",
      .kind = VALUE_FILE, .store = store_text, .others = "keep cache-dir baseline", FIELD(hash.pictures)},
 
     {"thumbnail", 0, GROUP_CONVERT, NULL, NULL, "Put a picture of the model into the GLB file.",
-     "The picture is identical to the one that `lambent MODEL` draws with 512x512 pixels. The property "
-     "`asset.thumbnail` stores "
+     "The picture is identical to the picture that `lambent MODEL -s 512` draws. The property `asset.thumbnail` stores "
      "the index of the picture in `images`, as in the draft of glTF 2.1. Programs that do not support this property "
      "ignore it.",
      .store = store_switch, .others = "preview icon", FIELD(convert.thumbnail)},
@@ -961,26 +967,26 @@ struct option option_table[OPTIONS_MAX] = {
      "OPTION is one of the options above without its dashes. Separate the values by commas. If the values themselves "
      "contain commas, as for `light` and `material`, separate them by semicolons "
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
-     "accepts. The default values of `shininess` are 10, 50 and 1000, of `light` one light of each type, and of `show` "
-     "(also called `term`) the five terms. If you give `--across` twice, the first defines the rows of a grid and the "
-     "second "
-     "defines its columns. `mistake=A,B` uses OpenGL to draw shaders with known mistakes next to the correct shader, "
-     "with the differences between them (`lambent shader --mistake list`). `mistake` alone draws all mistakes that are "
-     "visible in the scene.",
+     "accepts. The default values of `shininess` are 10, 50 and 1000. `light` draws one light of each type by default, "
+     "and `show` (also called `term`) draws the five terms. If you give `--across` twice, the first defines the rows "
+     "of a grid, and the second defines the columns. `mistake=A,B` uses OpenGL to draw shaders with known mistakes "
+     "next to the correct shader, with the differences between them (`lambent shader --mistake list`). `mistake` alone "
+     "draws all mistakes that are visible in the scene.",
      .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(sheet.across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or an angle in degrees.",
      NULL, .store = store_number, FIELD(plot.to), .min = 1e-6, .max = 1e9},
 
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
-     "Without this option, Lambent generates a correct vertex shader, which recognises varyings by name and type "
-     "(`docs/check.md`).",
+     "Without this option, Lambent recognises the varyings by name and type, and generates a correct vertex shader for "
+     "them (`docs/check.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
     {"contract", 0, GROUP_CHECK, "NAME", "auto",
-     "The contract that defines the shaders' variable names: a built-in contract's name, or a contract file.",
-     "`auto` recognises a built-in contract by its names. If no contract fits, Lambent infers the role of each input "
-     "from its use. `auto` never selects `chile` or `glsl120`; to use one of these contracts, give its name. `--list` "
-     "prints the contracts. You can also write your own contract in JSON (`docs/check/contract-file.md`).",
+     "The contract that defines the shaders' variables: a built-in contract's name, or a file.",
+     "`auto` recognises a built-in contract by the names of its variables. If no contract fits, Lambent infers the "
+     "role of each input from its use. `auto` never selects `chile` or `glsl120`; to use one of these contracts, give "
+     "its name. `--list` prints the contracts. You can also write your own contract in JSON "
+     "(`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
      light_frame_words, .store = store_word, FIELD(check.light_frame)},
@@ -988,8 +994,9 @@ struct option option_table[OPTIONS_MAX] = {
      highlight_words, .store = store_word, FIELD(check.highlight)},
     {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
      "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
-     "By default, Lambent expects a term if the shaders declare one of its names. For example, without a specular "
-     "colour, Lambent expects no highlight. If the shaders do not declare an expected colour, Lambent uses white.",
+     "By default, Lambent expects a term if the shaders declare one of the term's names. For example, Lambent expects "
+     "a highlight only if the shaders declare a specular colour. If the shaders do not declare an expected colour, "
+     "Lambent uses white.",
      term_words, .store = store_words, FIELD(check.terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
@@ -1017,16 +1024,17 @@ struct option option_table[OPTIONS_MAX] = {
      "Submitty reads this file as validation_results.json.", .kind = VALUE_FILE, .store = store_text,
      FIELD(check.submitty)},
     {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Write a commented contract for the shaders.",
-     "The file contains the recognised contract, or the role of each input, inferred from its use. Correct the file, "
-     "then check with `--contract FILE` (`docs/check/contract-file.md`).",
+     "If Lambent recognises a contract, the file contains that contract. Otherwise, the file contains the role of each "
+     "input, which Lambent infers from the use of the input. Correct the file, then check with `--contract FILE` "
+     "(`docs/check/contract-file.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(check.list)},
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The version of GLSL: 330, 120 or 300es.",
-     "\"300 es\", as in a shader's first line, is also accepted.", glsl_words, .store = store_glsl,
+     "Lambent also accepts \"300 es\", as in the first line of a shader.", glsl_words, .store = store_glsl,
      .others = "glsl-version shader-version", FIELD(shader.glsl)},
     {"host", 0, GROUP_SHADER, "LANGUAGE", NULL,
-     "Also print code, in this language, that sets all inputs of the shaders: c.",
+     "Also print code that sets all inputs of the shaders, in this language: c.",
      "The code compiles the sources, describes the vertex layout to OpenGL and sets every uniform to its value in this "
      "picture. The code calls only OpenGL. `-o NAME` writes the code to `NAME.c`.",
      host_words, .store = store_word, FIELD(shader.host)},
@@ -1034,14 +1042,14 @@ struct option option_table[OPTIONS_MAX] = {
      "Pass the products ka La, kd Ld and ks Ls as uniforms, as in many lectures.", NULL, .store = store_switch,
      FIELD(shader.products)},
     {"lights-in", 0, GROUP_SHADER, "STORAGE", "auto", "How the shaders store the lights: array, block or texture.",
-     "Lambent sets no maximum number of lights. OpenGL allows the fewest lights in an array, and the most in a "
-     "texture.",
+     "Lambent sets no maximum number of lights. OpenGL's limit is lowest for an array, higher for a block, and highest "
+     "for a texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
      "The lecture style uses the symbols of lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, `blinn-phong` "
-     "and `kajiya-kay`, with any lights and any shading, its uniforms and its picture are the same as in "
-     "the full style. Lambent rejects textures and other reflection models in this style. With `--stage application`, "
-     "Lambent also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
+     "and `kajiya-kay`, with any lights and any shading, the uniforms and the picture are the same as in the full "
+     "style. Lambent rejects textures and other reflection models in this style. With `--stage application`, Lambent "
+     "also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
      style_words, .store = store_word, FIELD(shader.style)},
     {"mistake", 0, GROUP_SHADER, "NAME", NULL,
      "Introduce a known mistake into shaders of the lecture style; `list` prints the known mistakes.",
@@ -1092,7 +1100,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "idle-timeout", FIELD(viewer.idle_minutes),
      .has_field = offsetof(struct options, viewer.has_idle), .min = 0.001, .max = 1e6},
     {"no-open", 0, GROUP_VIEWER, NULL, NULL, "Print the address, but do not open a browser.",
-     "Without a display Lambent never opens a browser.", .store = store_switch, .others = "no-browser headless",
+     "Without a display, Lambent never opens a browser.", .store = store_switch, .others = "no-browser headless",
      FIELD(viewer.no_open)},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
@@ -1102,17 +1110,15 @@ struct option option_table[OPTIONS_MAX] = {
      "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
      "sheet are always identical. An SVG file requests DejaVu Sans, but the viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
-    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw no text; no font is needed.", NULL, .store = store_switch,
-     .others = "no-text no-labels", FIELD(captions.no_captions)},
+    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw no text, so that no font is needed.", NULL,
+     .store = store_switch, .others = "no-text no-labels", FIELD(captions.no_captions)},
 
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
      "The settings file: keys of scene files that override the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if this file exists "
      "and the environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks "
-     "and "
-     "options on "
-     "the command line override settings; scene files ignore them. `lambent config` prints the current settings, and "
-     "`docs/settings.md` describes the file.",
+     "and options on the command line override settings. Scene files ignore settings. `lambent config` prints the "
+     "current settings, and `docs/settings.md` describes the file.",
      .kind = VALUE_FILE, .store = store_text, .others = "settings preferences rc conf configuration",
      FIELD(settings.file)},
     {"no-config", 0, GROUP_SETTINGS, NULL, NULL, "Ignore the user's settings file.", NULL, .store = store_switch,

@@ -130,7 +130,7 @@ static bool unknown_key(const struct option *option, const char *text, lam_error
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s", text, known);
 }
 
-// Stores a key and its value, such as "width=2", which have `length` letters.
+// Stores a key and its value from the first `length` letters of a text, such as "width=2".
 static bool store_key(const struct option *option, const char *text, size_t length, struct options *options,
                       lam_error *error)
 {

@@ -181,7 +181,7 @@ static bool put_value(FILE *out, const struct option *option, const json_t *valu
 
 // --- one key
 
-// Returns whether the command line or a look already sets the option, or an option that it must match.
+// Returns whether the command line or a look already sets the option, or an option that must match it.
 static bool is_decided(const struct reader *r, const struct option *option)
 {
     const char *name = option->name, *pair = strcmp(name, "shading") == 0 ? "stage"
@@ -243,7 +243,7 @@ static bool take_ground(struct reader *r, const json_t *value)
     return take_value(r, NULL, "ground", option, color ? r->ground_color : value);
 }
 
-// Returns whether the value is a word of scene files that means the default, and the option lacks this word.
+// Returns whether the value means the default in scene files, but is not a word of the option.
 static bool is_plain_default(const lam_setting *setting, const json_t *value)
 {
     const char *choice;
@@ -321,7 +321,7 @@ static void default_path(char *path, size_t size)
         *path = 0;
 }
 
-// Returns the text of the file, from malloc.
+// Returns the text of the file, allocated with malloc.
 static char *read_text(const char *path, size_t *length, lam_error *error)
 {
     uint64_t unused;

@@ -50,7 +50,8 @@ static const struct light_field rows[] = {
                .summary = "half angle beyond which the light is zero, as in glTF; larger than inner"},
      .cone = SOFT_CONE},
     {.field = {MEMBER(occluded), .max = 1, .light_types = REACHING,
-               .summary = "fraction that ambient occlusion dims; a scene file also accepts true (1) and false (0)"},
+               .summary = "fraction of the light that ambient occlusion dims; a scene file also accepts true (1) and "
+                          "false (0)"},
      .optional = true},
     {.field = {MEMBER(sky), .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(0.4f),
                .light_types = BIT(HEMISPHERE), .summary = "light from above"}},
@@ -69,10 +70,11 @@ static const struct light_field rows[] = {
                .summary = "whether this light casts shadows in pictures with shadows"},
      .optional = true},
     {.field = {MEMBER(radius), .max = UNBOUNDED, .light_types = PLACED, .unit = "world units",
-               .summary = "radius of a ball that emits the light and casts soft shadows; 0: a point"},
+               .summary = "radius of the ball that emits the light; a larger ball casts softer shadows; 0: a point"},
      .optional = true},
     {.field = {ANGLE(angular_radius_rad, "radius"), .max = 89, .light_types = BIT(DIRECTIONAL),
-               .summary = "angular radius of a disc that emits the light and casts soft shadows (the sun: 0.27)"},
+               .summary = "angular radius of the disc that emits the light; a larger disc casts softer shadows (the "
+                          "sun: 0.27)"},
      .optional = true},
 };
 enum { COUNT = sizeof rows / sizeof *rows };

@@ -55,7 +55,7 @@ static const struct material_field rows[] = {
                .offset = offsetof(lam_material, diffuse.a),
                .max = 1,
                .standard = {1},
-               .summary = "1 is opaque, 0 is clear; in a scene file it multiplies the alpha of diffuse"},
+               .summary = "1 is opaque, 0 is clear; in a scene file, opacity multiplies the alpha of diffuse"},
      .reader = FIELD_NEVER},
     LOBE_PARAMETERS(LOBE_FIELD){
         .field = {MEMBER(physical), .type = LAM_FIELD_FLAG, .max = 1,
@@ -94,7 +94,7 @@ static const struct material_field rows[] = {
                .offset = offsetof(lam_material, anisotropy_rotation_rad),
                .min = -360,
                .max = 360,
-               .summary = "angle from the tangent to the direction of stretching"},
+               .summary = "angle from the tangent to the direction in which the highlight is stretched"},
      .reader = FIELD_LAYER,
      .layer = LAYER_ANISOTROPY,
      .physical = true},

@@ -39,18 +39,22 @@ WORDS(stage_words, {"auto", LAM_STAGE_AUTO, NULL},
       {"vertex", LAM_STAGE_VERTEX, "for each vertex (flat, gouraud)"},
       {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"})
 WORDS(viewer_words, {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
-      {"infinite", LAM_VIEWER_INFINITE, "the eye is infinitely far away: one direction for every point"})
+      {"infinite", LAM_VIEWER_INFINITE,
+       "the eye is infinitely far away, so the direction to the eye is the same at every point"})
 WORDS(flat_normal_words, {"face", LAM_FLAT_NORMAL_FACE, "the normal of the triangle"},
       {"vertex", LAM_FLAT_NORMAL_VERTEX, "the normal of its last vertex, as in OpenGL"})
 WORDS(occlusion_words,
-      {"auto", LAM_OCCLUSION_AUTO, "`screen` with the studio's lights or environment light, otherwise `off`"},
+      {"auto", LAM_OCCLUSION_AUTO,
+       "`screen` if the studio's lights or an environment light the model, otherwise `off`"},
       {"off", LAM_OCCLUSION_OFF, "no occlusion"},
       {"screen", LAM_OCCLUSION_SCREEN, "computed from the depths of visible surfaces around each pixel"},
-      {"rays", LAM_OCCLUSION_RAYS, "traces rays from each point: slower, includes hidden surfaces; only on the CPU"})
+      {"rays", LAM_OCCLUSION_RAYS,
+       "computed with rays from each point; slower, but surfaces that the camera does not see also occlude; only on "
+       "the CPU"})
 WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `ao` is `auto` and selects `screen`"},
       {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
-WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on with the studio's lights or environment light"},
+WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the studio's lights or an environment light the model"},
       {"off", LAM_SPECULAR_AA_OFF, "the exact equations"},
       {"on", LAM_SPECULAR_AA_ON, "the variance of the normals within each pixel increases the roughness"})
 WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "on for model files lit by the built-in studio environment"},
@@ -105,20 +109,23 @@ static const lam_setting rows[] = {
      .summary = "Compute lighting as in OpenGL 1: clamp colours, limit shininess to 128, attenuate ambient light."},
     {"shadows", MEMBER(FLAG, shadows), .summary = "Cast shadows."},
     {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator), WORDS_OF(terminator_words),
-     .summary = "Start shadow rays on the curved surface defined by the normals: on or off."},
+     .summary = "The surface on which shadow rays start: the curved surface defined by the normals (on), or the flat "
+                "triangles (off)."},
     {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 112, .expected = "0 to 256",
      .summary = "The number of shadow rays from each point in a penumbra to a light with a radius."},
     {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
      .summary =
          "A ground plane at the model's lowest point: shadow, checker, a colour or off; without a value, shadow."},
     {"ground_color", MEMBER(RGB, ground_color),
-     .summary = "The ground's colour, or the colour of the bright squares. Default: black; with checker 0.6."},
+     .summary = "The colour of the ground, or of the bright squares of a checkerboard. Default: black, or 0.6 for a "
+                "checkerboard."},
     {"anisotropy", MEMBER(WHOLE, anisotropy), .min = 1, .max = 16, .standard = 1, .expected = "0 to 16",
-     .summary = "Texture samples per pixel on slanted surfaces, 1 to 16; more samples are sharper."},
+     .summary = "The number of texture samples per pixel on slanted surfaces, 1 to 16; more samples make textures "
+                "sharper."},
     {"reference", MEMBER(WHOLE, reference), .min = 16, .max = 1 << 20, .zero = true,
      .expected = "0 or 16 to 1048576 directions",
-     .summary = "Integrate the environment's light on physical materials over N directions per point, 16 to 1048576; "
-                "0: split sum."},
+     .summary = "The number of directions for integrating the environment's light on physical materials, 16 to "
+                "1048576; 0: split sum."},
     {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",
@@ -129,7 +136,8 @@ static const lam_setting rows[] = {
      .summary = "Light dark models with a brighter studio: auto or off."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
      .expected = "more than 0, up to 10",
-     .summary = "The range of occlusion, as a fraction of half the diagonal of the scene's bounding box."},
+     .summary = "The largest distance at which surfaces occlude, as a fraction of half the diagonal of the scene's "
+                "bounding box."},
     {"ao_samples", MEMBER(WHOLE, occlusion_samples), .min = 1, .max = 1024, .standard = 64, .expected = "0 to 1024",
      .summary = "The number of rays from each lit point for ambient occlusion (`rays`); more rays reduce noise."},
     {"light_cutoff", MEMBER(NUMBER, light_cutoff), .max = 1, .standard = 0.5 / 255, .zero_is_negative = true,
@@ -138,12 +146,13 @@ static const lam_setting rows[] = {
     {"line_width", MEMBER(NUMBER, line_width), .min = 0.01, .max = 1000, .standard = 1.5,
      .expected = "pixels from 0 to 1000", .summary = "The width of lines in the model file."},
     {"point_size", MEMBER(NUMBER, point_size), .min = 0.01, .max = 1000, .expected = "pixels from 0 to 1000",
-     .summary = "The diameter of points in the model file; by default larger if the model has few points."},
+     .summary = "The diameter of points in the model file; by default, points are larger if there are few of them."},
     {"wireframe", MEMBER(FLAG, wireframe), .summary = "Draw the edges of all faces as lines over the picture."},
     {"wireframe_width", MEMBER(NUMBER, wireframe_width), .min = 0.01, .max = 1000, .standard = 1,
      .expected = "pixels from 0 to 1000", .summary = "The width of the wireframe's lines."},
     {"wireframe_color", MEMBER(RGBA, wireframe_color),
-     .summary = "The colour of the wireframe: by default black; white over a dark background if surfaces are off."},
+     .summary = "The colour of the wireframe: by default black, or white if surfaces are off and the background is "
+                "dark."},
     {"edges", MEMBER(WORDS, edges), WORDS_OF(edges_words), .expected = "edges or hidden_lines",
      .summary = "Draw feature edges as lines: all, none, or some of crease,boundary,silhouette."},
     {"edge_angle", MEMBER(ANGLE, edge_angle_rad), .min = 0.001, .max = 180, .standard = 40, .expected = "0° to 180°",
@@ -151,11 +160,12 @@ static const lam_setting rows[] = {
     {"edge_width", MEMBER(NUMBER, edge_width), .min = 0.01, .max = 1000, .standard = 1.5,
      .expected = "pixels from 0 to 1000", .summary = "The width of feature edges."},
     {"edge_color", MEMBER(RGBA, edge_color),
-     .summary = "The colour of feature edges: by default black; white over a dark background if surfaces are off."},
+     .summary = "The colour of feature edges: by default black, or white if surfaces are off and the background is "
+                "dark."},
     {"hidden_lines", MEMBER(WORD, hidden_lines), WORDS_OF(hidden_lines_words), .expected = "edges or hidden_lines",
      .summary = "How to draw edges behind surfaces: remove, dash or show."},
     {"surfaces", MEMBER(NOT_FLAG, no_surfaces), WORDS_OF(surfaces_words),
-     .summary = "Draw surfaces: on, or off for lines only."},
+     .summary = "Whether to draw surfaces: on, or off to draw only lines."},
 };
 _Static_assert(COUNT_OF(rows) <= LAM_SETTINGS_MAX, "more rows than lam_picture_settings.draw_present has bits");
 

@@ -1,17 +1,17 @@
 // lambent/base.h: errors, control of long calls, small vectors, and the rules of the whole interface.
 //
-// C11; includes cleanly in C++17. You can make every call from any thread with 256 kB of stack. The library prints
-// nothing, never exits, and keeps no global state.
+// C11; includes cleanly in C++17. Every call works on any thread with 256 kB of stack. The library prints nothing,
+// never exits, and keeps no global state.
 //
 // Names: functions are lam_<thing>_<verb>, types lam_<thing>, constants LAM_<KIND>_<VALUE>. Names end with their unit:
 // _rad, _deg, _ms, _s, _px, _bytes. Lengths without a unit are in model units.
 //
-// Errors: a call that can fail takes a `lam_error *` last, which may be NULL; it returns false, NULL or −1 on failure
-// and then fills the error.
+// Errors: the last parameter of a call that can fail is a `lam_error *`, which may be NULL. On failure, the call
+// returns false, NULL or −1, and fills the error.
 //
-// Defaults: a zeroed parameter struct requests the default of every field. So does NULL, if the call documents it.
-// Structs whose defaults are not zero (lam_material, lam_light, lam_object, lam_camera) have a function that returns
-// them, lam_<thing>_default.
+// Defaults: a zeroed parameter struct requests the default of every field. NULL requests the same, if the comment of
+// the call allows NULL. Structs whose defaults are not zero (lam_material, lam_light, lam_object, lam_camera) have a
+// function that returns them, lam_<thing>_default.
 //
 // Growth: a struct that may grow ends in LAM_RESERVED(n), n words of 8 bytes that must be zero. A later version
 // replaces some of these words with new fields. For each new field, zero means the default or "absent". Therefore the
@@ -49,7 +49,7 @@ extern "C" {
 // The kind of a failure. The exit codes of the `lambent` program use different numbers.
 typedef enum lam_code {
     LAM_OK = 0, // no error
-    // An argument is out of range or cannot be combined with another; the sentence names it.
+    // An argument is out of range or cannot be combined with another; the sentence names the argument.
     LAM_BAD_ARGUMENT,
     // A file is missing, unreadable, truncated, or invalid in its format.
     LAM_CANNOT_READ,
@@ -81,11 +81,12 @@ LAM_API void lam_cancel_clear(lam_cancel *cancel);
 
 // The default limits of a call. lam_control can set others. A call that exceeds a limit fails with LAM_LIMIT; the
 // sentence contains both numbers. Limits "for each byte of files" count the model's file and all files that it names,
-// each once. They limit the expansion of small files, and do not apply to scenes that a program builds itself.
+// each once. These limits restrict the expansion of small files, and do not apply to scenes that a program builds
+// itself.
 #define LAM_TRIANGLE_LIMIT   200000000u   // triangles
 #define LAM_PIXEL_LIMIT      400000000u   // pixels
 #define LAM_FILE_LIMIT_BYTES 32000000000u // bytes
-#define LAM_JSON_DEPTH_LIMIT 256u         // objects and lists within one another
+#define LAM_JSON_DEPTH_LIMIT 256u         // nested objects and lists
 #define LAM_JSON_DEPTH_MAX   2000u        // the upper bound of json_depth_limit: the parser is recursive
 // The triangle limit of small files: this number plus LAM_TRIANGLES_PER_BYTE for each byte of files, up to
 // LAM_TRIANGLE_LIMIT.
@@ -109,11 +110,11 @@ typedef struct lam_control {
     // The call fails with LAM_LIMIT this many seconds after its start (wall-clock time). Multiplied by the number of
     // threads, this also limits the processor time. 0 or less: no limit.
     double time_limit_s;
-    // The largest number of bytes that the call may use at once; if it needs more, it fails with LAM_LIMIT. 0: no
+    // The largest number of bytes that the call may use at once. A call that needs more fails with LAM_LIMIT. 0: no
     // limit.
     uint64_t memory_limit_bytes;
     // Called repeatedly, in the calling thread, with the fraction done, 0..1, and the name of the step ("read",
-    // "normals", "frame"). It must not call into the same device or scene. NULL: none.
+    // "normals", "frame"). The function must not use the same device or scene. NULL: none.
     void (*progress)(void *user, double share, const char *step);
     void *user; // passed to `progress`
     // The largest number of triangles of a model or a picture (each object adds the triangles of its mesh). A line or
@@ -186,8 +187,8 @@ LAM_API const char *lam_version(void);
 // Returns one line about the build: compiler, instruction sets, libraries. The string is static.
 LAM_API const char *lam_build_info(void);
 
-// Returns the length in bytes, 1..4, of the UTF-8 character (RFC 3629) that begins at `bytes`, of which `size` may be
-// read. Returns 0 if the bytes are invalid or the character is truncated.
+// Returns the length in bytes, 1..4, of the UTF-8 character (RFC 3629) that begins at `bytes`. The call reads at most
+// `size` bytes. Returns 0 if the bytes are invalid or the character is truncated.
 LAM_API int lam_utf8_length(const void *bytes, size_t size);
 
 // Returns the edit distance between two words: the number of letters inserted, deleted, replaced or swapped with their

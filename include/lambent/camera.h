@@ -99,7 +99,7 @@ LAM_API bool lam_scene_camera(const lam_scene *scene, int index, lam_camera *cam
 
 // A camera that orbits a point, for programs in which users rotate a model with the mouse. Begin with lam_orbit_of().
 typedef struct lam_orbit {
-    lam_vec3 target;          // the point that it orbits and looks at, world space
+    lam_vec3 target;          // the point that the eye orbits, world space
     double azimuth_rad;       // as in lam_view
     double elevation_rad;     // as in lam_view, −π/2..π/2
     double distance;          // from the eye to the target, model units, > 0
@@ -109,9 +109,9 @@ typedef struct lam_orbit {
     LAM_RESERVED(8);
 } lam_orbit;
 
-// Returns the orbit of a camera of this scene. Its target is the point on the line of sight that is nearest to the
-// centre of the scene's box. If that point is behind the eye, or the scene is NULL or empty, it is the camera's target.
-// A tilted camera becomes upright.
+// Returns the orbit of a camera of this scene. The orbit's target is the point on the line of sight that is nearest to
+// the centre of the scene's box. If that point is behind the eye, or the scene is NULL or empty, the orbit's target is
+// the camera's target. A tilted camera becomes upright.
 LAM_API lam_orbit lam_orbit_of(const lam_camera *camera, const lam_scene *scene);
 
 // Returns the camera of an orbit; the planes are fitted to the scene when it is drawn.
@@ -126,8 +126,8 @@ LAM_API void lam_orbit_turn(lam_orbit *orbit, double right_rad, double up_rad);
 // dy pixels is −dx / height to the right and dy / height up.
 LAM_API void lam_orbit_pan(lam_orbit *orbit, double right, double up);
 
-// Shows the target `factor` times as large, > 0: moves the eye closer, or narrows the view of an orthographic camera.
-// Other factors are ignored.
+// Shows the target `factor` times as large: moves the eye closer, or narrows the view of an orthographic camera.
+// Factors of 0 or less are ignored.
 LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 
 // Parses a camera from text: pairs key=value, separated by commas, of
@@ -140,7 +140,7 @@ LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 // LAM_BAD_ARGUMENT; the error states what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
-// Returns the keys of lam_camera_parse, from 0, or NULL if the index is out of range.
+// Returns the key of lam_camera_parse with this index (from 0), or NULL if the index is out of range.
 LAM_API const char *lam_camera_key(int index);
 
 #ifdef __cplusplus

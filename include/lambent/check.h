@@ -12,8 +12,8 @@
 extern "C" {
 #endif
 
-// A contract: the names of a course's shader inputs, and the requirements of its exercise. It is read from a JSON file
-// (docs/check.md, "Contracts"). It is immutable, so any number of checks may share one.
+// A contract: the names of a course's shader inputs, and the requirements of its exercise. Contracts are JSON files
+// (docs/check.md, "Contracts"). A contract is immutable, so any number of checks may share one.
 typedef struct lam_check_contract lam_check_contract;
 
 // Returns the name of a built-in contract: "lambent", "pittsburgh", "oregon", … Returns NULL past the last one.
@@ -60,11 +60,11 @@ typedef struct lam_check_role {
 // Gets row `row` of the roles, counted from 0. Returns false past the last one.
 LAM_API bool lam_check_role_row(int row, lam_check_role *role);
 
-// Returns the known mistakes: their ids ("no-gate") and a sentence about each. Returns NULL past the last.
+// Return the id of a known mistake ("no-gate") and a sentence about the mistake. Return NULL past the last one.
 LAM_API const char *lam_check_mistake(int index);
 LAM_API const char *lam_check_mistake_explanation(int index);
 
-// Returns the reference scenes and the property that each one tests. Returns NULL past the last.
+// Return the name of a reference scene, and the property that the scene tests. Return NULL past the last one.
 LAM_API const char *lam_check_scene_name(int index);
 LAM_API const char *lam_check_scene_description(int index);
 
@@ -89,9 +89,10 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 
 // --- drawing for a check
 
-// A check draws the shaders under test, and its own shaders with known mistakes. It uses OpenGL, which it finds at run
-// time, or a painter that the caller provides: a web page draws with WebGL 2 (web/check/painter.js). The check alone
-// chooses the meshes and their inputs and compares the pictures, so that every painter gets the same verdict.
+// A check draws the shaders under test, and its own shaders with known mistakes. It draws with OpenGL, which is loaded
+// at run time, or with a painter that the caller provides: a web page draws with WebGL 2 (web/check/painter.js). The
+// check alone chooses the meshes and their inputs and compares the pictures, so that every painter gets the same
+// verdict.
 
 // The compiler of a pair of shaders.
 typedef enum lam_check_language {
@@ -222,9 +223,9 @@ typedef struct lam_check_painter {
     LAM_RESERVED(4);
 } lam_check_painter;
 
-// A cache of the pictures of known mistakes, shared by several checks; most of a check's time is spent drawing them. It
-// stores up to `max_bytes`; pictures beyond that are drawn each time. A cache serves one OpenGL device or painter; any
-// number of threads may use it at once.
+// A cache of the pictures of known mistakes, shared by several checks. Drawing these pictures takes most of a check's
+// time. The cache stores up to `max_bytes`; pictures beyond that are drawn each time. A cache serves one OpenGL device
+// or painter. Any number of threads may use the cache at once.
 typedef struct lam_check_cache lam_check_cache;
 
 // Makes an empty cache. Returns NULL if memory runs out.

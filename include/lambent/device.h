@@ -10,13 +10,14 @@
 extern "C" {
 #endif
 
-// A device draws one picture at a time. Different threads must use different devices, but may share a scene while
-// nobody changes it. A device keeps its memory between frames: drawing the same kind of frame again allocates nothing.
+// A device draws one picture at a time. Different threads must use different devices, but may share a scene while no
+// thread changes the scene. A device keeps its memory between frames: drawing the same kind of frame again allocates
+// nothing.
 typedef struct lam_device lam_device;
 
 // Instruction sets of the CPU device. All give bit-identical pictures.
 typedef enum lam_isa {
-    LAM_ISA_AUTO = 0, // the widest that processor and build support
+    LAM_ISA_AUTO = 0, // the widest one that processor and build support
     LAM_ISA_SCALAR,   // C without SIMD
     LAM_ISA_SSE4,     // SSE4.2, 4 lanes
     LAM_ISA_AVX2,     // 8 lanes
@@ -51,7 +52,7 @@ LAM_API lam_device *lam_device_null(lam_error *error);
 
 LAM_API void lam_device_free(lam_device *device); // NULL is allowed
 
-// Returns one line about the device: "cpu avx2, 2 threads". It lives as long as the device.
+// Returns one line about the device: "cpu avx2, 2 threads". The string lives as long as the device.
 LAM_API const char *lam_device_name(const lam_device *device);
 
 // Returns the instruction set in use, or LAM_ISA_AUTO if this is not a CPU device.
@@ -91,10 +92,10 @@ typedef enum lam_flat_normal {
 // The content of a frame: the picture, one part of its light, or a property of its surfaces.
 //
 // Light outputs are drawn like the picture: over the background, and sRGB-encoded in 8 bits (lam_output_is_light).
-// Other outputs are neither blended nor encoded. A float picture stores the number itself, an 8-bit picture the code
-// given here. Pixels without a triangle store the background in 8 bits, as in the picture, and 0 with alpha 0 in
-// floats. These numbers are not averaged: they come from the triangle at the covered sample nearest to the pixel's
-// centre.
+// Other outputs are neither blended nor encoded. A float picture stores the number itself, and an 8-bit picture stores
+// the code given here. In an 8-bit picture, pixels without a triangle store the background; in a float picture, they
+// store 0 with alpha 0. These numbers are not averaged: they come from the triangle at the covered sample nearest to
+// the pixel's centre.
 typedef enum lam_output {
     LAM_OUTPUT_PICTURE = 0, // the whole sum
     // Terms of the sum. The five add up to the picture without a background (an unlit colour is part of the diffuse
@@ -152,7 +153,7 @@ typedef enum lam_output {
 
 // Tone curves map light of any strength to the range of a display. Each accepts linear light after exposure, with the
 // primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has formulas,
-// sources and plots). They apply to pictures of 8 bits; float pictures store the light itself.
+// sources and plots). Tone curves apply to 8-bit pictures; float pictures store the light itself.
 typedef enum lam_tone {
     // KHRONOS_NEUTRAL if the frame shows a physical material, else NONE.
     LAM_TONE_AUTO = 0,
@@ -186,8 +187,8 @@ LAM_API bool lam_output_is_light(lam_output output);
 LAM_API int lam_default_samples(int width, int height);
 
 // Ambient occlusion: the fraction of surrounding light that nearby surfaces do not block (docs/lighting/occlusion.md).
-// It dims ambient, hemisphere and environment light and the share lam_light.occluded of other lights, under Phong
-// shading. Translucent surfaces are not occluded.
+// Under Phong shading, occlusion dims ambient, hemisphere and environment light, and the share lam_light.occluded of
+// other lights. Translucent surfaces are not occluded.
 typedef enum lam_occlusion {
     // SCREEN if Phong shading is used and a light of the frame has a share `occluded` or an environment lights the
     // frame; else OFF.
@@ -233,16 +234,17 @@ typedef enum lam_brighten {
 } lam_brighten;
 
 // The ground: a plane at the scene's lowest point, perpendicular to its up axis (lam_scene_set_up), on which the
-// scene's lights cast shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). It is opaque within 3
-// radii of the scene's sphere from the centre, and fades to transparent at 6 radii. It is invisible from below. It
-// casts no shadows, and fitting the camera and measuring the scene ignore it. It requires Phong shading.
+// scene's lights cast shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). The plane is opaque up
+// to a distance of 3 radii of the scene's sphere from the centre, and fades to transparent at 6 radii. The plane is
+// invisible from below and casts no shadows. Fitting the camera and measuring the scene ignore the plane. The ground
+// requires Phong shading.
 typedef enum lam_ground {
     LAM_GROUND_NONE = 0, // no ground
-    // A shadow catcher: black, with the fraction of light that the scene blocks from a white, matt ground as alpha. It
-    // works over any background. Outputs of surface properties, except ambient occlusion, omit it.
+    // A shadow catcher: black, with the fraction of light that the scene blocks from a white, matt ground as alpha. The
+    // shadow catcher works over any background. Outputs of surface properties, except ambient occlusion, omit it.
     LAM_GROUND_SHADOW,
     // A checkerboard. The side of a square is the largest of 1, 2 and 5 times a power of ten that is at most half of
-    // the radius. Squares begin at multiples of it in world space.
+    // the radius. Squares begin at multiples of this length in world space.
     LAM_GROUND_CHECKER,
     LAM_GROUND_COLOR, // a matt surface
     LAM_GROUND_COUNT
@@ -307,16 +309,17 @@ typedef struct lam_draw_params {
     // point, 16..1048576, instead of using the split sum (docs/lighting/environment.md). 0: the split sum. CPU device
     // only; other devices fail with LAM_UNSUPPORTED.
     int reference;
-    // The width of lines, and the diameter of points, in pixels, up to 1000. 0: 1.5 for lines; for points at least 3,
-    // increasing for fewer points and larger pictures, and at least 8 for fewer than 100 points. Points below 4 pixels
-    // are squares. Lines and points are moved towards the eye by their own width, so that lines on a surface remain
+    // The width of lines and the diameter of points, in pixels, up to 1000. 0 for lines: 1.5. 0 for points: 16 % of the
+    // picture's shorter side, divided by the square root of the number of points, but at most 2.5 % of the shorter
+    // side. The result is at least 3 pixels, and at least 8 pixels for fewer than 100 points. Points below 4 pixels are
+    // squares. Lines and points are moved towards the eye by their own width, so that lines on a surface remain
     // visible.
     float line_width, point_size;
     // Triangles between a point and a light block the diffuse and specular terms of every light that casts shadows
     // (lam_light.no_shadows, docs/lighting/shadows.md).
     bool shadows;
-    // Shadow rays start on the flat triangles. By default they start on the curved surface defined by the vertex
-    // normals; otherwise the terminator of a coarse smooth mesh shows its triangles.
+    // Shadow rays start on the flat triangles, so that the terminator of a coarse smooth mesh shows its triangles. By
+    // default, shadow rays start on the curved surface defined by the vertex normals.
     bool flat_terminator;
     // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 112. Above 48, points in full
     // light or full shadow get 48 rays.
@@ -416,8 +419,8 @@ LAM_API bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const 
 LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
                                          const lam_view *view, lam_vec3 centre, const lam_vec3 *axis);
 
-// Lists the lights of a frame: first the lights of the scene, then of the rig. Returns their number and copies the
-// first `capacity` of them to `lights`, which may be NULL. Names are valid until the scene changes.
+// Lists the lights of a frame: first the lights of the scene, then the lights of the rig. Returns their number and
+// copies the first `capacity` of them to `lights`, which may be NULL. Names are valid until the scene changes.
 LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int capacity);
 
 // Returns the report of the device's last frame; all zero before the first frame.

@@ -11,8 +11,8 @@ extern "C" {
 
 struct lam_image;
 
-// A cube map: six square faces of linear light, sampled with a direction. It is immutable, so any number of scenes and
-// threads may share it.
+// A cube map: six square faces of linear light, sampled with a direction. A cube map is immutable, so any number of
+// scenes and threads may share it.
 typedef struct lam_environment lam_environment;
 
 // The faces in OpenGL's order, named by the axis through their middle.
@@ -59,8 +59,8 @@ LAM_API lam_environment *lam_environment_load(const char *path, lam_color_mode c
 // Fails with LAM_BAD_ARGUMENT (no such name), LAM_LIMIT.
 LAM_API lam_environment *lam_environment_built_in(const char *name, lam_error *error);
 
-// Returns the names of the built-in environments, from 0. The strings are static. Returns NULL if the index is out of
-// range.
+// Returns the name of a built-in environment, by its index (from 0). The strings are static. Returns NULL if the index
+// is out of range.
 LAM_API const char *lam_environment_built_in_name(int index);
 
 // Releases an environment; scenes that use it keep it. NULL is allowed.
@@ -71,8 +71,8 @@ LAM_API int lam_environment_size(const lam_environment *environment);
 
 // Returns the linear light from a direction in the environment's own axes, of any length; (0, 0, 0) gives black. The
 // lookup is bilinear and seamless across faces. Drawing adds this light times the reflectivity of a classic material.
-// Physical materials use prefiltered means of it, which the first frame that needs them computes and the environment
-// stores (docs/lighting/environment.md).
+// Physical materials use prefiltered means of this light. The first frame that needs these means computes them, and the
+// environment stores them (docs/lighting/environment.md).
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
 // Makes the texture `environment_light` of exported shaders (lambent/shader.h), which lights physical materials: a

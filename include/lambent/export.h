@@ -37,16 +37,16 @@ LAM_API lam_export *lam_scene_export(const lam_scene *scene, const char *format,
                                      lam_error *error);
 LAM_API void lam_export_free(lam_export *result); // NULL is allowed
 
-// Return the files, from 0: first the model, then further files. The name (NULL if the index is out of range) and the
-// contents are valid until the result is freed.
+// Return the name and the contents of a file by its index (from 0): first the model, then further files. The name is
+// NULL if the index is out of range. Both are valid until the result is freed.
 LAM_API const char *lam_export_file_name(const lam_export *result, int index);
 LAM_API lam_bytes lam_export_file(const lam_export *result, int index);
 
 // Returns the sentence with this index (from 0) about data of the scene that the files omit; NULL past the last one.
 LAM_API const char *lam_export_loss(const lam_export *result, int index);
 
-// Returns the name of a format, from 0, which is also the file extension ("glb"). Returns a static string, or NULL if
-// the index is out of range.
+// Returns the name of the format with this index (from 0), which is also the file extension ("glb"). Returns a static
+// string, or NULL if the index is out of range.
 LAM_API const char *lam_export_format(int index);
 
 #ifdef __cplusplus

@@ -26,7 +26,7 @@ typedef lam_gl_function lam_gl_get_proc(void *user, const char *name);
 
 // Parameters of an OpenGL device. All zero: OpenGL 3.3 core on the first usable device, without a window.
 typedef struct lam_gl_params {
-    // The interface to use. It is ignored with the caller's own context.
+    // The interface to use. Ignored if the device draws in the caller's own context.
     lam_gl_api api;
     // The device: its number in lam_gl_devices ("0"), or a part of its name or driver ("llvmpipe"), in upper or lower
     // case. NULL: the first usable device, hardware before software.

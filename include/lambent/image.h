@@ -10,7 +10,8 @@ extern "C" {
 
 // 8-bit formats store sRGB-encoded (or raw) numbers; float formats store linear numbers. RGBA8 and BGRA8 are not
 // premultiplied by alpha, RGBA32F is premultiplied. Formats without alpha are opaque: a frame is drawn over its
-// background, and the background over black. If they are converted to another 8-bit format, alpha is 255.
+// background, and the background over black. If a picture without alpha is converted to another 8-bit format, alpha is
+// 255.
 typedef enum lam_pixel_format {
     LAM_RGBA8 = 0,   // 4 bytes per pixel
     LAM_RGBA32F = 1, // 4 floats per pixel
@@ -50,8 +51,8 @@ LAM_API void lam_image_free(lam_image *image);
 typedef enum lam_compress {
     // The default: some milliseconds for a million pixels. The bytes depend only on the picture.
     LAM_COMPRESS_FAST,
-    // About a third smaller and a hundred times slower. It uses libdeflate, which is loaded on demand (LAM_UNSUPPORTED
-    // if it is not installed); the bytes depend on its version.
+    // About a third smaller and a hundred times slower than FAST. Uses libdeflate, which is loaded on demand
+    // (LAM_UNSUPPORTED if it is not installed); the bytes depend on its version.
     LAM_COMPRESS_BEST,
 } lam_compress;
 
@@ -122,20 +123,20 @@ LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const cha
 // .webp. Another extension fails with LAM_UNSUPPORTED and a list of the writable formats.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Return the picture formats, from 0: the name, which is also an extension ("png"); a second extension, or NULL; and
-// one line about the stored numbers ("8 bits, sRGB, with alpha"), or NULL if the format is only read. Every format can
-// be read. The strings are static. Return NULL if the index is out of range.
+// Describe the picture format with this index (from 0): the name, which is also an extension ("png"); a second
+// extension, or NULL; and one line about the stored numbers ("8 bits, sRGB, with alpha"), or NULL if the format is only
+// read. Every format can be read. The strings are static. Return NULL if the index is out of range.
 LAM_API const char *lam_image_format_name(int format);
 LAM_API const char *lam_image_format_alias(int format);
 LAM_API const char *lam_image_format_written(int format);
 
 // Reads a picture. PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED if libwebp is missing), BMP, TGA and
-// binary PPM become LAM_RGBA8: 16 bits are cut to 8, grey and palettes become RGB. PFM, EXR (scanlines; the first part)
-// and Radiance (.hdr) become LAM_RGBA32F. Alpha is 1 if the file has none. The content determines the format; for a TGA
-// with an invalid header, the extension does. `path` is a regular file, or "-" for standard input. The call ignores the
-// previous contents of `image` and does not free them; on failure it zeroes the struct. `control` may be NULL; its
-// memory limit counts the file and the pixels. Errors: LAM_CANNOT_READ, LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535,
-// more than 400 million pixels, memory, time), LAM_CANCELLED.
+// binary PPM become LAM_RGBA8: 16-bit numbers are reduced to 8 bits, and grey and palettes become RGB. PFM, EXR
+// (scanlines; the first part) and Radiance (.hdr) become LAM_RGBA32F. Alpha is 1 if the file has none. The content
+// determines the format; for a TGA with an invalid header, the extension does. `path` is a regular file, or "-" for
+// standard input. The call ignores the previous contents of `image` and does not free them; on failure it zeroes the
+// struct. `control` may be NULL; its memory limit counts the file and the pixels. Errors: LAM_CANNOT_READ,
+// LAM_UNSUPPORTED, LAM_LIMIT (a side over 65535, more than 400 million pixels, memory, time), LAM_CANCELLED.
 LAM_API bool lam_image_load(lam_image *image, const char *path, const lam_control *control, lam_error *error);
 
 // Reads a picture of any of these formats into LAM_RGBA32F, linear and premultiplied. PNG (all 16 bits if present),

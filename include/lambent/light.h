@@ -46,8 +46,8 @@ typedef enum lam_light_frame {
 
 // Attenuation with the distance d from the lit point to the light, in model units:
 //  1 / (constant + linear·d + quadratic·d²)
-// All three are ≥ 0; all zero means 1, 0, 0. 0, 0, 1 is the inverse square law. If the sum is 0, the light's terms are
-// 0.
+// All three are ≥ 0. If all are zero, they mean 1, 0, 0. The numbers 0, 0, 1 give the inverse square law. If the sum is
+// 0, the light's terms are 0.
 typedef struct lam_attenuation {
     float constant, linear, quadratic;
 } lam_attenuation;
@@ -67,7 +67,7 @@ typedef struct lam_light {
     lam_rgb diffuse;             // Ld: point, directional, spot
     lam_rgb specular;            // Ls: point, directional, spot
     lam_attenuation attenuation; // point, spot
-    // Point, spot: the distance at which the light ends, in model units. It multiplies the attenuation by max(min(1 −
+    // Point, spot: the distance at which the light ends, in model units. The attenuation is multiplied by max(min(1 −
     // (d/range)⁴, 1), 0), the window of glTF's KHR_lights_punctual. 0: no range.
     float range;
 
@@ -106,8 +106,8 @@ LAM_API bool lam_light_check(const lam_light *light, lam_error *error);
 
 // Predefined sets of lights.
 typedef enum lam_rig {
-    // The scene's own lights. If there are none: the studio; for physical materials, only the scene's environment, or
-    // the built-in environment "studio".
+    // The scene's own lights. If there are none: the studio for classic materials, and for physical materials only the
+    // scene's environment, or the built-in environment "studio" if the scene has no environment.
     LAM_RIG_AUTO = 0,
     LAM_RIG_NONE, // only the scene's own lights, even if there are none
     // The default look: a near key light, a fill and a rim light that move with the camera, and a hemisphere light.

@@ -21,8 +21,8 @@ LAM_API float lam_attenuation_at(const lam_light *light, float distance);
 LAM_API float lam_spot_at(const lam_light *light, double angle_rad);
 
 // Returns the highlight's strength S, 0..1, with the light straight above the surface (l = n) and the eye at the angle
-// `angle_rad` from it, 0..π. That angle φ is the angle between the mirrored light and the eye; half of it, ψ, is the
-// angle between the normal and the half vector:
+// `angle_rad` from the light, 0..π. That angle φ is the angle between the mirrored light and the eye; half of it, ψ, is
+// the angle between the normal and the half vector:
 //  LAM_REFLECTION_PHONG                  S = cos(φ)^shininess
 //  LAM_REFLECTION_BLINN_PHONG, …_AUTO    S = cos(φ/2)^shininess
 // Returns 0 for models without a highlight, and for models of threads, which need a tangent. `shininess` is finite and

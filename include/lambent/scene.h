@@ -26,7 +26,7 @@ typedef enum lam_up {
     LAM_UP_COUNT
 } lam_up;
 
-// Returns the name of an up axis: "auto", "x", "y", "z", "-x", "-y" or "-z". Returns NULL if it is out of range.
+// Returns the name of an up axis: "auto", "x", "y", "z", "-x", "-y" or "-z". Returns NULL if `up` is out of range.
 LAM_API const char *lam_up_name(lam_up up);
 // Returns the up axis with this name, in upper or lower case, with an optional plus ("+Z"). Returns LAM_UP_COUNT if
 // there is none.
@@ -38,8 +38,8 @@ LAM_API lam_up lam_up_find(const char *name);
 // failure: LAM_BAD_ARGUMENT.
 LAM_API bool lam_color_parse(const char *text, lam_color_mode mode, lam_rgba *color, lam_error *error);
 
-// Returns the colour names of lam_color_parse, from 0, without "transparent". Returns NULL if the index is out of
-// range.
+// Returns the colour name of lam_color_parse with this index (from 0); "transparent" is not included. Returns NULL if
+// the index is out of range.
 LAM_API const char *lam_color_name(int index);
 
 // The source of normals.
@@ -87,16 +87,16 @@ typedef struct lam_load_params {
     // Frees the bytes of `open`. NULL: the loader frees them with lam_bytes_free, so they must come from malloc.
     lam_release_fn *release;
     void *user; // passed to `open` and `release`
-    // glTF: the scene to read, by its name or its index from 0. NULL: the file's default scene.
+    // glTF: the scene to read, by its name or its index (the first is 0). NULL: the file's default scene.
     const char *scene;
-    // glTF: the material variant (KHR_materials_variants), by its name or its index from 0. NULL: the materials of the
-    // primitives themselves.
+    // glTF: the material variant (KHR_materials_variants), by its name or its index (the first is 0). NULL: the
+    // materials of the primitives themselves.
     const char *variant;
     // glTF and 3MF: true: ignores required extensions that this version does not support, and primitive restart values
     // among glTF's indices. false: fails with LAM_UNSUPPORTED or LAM_CANNOT_READ.
     bool lenient;
-    // glTF: the animation whose pose at `time_s` is shown, by its name or its index from 0. NULL: the pose without
-    // animation.
+    // glTF: the animation whose pose at `time_s` is shown, by its name or its index (the first is 0). NULL: the pose
+    // without animation.
     const char *animation;
     // Seconds, finite. Before the first and after the last key of a channel, the value of that key is used.
     double time_s;
@@ -120,8 +120,8 @@ LAM_API lam_scene *lam_scene_load(const char *path, const lam_load_params *param
 LAM_API lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name,
                                          const lam_load_params *params, const lam_control *control, lam_error *error);
 
-// Return the readable model formats, from 0: the name ("obj"), and the file extensions, separated by blanks ("obj").
-// The strings are static. Return NULL if the index is out of range.
+// Describe the readable model format with this index (from 0): the name ("obj"), and the file extensions, separated by
+// blanks ("obj"). The strings are static. Return NULL if the index is out of range.
 LAM_API const char *lam_model_format_name(int format);
 LAM_API const char *lam_model_format_extensions(int format);
 
@@ -159,7 +159,8 @@ LAM_API int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface
 // rotated, so that the file shows the same picture. Errors: LAM_BAD_ARGUMENT (no triangles), LAM_UNSUPPORTED (another
 // extension), LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error *error);
-// Returns the extensions that lam_mesh_save supports, from 0, without the dot: "obj". Returns NULL past the last one.
+// Returns an extension that lam_mesh_save supports, by its index (from 0), without the dot: "obj". Returns NULL past
+// the last one.
 LAM_API const char *lam_mesh_format(int index);
 
 // The triangles that are culled.
@@ -313,16 +314,16 @@ LAM_API const lam_file_info *lam_scene_file_info(const lam_scene *scene);
 // environment. Drawing needs more memory.
 LAM_API uint64_t lam_scene_memory(const lam_scene *scene);
 
-// Returns the warnings of a scene from 0, in order: one sentence for each problem that did not stop the load. Returns
-// NULL if the index is out of range.
+// Returns the warning with this index (from 0): one sentence about a problem that did not stop the load. Returns NULL
+// if the index is out of range.
 LAM_API const char *lam_scene_warning(const lam_scene *scene, int index);
 
-// Returns the paths of the files that loading tried to open, from 0. The model's own path comes first, then the files
-// that it names (material libraries, buffers, pictures, the models of a scene file), each once, in alphabetical order.
-// Missing files are included, because loading may give another scene once they exist. A path is the model's folder plus
-// the name in the file; for files that lam_load_params.open opened, it is the name passed to that function. Scenes
-// built by a program have no paths, and models from memory or standard input have no path of their own. The strings are
-// valid until the scene is freed. Returns NULL if the index is out of range.
+// Returns the path of a file that loading tried to open, by its index (from 0). The model's own path comes first, then
+// the files that it names (material libraries, buffers, pictures, the models of a scene file), each once, in
+// alphabetical order. Missing files are included, because loading may give another scene once they exist. A path is the
+// model's folder plus the name in the file; for files that lam_load_params.open opened, it is the name passed to that
+// function. Scenes built by a program have no paths, and models from memory or standard input have no path of their
+// own. The strings are valid until the scene is freed. Returns NULL if the index is out of range.
 LAM_API const char *lam_scene_file(const lam_scene *scene, int index);
 
 // Adds a warning, which is copied, unless the scene already has the same sentence. A scene keeps at most 64 warnings.
@@ -332,18 +333,18 @@ LAM_API void lam_scene_add_warning(lam_scene *scene, const char *text);
 // triangles.
 LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maximum);
 
-// Return the number of cameras in the model's file and their names, from 0 (lam_scene_camera in camera.h); NULL for an
-// unnamed camera or an index out of range. Cameras keep the positions of the file; lam_scene_transform does not move
-// them.
+// Return the number of cameras in the model's file, and the name of the camera with this index (from 0;
+// lam_scene_camera in camera.h). The name is NULL for an unnamed camera or an index out of range. Cameras keep the
+// positions of the file; lam_scene_transform does not move them.
 LAM_API int lam_scene_camera_count(const lam_scene *scene);
 LAM_API const char *lam_scene_camera_name(const lam_scene *scene, int index);
 
 // Returns the index of the camera with this name, or else with this index in digits. Returns −1 if there is none.
 LAM_API int lam_scene_find_camera(const lam_scene *scene, const char *name);
 
-// Get and set the up axis (LAM_UP_AUTO means y; a value out of range is ignored). It rotates the fitted camera, the rig
-// and the environment, but never the coordinates. The front of the model, which faces the viewer at azimuth 0, is +Z
-// with x or y up and −Y with z up. A negative axis turns the picture upside down.
+// Get and set the up axis (LAM_UP_AUTO means y; a value out of range is ignored). The up axis rotates the fitted
+// camera, the rig and the environment, but never the coordinates. The front of the model, which faces the viewer at
+// azimuth 0, is +Z with x or y up and −Y with z up. A negative axis turns the picture upside down.
 LAM_API lam_up lam_scene_up(const lam_scene *scene);
 LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
 
@@ -360,7 +361,7 @@ LAM_API bool lam_scene_transform(lam_scene *scene, const lam_mat4 *transform, la
 // Rotates all objects, right-handed, about an axis of any nonzero length through the point `centre`.
 LAM_API bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, double angle_rad, lam_error *error);
 
-// Writes the lights that a rig adds to this scene, at their positions, and returns their number. It works like
+// Writes the lights that a rig adds to this scene, at their positions, and returns their number. The call works like
 // lam_rig_lights, but resolves LAM_RIG_AUTO.
 LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
@@ -369,10 +370,10 @@ LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light 
 // averaged over the adjacent triangles that are connected by edges and share the orientation of the mapping and the
 // position, normal and texture coordinates of the corner, weighted by their angles. The result is unit and
 // perpendicular to the normal. If the texture coordinates give no direction, the corner gets the tangent of meshes
-// without texture coordinates (docs/lighting/threads.md). It uses the texture coordinates of the normal map of the
-// first part that has one, or else the first set. The bitangent points up in the normal map's picture, or else in the
-// direction of increasing t. Loading a model does this for meshes with normal maps; drawing does not. `control` may be
-// NULL. On failure some meshes may have tangents and others not. Errors: LAM_LIMIT, LAM_CANCELLED.
+// without texture coordinates (docs/lighting/threads.md). The call uses the texture coordinates of the normal map of
+// the first part that has one, or else the first set. The bitangent points up in the normal map's picture, or else in
+// the direction of increasing t. Loading a model does this for meshes with normal maps; drawing does not. `control` may
+// be NULL. On failure some meshes may have tangents and others not. Errors: LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error);
 
 // Save the state of the scene, and restore it any number of times: its meshes, materials, objects, lights, ambient
@@ -383,7 +384,7 @@ LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *contro
 LAM_API bool lam_scene_mark(lam_scene *scene, lam_error *error);
 LAM_API bool lam_scene_reset(lam_scene *scene, lam_error *error);
 
-// Sets light from everywhere, which is added to the light of ambient lights (La_global). Default 0.
+// Sets and gets the scene's ambient light (La_global), which is added to the light of ambient lights. Default: 0.
 LAM_API void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient);
 LAM_API lam_rgb lam_scene_ambient(const lam_scene *scene);
 

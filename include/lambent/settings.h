@@ -1,5 +1,5 @@
-// lambent/settings.h: the table of the settings of lam_draw_params that scene files and options share. Its rows are
-// used to read and write scene files, to make their schema, and to make and apply options.
+// lambent/settings.h: the table of the settings of lam_draw_params that scene files and options share. The program uses
+// the rows to read and write scene files, to make the schema of scene files, and to make and apply options.
 #ifndef LAMBENT_SETTINGS_H
 #define LAMBENT_SETTINGS_H
 
@@ -29,7 +29,8 @@ typedef struct lam_setting {
     const char *key;       // in scene files; options have - instead of _
     lam_setting_type type; // the type of the member
     size_t offset;         // of the member in lam_draw_params
-    // The range of WHOLE, NUMBER and ANGLE, and the default; a default below `min` means that it depends on the scene.
+    // The range of WHOLE, NUMBER and ANGLE, and the default. If `standard` is below `min`, the default depends on the
+    // scene.
     double min, max, standard;
     bool zero; // WHOLE, NUMBER: 0 is allowed too, regardless of `min`
     // NUMBER: 0 in a file is stored as −1 in the member, because a member of 0 means the default.

@@ -21,8 +21,8 @@ typedef enum lam_glsl {
 // Returns the name of a version: "330", "120", "300es". Returns a static string, or NULL if the index is out of range.
 LAM_API const char *lam_glsl_name(lam_glsl version);
 
-// The storage of the lights. Their number has no fixed limit; implementations allow the fewest in an array
-// (GL_MAX_*_UNIFORM_COMPONENTS), more in a block (GL_MAX_UNIFORM_BLOCK_SIZE), and the most in a texture.
+// The storage of the lights. This library sets no limit on the number of lights. OpenGL's limit is lowest for an array
+// (GL_MAX_*_UNIFORM_COMPONENTS), higher for a block (GL_MAX_UNIFORM_BLOCK_SIZE), and highest for a texture.
 typedef enum lam_shader_lights {
     LAM_SHADER_LIGHTS_AUTO = 0, // an array in GLSL 120 and in the lecture style, else a block
     LAM_SHADER_LIGHTS_ARRAY,    // plain uniforms, set one by one: lights[0].position

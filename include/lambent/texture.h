@@ -10,9 +10,9 @@ extern "C" {
 
 struct lam_image;
 
-// A picture with its mipmaps: RGBA, linear numbers, filtered as floats. It is immutable, so any number of materials,
-// scenes and threads may share it. Level 0 is the picture. Each next level has half the width and height, rounded down;
-// its texels are the averages of the texels that they cover, in linear light and not rounded.
+// A picture with its mipmaps: RGBA, linear numbers, filtered as floats. A texture is immutable, so any number of
+// materials, scenes and threads may share it. Level 0 is the picture. Each next level has half the width and height,
+// rounded down; its texels are the averages of the texels that they cover, in linear light and not rounded.
 typedef struct lam_texture lam_texture;
 
 // The meaning of a picture's numbers. Float pictures are always linear.
@@ -75,8 +75,8 @@ typedef struct lam_texture_map {
     // The channel of a map with single numbers (shininess, opacity, metallic, roughness, occlusion, bump): 0 red … 3
     // alpha.
     int channel;
-    // From the mesh's texture coordinates to the picture's, whose (0, 0) is the upper left corner and (1, 1) the lower
-    // right one. All zero: the identity.
+    // Converts the mesh's texture coordinates to coordinates in the picture: (0, 0) is its upper left corner, and (1,
+    // 1) its lower right corner. All zero: the identity.
     float transform[2][3];
     // Multiplies the texel. 0: 1. Normal maps: multiplies x and y. Bump maps: the height of the value 1, in texels of
     // level 0.

@@ -17,12 +17,13 @@ extern "C" {
 //   gold,opacity=0.5       both, the name first
 //   ambient=diffuse        returns as much ambient light as diffuse light
 //   #ff8800                is short for color=#ff8800; also a colour's name that no material has, or r/g/b
-// Colours have the forms of lam_color_parse, or are one number for all three channels. The symbols of colours (ka, kd,
-// ks, kr) multiply them; `color` sets ambient and diffuse, `specular_color` the highlight's colour for ks and kr.
-// Returns false on failure and leaves the material unchanged.
+// Colours have the forms of lam_color_parse, or are one number for all three channels. The factors ka, kd and ks
+// multiply ambient, diffuse and specular. `color` sets ambient and diffuse, and `specular_color` sets specular. kr sets
+// reflectivity to kr times `specular_color` (default: white). Returns false on failure and leaves the material
+// unchanged.
 LAM_API bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *material, lam_error *error);
 
-// Returns the keys of lam_material_parse, from 0, or NULL if the index is out of range.
+// Returns the key of lam_material_parse with this index (from 0), or NULL if the index is out of range.
 LAM_API const char *lam_material_key(int index);
 
 // Parameters of lam_scene_add_light_text. Zero is the default of each field.
@@ -52,7 +53,8 @@ typedef struct lam_light_text_params {
 LAM_API int lam_scene_add_light_text(lam_scene *scene, const char *text, const lam_light_text_params *params,
                                      lam_error *error);
 
-// Returns the keys of lam_scene_add_light_text for lights of a type, from 0, or NULL if the index is out of range.
+// Returns the key of lam_scene_add_light_text with this index (from 0) for lights of a type, or NULL if the index is
+// out of range.
 LAM_API const char *lam_light_key(lam_light_type type, int index);
 
 #ifdef __cplusplus

@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-// An animation that is being encoded. It stores the last frame and the encoded frames, not the earlier pictures. Only
-// one thread at a time may use it.
+// An animation that is being encoded. The animation stores the last frame and the encoded frames, not the earlier
+// pictures. Only one thread at a time may use an animation.
 typedef struct lam_animation lam_animation;
 
 // Parameters of an animation. If all fields are zero, the defaults apply.
@@ -25,9 +25,9 @@ typedef struct lam_animation_params {
 // show its first frame) or "webp". Returns NULL if the extension belongs to no animation format.
 LAM_API const char *lam_animation_format(const char *path);
 
-// Begins an animation of pictures of width × height pixels in one of these formats. `params` may be NULL; it is copied.
-// The caller frees the animation. Returns NULL on failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (another format; WebP if
-// libwebp or libwebpmux is missing), LAM_LIMIT.
+// Begins an animation of pictures of width × height pixels in one of these formats. `params` may be NULL; the call
+// copies them. The caller frees the animation. Returns NULL on failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (another
+// format; WebP if libwebp or libwebpmux is missing), LAM_LIMIT.
 LAM_API lam_animation *lam_animation_make(const char *format, int width, int height, const lam_animation_params *params,
                                           lam_error *error);
 

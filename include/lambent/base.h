@@ -163,7 +163,7 @@ typedef struct lam_rgba {
 
 // Whether colours are converted between sRGB and linear light (IEC 61966-2-1).
 typedef enum lam_color_mode {
-    // Colours of files are decoded to linear light, and 8-bit pictures are encoded.
+    // The library decodes the colours of files to linear light, and encodes 8-bit pictures.
     LAM_COLOR_SRGB = 0,
     // No conversion: a picture stores the numbers of the equations.
     LAM_COLOR_RAW,

@@ -93,8 +93,8 @@ LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height,
 LAM_API lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_vec3 axis, int width, int height,
                                           const lam_view *view);
 
-// Gets a camera of the scene's file (lam_scene_camera_count). If the camera has no far plane, the far plane is placed
-// behind the scene's bounds. Returns false and the default camera if there is no such camera.
+// Gets a camera of the scene's file (lam_scene_camera_count). If the camera has no far plane, the call places the far
+// plane behind the scene's bounds. If there is no such camera, the call returns false and writes the default camera.
 LAM_API bool lam_scene_camera(const lam_scene *scene, int index, lam_camera *camera);
 
 // A camera that orbits a point, for programs in which users rotate a model with the mouse. Begin with lam_orbit_of().

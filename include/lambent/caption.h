@@ -22,8 +22,8 @@ typedef struct lam_font lam_font;
 LAM_API lam_font *lam_font_open(const char *path, lam_error *error);
 LAM_API void lam_font_free(lam_font *font); // NULL is allowed
 
-// Returns a path that lam_font_open tries, in the order of the indices (from 0). The strings are static. Returns NULL
-// if the index is out of range.
+// Returns the path with this index (from 0) in the order in which lam_font_open tries them. The strings are static.
+// Returns NULL if the index is out of range.
 LAM_API const char *lam_font_path(int index);
 
 // Returns the width in pixels of a line of UTF-8 text at a font size of `size_px` pixels, 1..1000. Invalid bytes count

@@ -1,5 +1,5 @@
-// lambent/check.h: checks the lighting of GLSL shaders. It draws reference scenes with the shaders under test, compares
-// the pictures with the CPU device's, and names the known mistakes that explain a difference. For teachers and
+// lambent/check.h: checks the lighting of GLSL shaders. A check draws reference scenes with the shaders under test,
+// compares the pictures with the CPU device's, and names the known mistakes that explain a difference. For teachers and
 // students: docs/check.md.
 //
 // These functions are in a separate library, liblambent-check (pkg-config lambent-check), which uses liblambent.
@@ -68,10 +68,10 @@ LAM_API const char *lam_check_mistake_explanation(int index);
 LAM_API const char *lam_check_scene_name(int index);
 LAM_API const char *lam_check_scene_description(int index);
 
-// Draws a request made by lam_check_run. This compiles and runs the shaders under test, which may crash the driver or
-// loop forever: call it in a process of its own and stop that process at a deadline. The caller frees `result`.
-// `gl_device`: as lam_gl_params.device; NULL: the first usable one. LAM_UNSUPPORTED: no OpenGL. A shader that does not
-// compile is not an error: the result records it.
+// Draws a request made by lam_check_run. The call compiles and runs the shaders under test, which may crash the driver
+// or loop forever. Therefore, make this call in a separate process, and stop that process at a deadline. The caller
+// frees `result`. `gl_device`: as lam_gl_params.device; NULL: the first usable one. LAM_UNSUPPORTED: no OpenGL. A
+// shader that does not compile is not an error: the result records it.
 LAM_API bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam_bytes *result,
                             lam_error *error);
 
@@ -89,9 +89,9 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 
 // --- drawing for a check
 
-// A check draws the shaders under test, and its own shaders with known mistakes. It draws with OpenGL, which is loaded
-// at run time, or with a painter that the caller provides: a web page draws with WebGL 2 (web/check/painter.js). The
-// check alone chooses the meshes and their inputs and compares the pictures, so that every painter gets the same
+// A check draws the shaders under test, and its own shaders with known mistakes. The check draws with OpenGL, which is
+// loaded at run time, or with a painter that the caller provides: a web page draws with WebGL 2 (web/check/painter.js).
+// The check alone chooses the meshes and their inputs and compares the pictures, so that every painter gets the same
 // verdict.
 
 // The compiler of a pair of shaders.
@@ -268,8 +268,8 @@ typedef struct lam_check_params {
     // The terms that the shaders are expected to compute, bits of lam_check_term; 0: the terms for which the shaders
     // declare a name. A colour that is not declared counts as white.
     unsigned terms;
-    // The search for mistakes ends after comparing this many pictures of combined mistakes; 0: 10000. The result is the
-    // same on every machine, with or without a cache.
+    // The search for mistakes ends after comparing this many pictures of combined mistakes; 0: 10000. The search gives
+    // the same result on every machine, with or without a cache.
     uint64_t max_pictures;
     // Draws instead of OpenGL. NULL: OpenGL draws, on `gl_device`. If `draw` is set, it still draws the shaders under
     // test. The caller keeps the painter and its data valid until the check and its cache are freed.
@@ -288,8 +288,8 @@ typedef enum lam_check_verdict {
     LAM_CHECK_MEMORY,     // drawing exceeded its memory limit
 } lam_check_verdict;
 
-// The result of one scene. A pixel is compared if it and its eight neighbours are inside the model; colours are first
-// clamped to 0…1, as on a screen.
+// The result of one scene. The check compares a pixel if the pixel and its eight neighbours are inside the model. The
+// check first clamps colours to 0…1, as on a screen.
 typedef struct lam_check_scene {
     const char *name, *description; // the scene's name and description
     lam_image theirs, reference;    // LAM_RGBA32F, straight alpha

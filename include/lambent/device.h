@@ -94,12 +94,12 @@ typedef enum lam_flat_normal {
 // Light outputs are drawn like the picture: over the background, and sRGB-encoded in 8 bits (lam_output_is_light).
 // Other outputs are neither blended nor encoded. A float picture stores the number itself, and an 8-bit picture stores
 // the code given here. In an 8-bit picture, pixels without a triangle store the background; in a float picture, they
-// store 0 with alpha 0. These numbers are not averaged: they come from the triangle at the covered sample nearest to
-// the pixel's centre.
+// store 0 with alpha 0. Numbers of other outputs are not averaged: each number comes from the triangle at the covered
+// sample nearest to the pixel's centre.
 typedef enum lam_output {
     LAM_OUTPUT_PICTURE = 0, // the whole sum
     // Terms of the sum. The five add up to the picture without a background (an unlit colour is part of the diffuse
-    // term). With gl1, terms are not clamped.
+    // term). With gl1, the terms are not clamped.
     LAM_OUTPUT_AMBIENT,
     LAM_OUTPUT_DIFFUSE,
     LAM_OUTPUT_SPECULAR,
@@ -111,7 +111,7 @@ typedef enum lam_output {
     // Normals as used by the lighting, in eye space: x right, y up, z to the viewer; reversed on back faces. 8-bit
     // code: (x + 1)/2.
     LAM_OUTPUT_NORMALS,
-    // Tangents from the file or the direction field, perpendicular to the normal. They are coded as normals.
+    // Tangents from the file or the direction field, perpendicular to the normal, with the 8-bit code of normals.
     LAM_OUTPUT_TANGENTS,
     // Distance d in front of the eye along the view, model units. 8-bit code: (far − d)/(far − near), so that near is
     // white and far is black. near and far are the distances of the scene's nearest and farthest vertices, limited to
@@ -122,8 +122,8 @@ typedef enum lam_output {
     LAM_OUTPUT_N_H,
     // 1: front, −1: back. 8-bit code: front blue (0, 102, 255), back red (255, 51, 0).
     LAM_OUTPUT_FACING,
-    // Triangle number in its mesh modulo 2²⁴, object number, triangle number / 2²⁴. 8-bit code: a colour for each
-    // triangle of each object, no channel below 48.
+    // Red: the triangle's number in its mesh modulo 2²⁴. Green: the object's number. Blue: the triangle's number / 2²⁴.
+    // 8-bit code: a colour for each triangle of each object, no channel below 48.
     LAM_OUTPUT_IDS,
     // Fraction of the pixel's samples that are covered. Alpha is 1 everywhere, even without triangles.
     LAM_OUTPUT_COVERAGE,
@@ -155,7 +155,7 @@ typedef enum lam_output {
 // primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has formulas,
 // sources and plots). Tone curves apply to 8-bit pictures; float pictures store the light itself.
 typedef enum lam_tone {
-    // KHRONOS_NEUTRAL if the frame shows a physical material, else NONE.
+    // KHRONOS_NEUTRAL if the frame shows a physical material, otherwise NONE.
     LAM_TONE_AUTO = 0,
     LAM_TONE_NONE,     // each channel is clipped at 1
     LAM_TONE_REINHARD, // x / (1 + x) for each channel (Reinhard et al., 2002)

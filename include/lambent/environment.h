@@ -59,11 +59,11 @@ LAM_API lam_environment *lam_environment_load(const char *path, lam_color_mode c
 // Fails with LAM_BAD_ARGUMENT (no such name), LAM_LIMIT.
 LAM_API lam_environment *lam_environment_built_in(const char *name, lam_error *error);
 
-// Returns the name of a built-in environment, by its index (from 0). The strings are static. Returns NULL if the index
-// is out of range.
+// Returns the name of the built-in environment with this index (from 0). The strings are static. Returns NULL if the
+// index is out of range.
 LAM_API const char *lam_environment_built_in_name(int index);
 
-// Releases an environment; scenes that use it keep it. NULL is allowed.
+// Releases an environment. Scenes that use the environment keep it. NULL is allowed.
 LAM_API void lam_environment_free(lam_environment *environment);
 
 // Returns the width and height of each face in pixels.
@@ -76,10 +76,11 @@ LAM_API int lam_environment_size(const lam_environment *environment);
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
 // Makes the texture `environment_light` of exported shaders (lambent/shader.h), which lights physical materials: a
-// LAM_RGBA32F picture 1024 texels wide, which the caller frees with lam_image_free. It contains the prefiltered levels
-// 1 to 11 and the irradiance divided by pi. Each of them is six faces in the order of lam_cube_face with a border of
-// one texel, stored row by row as one sequence of texels. docs/lighting/environment.md lists sizes and roughnesses.
-// `control` may be NULL. Errors: LAM_BAD_ARGUMENT (NULL), LAM_LIMIT, LAM_CANCELLED.
+// LAM_RGBA32F picture 1024 texels wide, which the caller frees with lam_image_free. The picture contains the
+// prefiltered levels 1 to 11 and the irradiance divided by pi. Each level, and the irradiance, consists of six faces in
+// the order of lam_cube_face with a border of one texel, stored row by row as one sequence of texels.
+// docs/lighting/environment.md lists sizes and roughnesses. `control` may be NULL. Errors: LAM_BAD_ARGUMENT (NULL),
+// LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_environment_light_image(const lam_environment *environment, struct lam_image *image,
                                          const lam_control *control, lam_error *error);
 

@@ -1,5 +1,5 @@
-// lambent/gl.h: a device that draws with OpenGL. It reproduces the CPU device's picture within a stated tolerance
-// (docs/opengl.md).
+// lambent/gl.h: a device that draws with OpenGL. The device reproduces the CPU device's picture within a stated
+// tolerance (docs/opengl.md).
 //
 // OpenGL is loaded at run time: programs that link this library also start and draw on machines without it.
 #ifndef LAMBENT_GL_H
@@ -37,7 +37,7 @@ typedef struct lam_gl_params {
     lam_gl_get_proc *get_proc_address;
     void *user; // passed to `get_proc_address`
     // Collects the driver's debug messages (KHR_debug): an error fails the draw with LAM_UNSUPPORTED and the driver's
-    // sentence. This is slower, and meant for tests.
+    // sentence. Drawing is then slower; the option is meant for tests.
     bool debug;
     // Path of the EGL library for drawing without a window. NULL: "libEGL.so.1".
     const char *library;
@@ -47,9 +47,9 @@ typedef struct lam_gl_params {
     // The id of a mistake that the lecture-style shader contains; a draw fails with LAM_UNSUPPORTED if its shader
     // cannot contain the mistake. NULL: none.
     const char *mistake;
-    // The graphics card filters textures, with 8-bit texels if the picture has 8 bits. This is faster, but may differ
-    // from the CPU device's picture by some hundredths of the range (docs/opengl.md). By default the shader filters
-    // them, as the CPU device does.
+    // The graphics card filters textures, with 8-bit texels if the picture has 8 bits. Drawing is then faster, but the
+    // picture may differ from the CPU device's picture by some hundredths of the range (docs/opengl.md). By default,
+    // the shader filters textures, as the CPU device does.
     bool hardware_filter;
     LAM_RESERVED(5);
 } lam_gl_params;

@@ -151,9 +151,9 @@ LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color
 // the file is read.
 LAM_API bool lam_image_is_from_lambent(const char *path);
 
-// The difference of two pictures of the same size and format, over red, green, blue and alpha (1 in formats without
-// it). Differences are fractions of the full range (255 steps of a byte). The difference between a number and NaN or
-// infinity is infinite.
+// The difference of two pictures of the same size and format, over red, green, blue and alpha (alpha is 1 in formats
+// without alpha). Differences are fractions of the full range (255 steps of a byte). The difference between a number
+// and NaN or infinity is infinite.
 typedef struct lam_difference {
     // The largest, mean and root mean square difference of a channel.
     double maximum, mean, rmse;

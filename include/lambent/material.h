@@ -227,9 +227,9 @@ typedef enum lam_material_id {
     LAM_MATERIAL_COUNT
 } lam_material_id;
 
-// Returns a named material, opaque. Its published colours were chosen by eye on a display, so they are sRGB and are
-// decoded to linear light: chrome's diffuse 0.4 becomes 0.1329. LAM_COLOR_RAW leaves them as published. If the index is
-// out of range, the result is the default material.
+// Returns a named material, opaque. The published colours were chosen by eye on a display. Therefore, they are sRGB,
+// and the call decodes them to linear light: chrome's diffuse 0.4 becomes 0.1329. LAM_COLOR_RAW leaves the colours as
+// published. If the index is out of range, the result is the default material.
 LAM_API lam_material lam_material_named(lam_material_id id, lam_color_mode color);
 
 // Returns the name of a material in lower case with hyphens, "black-plastic". Returns a static string, or NULL if the

@@ -38,8 +38,8 @@ typedef struct lam_part {
 // which have two corners, and to points, which have one. Corner c of line l has the number 2l + c, and point p has the
 // number p; index arrays have as many elements, and parts count lines or points. Lines are drawn
 // lam_draw_params.line_width pixels wide and points as squares of point_size; both face the eye and are visible from
-// all sides. They are lit if the mesh has normals, which are never computed for them; otherwise they show the diffuse
-// colour and the emission, unlit.
+// all sides. Lines and points are lit if the mesh contains normals; the library never computes normals for lines and
+// points. Without normals, they show the diffuse colour and the emission, unlit.
 //
 // Corner c of triangle t has the number i = 3t + c. Its position is element indices[i] of `positions`. Every other
 // attribute may have an index array of its own (3 per triangle), for files whose corners share positions but not
@@ -115,8 +115,8 @@ typedef struct lam_shape_params {
 } lam_shape_params;
 
 // Returns the number of built-in shapes: sphere, torus, plane, cube, cylinder, cone, teapot, torus-knot, gyroid,
-// metaballs. Their y axis points up and they are centred on the origin; with radius 1 each fits exactly into the cube
-// from −1 to 1.
+// metaballs. The y axis of a shape points up, and its centre is the origin. With radius 1, each shape fits exactly into
+// the cube from −1 to 1.
 LAM_API int lam_shape_count(void);
 
 // Return the name of a shape and one line about it. The strings are static. Return NULL if the index is out of range.

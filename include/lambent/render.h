@@ -19,9 +19,9 @@ enum { LAM_RENDER_SIZE = 1024 }; // default width and height of a picture in pix
 typedef struct lam_render_params {
     // Parameters of loading. NULL: the defaults. Built-in shapes ignore it.
     const lam_load_params *load;
-    // The direction of view. NULL: a scene file's camera, else the three-quarter view.
+    // The direction of view. NULL: the scene file's camera; if there is none, the three-quarter view.
     const lam_view *view;
-    // The settings of the picture. NULL: a scene file's settings, else the defaults.
+    // The settings of the picture. NULL: the scene file's settings; if there are none, the defaults.
     const lam_draw_params *draw;
     // The device that draws. NULL: a temporary CPU device.
     lam_device *device;
@@ -61,7 +61,7 @@ LAM_API bool lam_render(const char *model, const lam_render_params *params, lam_
 // that they stay as bright in the picture, or dimmer if more than a quarter of the lit pixels would be brighter than
 // their surface, and adds a warning to the scene. *light_scale is the factor of the lights, or 0 if nothing was
 // changed. The call changes nothing if the scene has an environment, if the reflection model ignores environments, and
-// for outputs other than the picture. It draws two pictures of at most 96 pixels. Errors as lam_draw.
+// for outputs other than the picture. The call draws two pictures of at most 96×96 pixels. Errors as lam_draw.
 LAM_API bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *camera, lam_draw_params *params,
                              int width, int height, const lam_control *control, double *light_scale, lam_error *error);
 

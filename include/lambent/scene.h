@@ -67,7 +67,8 @@ typedef struct lam_load_params {
     const char *format;
     lam_up up;            // the up axis
     lam_color_mode color; // encoding of the file's colours
-    // Scene files: true: `color` overrides the file. false: the file's mode, or else `color`.
+    // Scene files: true: `color` overrides the file's mode. false: the file's mode is used, or `color` if the file
+    // states no mode.
     bool override_color;
     lam_normals normals; // the source of normals
     // Angle in radians, 0..π, above which neighbouring faces do not share a computed normal. 0: 40°; for no smoothing
@@ -75,8 +76,8 @@ typedef struct lam_load_params {
     double crease_angle_rad;
     int threads; // number of loading threads; 0: one for each processor
     // Leaves normals that the file does not contain to the CPU device, which computes them for visible triangles in
-    // each frame. This is faster for a large model that is drawn once. lam_mesh.normals stays NULL until
-    // lam_scene_make_normals computes all normals. Scene files and other devices do not support this.
+    // each frame. Drawing a large model once is then faster. lam_mesh.normals stays NULL until lam_scene_make_normals
+    // computes all normals. Scene files and other devices do not support this.
     bool normals_when_drawn;
     // Scene files: true: models and pictures that they name may be in any folder. false: they must be in the scene
     // file's folder or below, after following links. Files that models name stay in the model's folder (see
@@ -115,8 +116,8 @@ typedef struct lam_load_params {
 LAM_API lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control,
                                   lam_error *error);
 
-// Loads a model from memory. `name` is used in messages, and its extension helps to detect the format; it may be NULL.
-// The bytes are not needed after the call.
+// Loads a model from memory. Messages contain `name`, and the extension of `name` helps to detect the format. `name`
+// may be NULL. The bytes are not needed after the call.
 LAM_API lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name,
                                          const lam_load_params *params, const lam_control *control, lam_error *error);
 
@@ -159,7 +160,7 @@ LAM_API int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface
 // rotated, so that the file shows the same picture. Errors: LAM_BAD_ARGUMENT (no triangles), LAM_UNSUPPORTED (another
 // extension), LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error *error);
-// Returns an extension that lam_mesh_save supports, by its index (from 0), without the dot: "obj". Returns NULL past
+// Returns the extension with this index (from 0) that lam_mesh_save supports, without the dot: "obj". Returns NULL past
 // the last one.
 LAM_API const char *lam_mesh_format(int index);
 
@@ -229,8 +230,8 @@ LAM_API int lam_scene_material_count(const lam_scene *scene);
 LAM_API int lam_scene_object_count(const lam_scene *scene);
 LAM_API int lam_scene_light_count(const lam_scene *scene);
 
-// Return an item of a scene. The pointer is valid until the scene is changed or freed; it is NULL if the index is out
-// of range.
+// Return an item of a scene. The pointer is valid until the scene is changed or freed. The result is NULL if the index
+// is out of range.
 LAM_API const lam_mesh *lam_scene_mesh(const lam_scene *scene, int index);
 LAM_API const lam_material *lam_scene_material(const lam_scene *scene, int index);
 LAM_API const lam_object *lam_scene_object(const lam_scene *scene, int index);
@@ -306,8 +307,8 @@ typedef struct lam_file_info {
     LAM_RESERVED(15);
 } lam_file_info;
 
-// Returns information about the file of a loaded scene. It is valid until the scene is freed, and all zero for scene
-// files and scenes built by a program. Returns NULL if the scene is NULL.
+// Returns information about the file of a loaded scene. The information is valid until the scene is freed. All fields
+// are zero for scene files and for scenes built by a program. Returns NULL if the scene is NULL.
 LAM_API const lam_file_info *lam_scene_file_info(const lam_scene *scene);
 
 // Returns the bytes of memory of a scene: its arrays, names, lists and textures, shared ones included, without its
@@ -318,8 +319,8 @@ LAM_API uint64_t lam_scene_memory(const lam_scene *scene);
 // if the index is out of range.
 LAM_API const char *lam_scene_warning(const lam_scene *scene, int index);
 
-// Returns the path of a file that loading tried to open, by its index (from 0). The model's own path comes first, then
-// the files that it names (material libraries, buffers, pictures, the models of a scene file), each once, in
+// Returns the path of the file with this index (from 0) that loading tried to open. The model's own path comes first,
+// then the files that it names (material libraries, buffers, pictures, the models of a scene file), each once, in
 // alphabetical order. Missing files are included, because loading may give another scene once they exist. A path is the
 // model's folder plus the name in the file; for files that lam_load_params.open opened, it is the name passed to that
 // function. Scenes built by a program have no paths, and models from memory or standard input have no path of their
@@ -339,7 +340,8 @@ LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec
 LAM_API int lam_scene_camera_count(const lam_scene *scene);
 LAM_API const char *lam_scene_camera_name(const lam_scene *scene, int index);
 
-// Returns the index of the camera with this name, or else with this index in digits. Returns −1 if there is none.
+// Returns the index of the camera with this name. If there is none, and the name is a number in digits, returns the
+// camera with this index. Returns −1 if there is no such camera.
 LAM_API int lam_scene_find_camera(const lam_scene *scene, const char *name);
 
 // Get and set the up axis (LAM_UP_AUTO means y; a value out of range is ignored). The up axis rotates the fitted
@@ -349,8 +351,8 @@ LAM_API lam_up lam_scene_up(const lam_scene *scene);
 LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
 
 // Gets a sphere around the triangles of an object, in the object's own space, or (`object` −1) of the whole scene, in
-// world space. Its centre is the centre of their box, and its radius the largest distance from that centre to a vertex.
-// Returns false and stores zeros if there are no triangles or no such object.
+// world space. The sphere's centre is the centre of the triangles' box, and its radius is the largest distance from
+// that centre to a vertex. Returns false and stores zeros if there are no triangles or no such object.
 LAM_API bool lam_scene_sphere(const lam_scene *scene, int object, lam_vec3 *centre, double *radius);
 
 // Moves all objects: the transform of each object becomes `transform` × its own. Lights stay, except in the frames of
@@ -377,10 +379,10 @@ LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light 
 LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error);
 
 // Save the state of the scene, and restore it any number of times: its meshes, materials, objects, lights, ambient
-// light and up axis. Environment and warnings are not restored. This is for several pictures of one model with
-// different options: the model is loaded once, and devices keep their data of it. Elements added after the mark use
-// memory until the scene is freed. A second mark replaces the first. Return false on failure: LAM_BAD_ARGUMENT (reset
-// without a mark), LAM_LIMIT.
+// light and up axis. Environment and warnings are not restored. Use these calls to draw several pictures of one model
+// with different options: the model is loaded once, and devices keep their data of the model. Elements added after the
+// mark use memory until the scene is freed. A second mark replaces the first. Return false on failure: LAM_BAD_ARGUMENT
+// (reset without a mark), LAM_LIMIT.
 LAM_API bool lam_scene_mark(lam_scene *scene, lam_error *error);
 LAM_API bool lam_scene_reset(lam_scene *scene, lam_error *error);
 

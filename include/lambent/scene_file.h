@@ -45,8 +45,8 @@ typedef struct lam_picture_settings {
 LAM_API bool lam_scene_picture_settings(const lam_scene *scene, lam_picture_settings *settings);
 
 // Writes a scene file from which lam_scene_load (with models_anywhere if a file is outside the folder of `path`) and
-// lam_scene_picture_settings reproduce the picture. It contains models by their names relative to that folder, shapes,
-// materials, transforms, all lights (including the lights of settings->draw.rig), and the settings present in
+// lam_scene_picture_settings reproduce the picture. The file contains the names of models relative to that folder,
+// shapes, materials, transforms, all lights (including the lights of settings->draw.rig), and the settings present in
 // `settings` (NULL: none). The file appears completely or not at all. Errors: LAM_UNSUPPORTED (a mesh that is neither
 // from a file nor a built-in shape), LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *settings, const char *path,

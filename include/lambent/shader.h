@@ -35,9 +35,9 @@ typedef enum lam_shader_lights {
 typedef enum lam_shader_style {
     LAM_SHADER_STYLE_FULL = 0, // complete equations for every feature of this library
     // Simple code, as in a lecture: about six lines in a vertex shader without lighting, thirty to forty in the stage
-    // with lighting. It has the same uniforms and gives the same picture within 1/255. It supports the reflection
-    // models Lambert, Phong, Blinn-Phong and Kajiya-Kay, all kinds of lights, and all shading methods; other features
-    // fail with LAM_UNSUPPORTED.
+    // with lighting. The lecture style has the same uniforms and gives the same picture within 1/255. This style
+    // supports the reflection models Lambert, Phong, Blinn-Phong and Kajiya-Kay, all kinds of lights, and all shading
+    // methods; other features fail with LAM_UNSUPPORTED.
     LAM_SHADER_STYLE_LECTURE,
     LAM_SHADER_STYLE_COUNT
 } lam_shader_style;
@@ -63,7 +63,7 @@ typedef struct lam_shader_params {
     lam_shader_style style; // the style of the source
     const char *mistake;    // id of a lecture-style mistake; NULL if there is none
     // The graphics card filters textures: the program that uses the shaders sets the filters and the wrapping of each
-    // texture. By default the shader filters them. In GLSL 120 the graphics card always does.
+    // texture. By default, the shader filters textures. In GLSL 120, the graphics card always filters textures.
     bool hardware_filter;
     LAM_RESERVED(6);
 } lam_shader_params;
@@ -88,7 +88,7 @@ typedef struct lam_shader_uniform {
     int count;           // numbers in `value`; 0: a sampler
     float value[16];     // matrices are column-major, as for glUniformMatrix
     // The texture and filters of a material map's sampler. NULL: another uniform, or a material without such a map, for
-    // which any texture may be bound. It belongs to the scene.
+    // which any texture may be bound. The map belongs to the scene.
     const lam_texture_map *map;
     LAM_RESERVED(3);
 } lam_shader_uniform;

@@ -28,7 +28,7 @@ typedef enum lam_texture_values {
 LAM_API lam_texture *lam_texture_make(const struct lam_image *image, lam_texture_values values, const char *name,
                                       lam_error *error);
 
-// Frees a texture; scenes whose materials use it keep it. NULL is allowed.
+// Frees a texture. Scenes whose materials use the texture keep it. NULL is allowed.
 LAM_API void lam_texture_free(lam_texture *texture);
 
 // Return the size of a level in texels, or 0 if the level is out of range. Level 0 is the picture.

@@ -526,8 +526,10 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "auto-exposure dark-models"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
     {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},
-    {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1", "Multiply the brightness of all lights except `--ambient`.", NULL,
-     .store = store_number, .others = "intensity light-intensity light-power", FIELD(lighting.light_scale),
+    {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1",
+     "Multiply the brightness of all lights, except the light of "
+     "`--ambient`.",
+     NULL, .store = store_number, .others = "intensity light-intensity light-power", FIELD(lighting.light_scale),
      .has_field = offsetof(struct options, lighting.has_light_scale), .min = 0, .max = 1e6},
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@NAME]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
@@ -745,11 +747,11 @@ struct option option_table[OPTIONS_MAX] = {
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter of the available memory",
      "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
      "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
-     "counts memory before the allocation. The default is a quarter of the available memory, divided by the number of "
-     "models drawn at the same time. The available memory is the smallest of the machine's memory, the limits of "
-     "control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and T are "
-     "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the process "
-     "that draws a shader.",
+     "checks the limit before it allocates memory. The default is a quarter of the available memory, divided by the "
+     "number of models drawn at the same time. The available memory is the smallest of the machine's memory, the "
+     "limits of control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and "
+     "T are powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the "
+     "process that draws a shader.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
      "The limit applies to the elapsed time for reading, drawing and writing each model. Multiplied by the number of "
@@ -788,7 +790,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_count, .others = "max-pixels texture-limit image-limit", FIELD(limits.pixel_limit),
      .max = 4294836225, .single = TAKES_PICTURE_LIMITS},
     {"file-limit", 0, GROUP_LIMITS, "BYTES", "32G", "Reject files larger than this (exit 4).",
-     "The limit applies separately to the model file and to each file that it refers to.", .store = store_bytes,
+     "The limit applies separately to the model file and to each file that the model refers to.", .store = store_bytes,
      .others = "max-file-size file-size-limit", FIELD(limits.file_limit_bytes), .single = TAKES_PICTURE_LIMITS},
     {"json-depth-limit", 0, GROUP_LIMITS, "N", "256",
      "Reject JSON (glTF and scene files) with deeper nesting than this (exit 4).", NULL, .store = store_integer,
@@ -817,8 +819,8 @@ struct option option_table[OPTIONS_MAX] = {
      "Allow models to use this file, or the files in this folder; repeatable.",
      "By default, a model may use only the files in its own folder. If the textures are in `../textures`, add "
      "`--allow-path ../textures`. Scene files with `--files-inside`, and links in the folders of `batch`, may then "
-     "also point to the allowed folder, and the sandbox permits reading it. With `--jobs`, all files named in jobs "
-     "must be in an allowed folder, but models can still use only the files in their own folders. Pages (`-o "
+     "also point to the allowed folder. The sandbox permits reading the allowed folder. With `--jobs`, all files named "
+     "in jobs must be in an allowed folder, but models can still use only the files in their own folders. Pages (`-o "
      "FILE.html`) and `view` never include files from other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
@@ -828,8 +830,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"sizes", 0, GROUP_BATCH, "SIZES", NULL, "Several sizes.", NULL, .store = store_sizes, .now = "size",
      FIELD(batch.sizes), .max = 65535},
     {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE lists, one per line; repeatable.",
-     "`-` is standard input. Names are relative to the current folder, as on the command line; empty lines are "
-     "ignored. In `batch`, `@FILE` has the same effect.",
+     "`-` is standard input. Names are relative to the current folder, as on the command line. Lambent ignores empty "
+     "lines. In `batch`, `@FILE` has the same effect.",
      .kind = VALUE_FILE, .store = store_list, .others = "input-list filelist models-from", FIELD(batch.lists),
      .single = TAKES_MANY},
     {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl in the folder of the pictures",
@@ -964,8 +966,8 @@ struct option option_table[OPTIONS_MAX] = {
      NULL, .store = store_texts, .others = "captions label labels", FIELD(captions.texts)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
      "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across makes a grid.",
-     "OPTION is one of the options above without its dashes. Separate the values by commas. If the values themselves "
-     "contain commas, as for `light` and `material`, separate them by semicolons "
+     "OPTION is the name of an option for pictures, without dashes. Separate the values by commas. If the values "
+     "themselves contain commas, as for `light` and `material`, separate them by semicolons "
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
      "accepts. The default values of `shininess` are 10, 50 and 1000. `light` draws one light of each type by default, "
      "and `show` (also called `term`) draws the five terms. If you give `--across` twice, the first defines the rows "

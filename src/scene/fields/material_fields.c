@@ -35,7 +35,7 @@ static const struct material_field rows[] = {
      .reader = FIELD_LIT},
     {.field = {MEMBER(diffuse), .symbol = "kd", .source = "Kd", .type = LAM_FIELD_RGBA, .max = UNBOUNDED,
                .standard = GREY(0.62f),
-               .summary = "kd: fraction of light that is scattered evenly in all directions; alpha: opacity"}},
+               .summary = "kd: fraction of light that the surface scatters evenly in all directions; alpha: opacity"}},
     {.field = {MEMBER(specular), .symbol = "ks", .source = "Ks", .type = LAM_FIELD_RGB, .max = UNBOUNDED,
                .standard = GREY(0.12f), .summary = "ks: strength of the highlight"},
      .product = "",

@@ -30,10 +30,9 @@ static const struct own_default diff_defaults[] = {
     {"output", "no picture, no page", "a picture of the difference between two pictures, or a page: FILE.html"},
     {"size", "384x384", "of the pictures of models: 800 or 1920x1080"},
     {NULL, NULL, NULL}};
-static const struct own_default hash_defaults[] = {
-    {"output", "required, except with --check", "the text file of hashes"},
-    {"size", NULL, "of the pictures: 800 or 1920x1080"},
-    {NULL, NULL, NULL}};
+static const struct own_default hash_defaults[] = {{"output", "required without --check", "the text file of hashes"},
+                                                   {"size", NULL, "of the pictures: 800 or 1920x1080"},
+                                                   {NULL, NULL, NULL}};
 static const struct own_default plot_defaults[] = {
     {"output", "KIND.png", NULL}, {"size", "1600x1000", NULL}, {NULL, NULL, NULL}};
 static const struct own_default materials_defaults[] = {{"output", "no sheet", NULL},

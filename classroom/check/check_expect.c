@@ -10,7 +10,7 @@
 #include "render_cache.h"
 #include "shader_constants.h"
 
-// Returns x^(1/2.2) for 0 to 1: the root of y^11 = x^5 by Newton's method from above.
+// Returns x^(1/2.2) for x from 0 to 1. Newton's method solves y^11 = x^5 for y, starting at 1.
 static double gamma_encoded(double x)
 {
     double power = x * x * x * x * x, y = 1;
@@ -104,7 +104,7 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
 
 // Excludes pixels in which the surface normal changes, for example at edges in front of other surfaces. A browser's GPU
 // may round corners to 1/16 of a pixel (WebGL: SUBPIXEL_BITS is at least 4), and the CPU device rounds them to 1/256.
-// In such pixels, colours therefore differ without proving anything.
+// A difference in such pixels is therefore no evidence of a mistake.
 static bool leave_out_turns(struct run *r, lam_device *device, struct scene_comparison *scene, lam_error *error)
 {
     if (!r->painter.es_only || !is_of_device(r))

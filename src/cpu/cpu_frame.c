@@ -219,8 +219,8 @@ static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, l
     return light_bounds_make(&memory->light_bounds, &memory->lights, frame, cpu->shade.materials, cpu->call, error);
 }
 
-// Lists the memory that can be reused while occlusion is computed. The memory of the picture can be reused, because the
-// picture is not drawn yet. If fragments are stored, so can the memory of the transformed vertices.
+// Lists the memory that can be reused while occlusion is computed. The memory of the picture can be reused, because
+// the picture has not been drawn yet. If fragments are stored, so can the memory of the transformed vertices.
 static int lend_memory(const struct cpu_frame *cpu, const struct frame_memory *memory, struct scratch_memory lent[2])
 {
     const lam_image *image = cpu->target.image;

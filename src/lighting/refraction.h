@@ -4,8 +4,8 @@
 #ifndef REFRACTION_H
 #define REFRACTION_H
 
-// Returns the direction of a ray from the eye after refraction (Snell): v is the direction to the eye, n the normal on
-// its side, both unit; the index of refraction is at least 1.
+// Returns the direction of a ray from the eye after refraction (Snell). v is the unit direction to the eye, and n is
+// the unit normal on the eye's side. The index of refraction is at least 1.
 FN vec3 refracted3(vec3 v, vec3 n, num ior)
 {
     num inverse = 1.0f / ior, c = positive(cosine(dot3(v, n)));
@@ -14,8 +14,8 @@ FN vec3 refracted3(vec3 v, vec3 n, num ior)
 }
 
 // Returns the width over which a surface blurs the picture behind it, as a fraction of the picture's height: 1024^(r −
-// 1) with r = roughness · min(2 ior − 2, 1), at most 1/8. In a picture of 1024 pixels, this is a texel of the level r
-// log2(1024) of the picture's mipmaps, which three.js uses. The limit is reached at r = 0.7. Without it, the roughest
+// 1) with r = roughness · min(2 ior − 2, 1), at most 1/8. In a picture 1024 pixels high, this equals one texel of
+// mipmap level r log2(1024), the level that three.js uses. The limit is reached at r = 0.7. Without it, the roughest
 // glass would have the mean colour of the whole picture, including the background. Returns 0 for r = 0.
 FN num transmission_blur(num roughness, num ior)
 {

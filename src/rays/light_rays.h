@@ -23,8 +23,9 @@ struct light_rays {
     uint64_t sent; // number of traced rays
 };
 
-// A ray through an edge meets both triangles at the edge. This does not matter for opaque surfaces, but only one of two
-// translucent triangles may count: the one on a fixed side of the edge, seen along the ray, as in rasterization.
+// A ray through an edge intersects both triangles that share this edge. This does not matter for opaque surfaces, but
+// only one of two translucent triangles may count: the one on a fixed side of the edge, seen along the ray, as in
+// rasterization.
 static bool owns_edges(const struct ray_triangle *triangle, const double origin[3], const double d[3],
                        const double weights[3])
 {
@@ -264,7 +265,8 @@ LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, co
     }
 }
 
-// Computes the share of a light that reaches LANES points, the `active` ones, for each of passed_channels.
+// For each active lane, computes the share of a light that reaches the lane's point, in each of passed_channels
+// channels.
 LANE_FN void trace_light(struct light_rays *r, const struct ray_starts *from, const struct frame_light *light,
                          unsigned active, float passed[3][LANES])
 {

@@ -29,7 +29,8 @@
 struct ray_lanes {
     _Alignas(64) double origin[3][LANES], direction[3][LANES]; // t is measured in lengths of the direction
     double end[LANES];                                         // may be infinite
-    // The twin of the triangle on which the ray starts, which never blocks it; NO_TRIANGLE: none.
+    // The twin of the triangle on which the ray starts. The twin never blocks the ray. NO_TRIANGLE if there is no
+    // twin.
     int32_t own[LANES];
     double point[3][LANES]; // the start point: the origin, unless the origin was moved off the surface
 };
@@ -83,8 +84,8 @@ LANE_FN dnum along(const double row[3][LANES], int at, const dnum p[3])
     return (dnum_load(row[0] + at) * p[0] + dnum_load(row[1] + at) * p[1]) + dnum_load(row[2] + at) * p[2];
 }
 
-// Returns the lanes of `active` whose rays a triangle blocks. `weights` (may be NULL) gets the weights of the
-// triangle's corners, each multiplied by the sum of the weights. `t` gets the rays' t.
+// Returns the lanes of `active` whose rays are blocked by a triangle. `weights` (may be NULL) gets the weights of the
+// triangle's corners, each multiplied by the sum of the weights. `t` receives the ray parameter t of each hit.
 LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_lanes *ray, const struct ray_view *view,
                          unsigned active, double weights[3][LANES], double t[LANES])
 {

@@ -27,8 +27,8 @@ struct scene_extent {
     struct arena *own;      // owner of the arrays of the mesh and of this extent; NULL means the scene's arena
 };
 
-// The source of meshes, for writing a scene file: a model file, a built-in shape or a formula, with its load
-// parameters.
+// The source of meshes: a model file, a built-in shape or a formula, with its load parameters. Needed to write a scene
+// file.
 struct scene_origin {
     const char *path;           // path of the file; NULL means a shape, a formula, or a file from memory
     const char *shape;          // name of the shape, or NULL

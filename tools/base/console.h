@@ -29,7 +29,7 @@ size_t text_hidden(const char *text);
 // an invisible character.
 void print_name(FILE *out, const char *name);
 
-// Stores a code and a message, formatted as by printf, in an error. Returns false.
+// Stores a code and a message in an error. The message is formatted like printf. Returns false.
 bool complain(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 // Flushes standard output. Returns false with LAM_CANNOT_WRITE if some output was lost.

@@ -25,8 +25,8 @@ enum output_given { OUTPUT_BY_MODEL, OUTPUT_NAMED, OUTPUT_PATTERN };
 enum output_given output_given(const char *output);
 
 // Checks before the work starts that `path` can be written: its folder exists and is writable, and the path is not a
-// folder. If the name comes from the model, an existing file must have been written by Lambent. Unless the user named
-// the file, a missing folder (-o pictures/) is allowed if it can be created.
+// folder. If the name comes from the model, an existing file must have been written by Lambent. If the user did not
+// name the file, its folder may be missing (-o pictures/), as long as the program can create the folder.
 bool output_check(const char *path, const char *model, enum output_given given, lam_error *error);
 
 // Returns true if the picture is written directly to `path` as a PNG: "-", or a pipe or device without the extension of
@@ -46,8 +46,8 @@ bool output_format(const char *path, lam_pixel_format *format, lam_error *error)
 // itself.
 bool output_check_bytes(const char *path, const char *noun, const char *others, lam_error *error);
 
-// Returns true if the name has the extension of a model format. Returns false for scene files (.json), because most
-// JSON files are not scenes.
+// Returns true if the name has the extension of a model format. Returns false for every .json file, even a scene file,
+// because most JSON files are not scenes.
 bool is_model_name(const char *name);
 
 // Writes a picture to a file or a stream. Creates the folder of the file if it is missing. Sets `size` to the number of

@@ -169,7 +169,7 @@ const char *page_model_lacks(const struct page_model *model, const lam_file_info
 // --- words
 
 // Returns whether an option concerns the picture and has a control in the page. Returns false for --look, because the
-// options that the look sets replace it.
+// page writes the options that a look sets instead of --look.
 bool page_model_has_option(const struct option *option)
 {
     static const char *const without[] = {"output", "save-scene", "durable", "compress", "quality", "look"};

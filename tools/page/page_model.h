@@ -30,7 +30,7 @@ void page_model_free(struct page_model *model);
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
 // Returns whether an option concerns the picture and has a control in the page. Returns false for --look, because the
-// options that the look sets replace it.
+// page writes the options that a look sets instead of --look.
 bool page_model_has_option(const struct option *option);
 
 // Prints the words of the picture's command line as a JSON list without '<': the model, and each option with its value

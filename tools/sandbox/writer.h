@@ -11,7 +11,8 @@
 
 #include <lambent/image.h>
 
-// The rights to a file. WRITER_IMPLIED is a bit that can be added to a right to write.
+// The writer's access rights to a file. WRITER_IMPLIED is a flag that can be combined with WRITER_NEW,
+// WRITER_NEW_OR_OURS and WRITER_ANY.
 enum writer_right {
     WRITER_NONE,
     WRITER_NEW,         // a new file
@@ -23,7 +24,7 @@ enum writer_right {
     WRITER_IMPLIED = 8,
 };
 
-// Returns the right to a path. Called in the writer, by one thread at a time.
+// Returns the access right that the writer has for a path. Called in the writer, by one thread at a time.
 typedef enum writer_right writer_rule(void *user, const char *path);
 
 // Starts the writer with `count` connections for as many threads. The writer writes files of at most `largest` bytes (0
@@ -47,8 +48,8 @@ void writer_finish(void);
 // Like writer_finish, but waits until the writer has ended.
 void writer_end(void);
 
-// Writes a file completely or not at all, and creates its missing folder. Without a writer, this process writes the
-// file. Any thread may call it. `durable` is as in lam_save_params. Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
+// Writes a file completely or not at all. Creates the folder if it is missing. Without a writer, this process writes
+// the file. Any thread may call it. `durable` is as in lam_save_params. Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
 
 // A file of a set. Without a writer, `right` is checked; otherwise the writer's own rule decides.

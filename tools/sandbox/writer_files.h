@@ -8,7 +8,7 @@
 // Checks a path against its right, except WRITER_NEW_OR_OURS, which the caller checks. Fails with LAM_CANNOT_WRITE.
 bool writer_files_check(const char *path, enum writer_right right, lam_error *error);
 
-// Writes a file completely or not at all, and creates its missing folder.
+// Writes a file completely or not at all. Creates the folder if it is missing.
 bool writer_files_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
 
 // Writes the contents to a hidden file beside the path. Any thread may call it. Fails with LAM_CANNOT_WRITE or

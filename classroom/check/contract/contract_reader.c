@@ -43,7 +43,7 @@ bool contract_check_comment(struct contract_reader *r, const struct place *place
     return !comment || json_is_string(comment) ||
            (json_is_array(comment)
                 ? contract_read_list(r, KEY_OF(place, "comment"), comment, " ", false, false, &unused)
-                : json_unexpected(&r->json, KEY_OF(place, "comment"), comment, "a text or a list of texts"));
+                : json_unexpected(&r->json, KEY_OF(place, "comment"), comment, "a string or a list of strings"));
 }
 
 bool contract_read_list(struct contract_reader *r, const struct place *place, const json_t *list, const char *between,

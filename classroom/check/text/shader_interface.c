@@ -94,9 +94,9 @@ static bool is_material(enum uniform_semantic semantic)
            (is_map(semantic) && semantic != SEMANTIC_BASE_COLOR_MAP);
 }
 
-// Returns whether a shader computes lighting: it declares a uniform of a material or light. A shader that declares only
-// the colour of the surface may multiply this colour by light from the vertex shader. In printed shaders, this also
-// applies to any map.
+// Returns whether a shader computes lighting: it declares a uniform of a material or light. If a shader declares only
+// the colour of the surface, it may multiply this colour by lighting that the vertex shader computed. In printed
+// shaders, this also applies to any map.
 static bool is_lit(const struct shader_interface *r, const struct declarations *d)
 {
     bool colored = false;

@@ -9,7 +9,8 @@ struct batch_model {
     char *path; // from malloc
     char *root; // {dir} is relative to this folder, from malloc; NULL means the path's own folder
     // The model is a link that was found in a folder and leads to a file that is neither below this folder nor below a
-    // folder of --allow-path. Drawing it is an error, because the user did not name the file.
+    // folder of --allow-path. The program reports an error instead of drawing this file, because the user did not name
+    // it.
     bool leads_out;
 };
 

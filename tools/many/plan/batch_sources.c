@@ -25,8 +25,8 @@ static bool is_below(const char *real, const char *folder)
     return below;
 }
 
-// Returns whether a link leads to a file that is neither below the given folder nor below one of --allow-path. Returns
-// false for a broken link.
+// Returns whether a link leads outside the given folder and outside all folders of --allow-path. Returns false for a
+// broken link.
 static bool leads_out(const struct batch_plan *plan, const char *path, const char *root)
 {
     const struct texts *allowed = &plan->options->limits.allow_paths;

@@ -15,7 +15,7 @@ void fault_shader_close(struct fault_shader *shader); // NULL is allowed; the sh
 bool fault_shader_draws(const struct fault_shader *shader, int size, int stride);
 
 // The context of an open shader is current on the thread that opened the shader. fault_shader_rest releases the
-// context, and fault_shader_wake makes it current again, also on another thread.
+// context. fault_shader_wake makes it current again, on the same thread or another.
 void fault_shader_rest(struct fault_shader *shader);
 bool fault_shader_wake(struct fault_shader *shader, lam_error *error);
 

@@ -79,7 +79,7 @@ The command fails in these cases:
 
 - A correct shader differs, or a wrong shader passes.
 - The check gives a verdict on a shader that was labelled as impossible to judge.
-- The check reports a wrong mistake as certain.
+- The check reports as certain a mistake that the shader does not contain.
 - Fewer than 70 %% of the pairs get a verdict.
 
 | label | right verdict | wrong verdict | no verdict |

@@ -82,7 +82,7 @@ def text_bytes(what, value):
     except UnicodeEncodeError: # unpaired surrogates
         data = b"\0"
     if b"\0" in data:
-        raise BadValue("%s: found %s, expected a text" % (what, shown(value)))
+        raise BadValue("%s: found %s, expected a string" % (what, shown(value)))
     return data
 
 

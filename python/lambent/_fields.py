@@ -42,7 +42,7 @@ def written(value):
     try:
         return "/".join(repr(float(number)) for number in (value if hasattr(value, "__iter__") else [value]))
     except (TypeError, ValueError, OverflowError):
-        raise BadValue("found %s, expected a text, a number or a list of numbers" % shown(value)) from None
+        raise BadValue("found %s, expected a string, a number or a list of numbers" % shown(value)) from None
 
 
 def range_of(low, high):

@@ -255,7 +255,7 @@ def camera_of(scene, options, settings, params, size):
             raise BadValue("camera: found %s, expected keys such as eye=2/1/4, or a camera of the file, which has %d" % (shown(wanted), lib.lam_scene_camera_count(handle)))
         return found
     if wanted is not None and not isinstance(wanted, Camera):
-        raise BadValue("camera: found %s, expected a Camera or a text" % shown(wanted))
+        raise BadValue("camera: found %s, expected a Camera or a string" % shown(wanted))
     if wanted is not None:
         return wanted._in_scene(handle)
     views = [name for name, keyword in KEYWORDS.items() if keyword.struct == "lam_view"] + ["view"]

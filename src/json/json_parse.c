@@ -149,7 +149,7 @@ static char *read_escape(struct parser *p, char *to)
         length = 12;
     }
     if (unit < 1 || (unit >= 0xd800 && unit < 0xe000)) {
-        fail_at(p, p->at, unit == 0 ? "a text has a zero character" : "an escape is not one of JSON");
+        fail_at(p, p->at, unit == 0 ? "a string has a zero character" : "an escape is not one of JSON");
         return NULL;
     }
     p->at += length;
@@ -163,7 +163,7 @@ static char *read_text(struct parser *p, size_t *length)
     while (close < p->end && *close != '"')
         close += *close == '\\' ? 2 : 1;
     if (close >= p->end) {
-        fail_at(p, start, "a text without its closing quote");
+        fail_at(p, start, "a string without its closing quote");
         return NULL;
     }
     char *text = malloc((size_t)(close - p->at) + 1), *to = text;
@@ -176,7 +176,7 @@ static char *read_text(struct parser *p, size_t *length)
         if (step == 0 && *p->at == '\\') {
             to = read_escape(p, to);
         } else if (step == 0 || (unsigned char)*p->at < 0x20) {
-            fail_at(p, p->at, step ? "a text has a control character, expected an escape" : "a text is not UTF-8");
+            fail_at(p, p->at, step ? "a string has a control character, expected an escape" : "a string is not UTF-8");
             to = NULL;
         } else {
             memcpy(to, p->at, (size_t)step);

@@ -174,7 +174,7 @@ bool json_take_text(const struct json_reader *r, const struct place *place, cons
     if (!value)
         return true;
     if (!json_is_string(value) || !json_string_length(value))
-        return json_unexpected(r, KEY_OF(place, key), value, "a text that is not empty");
+        return json_unexpected(r, KEY_OF(place, key), value, "a string that is not empty");
     *out = json_string_value(value);
     return true;
 }

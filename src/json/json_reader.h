@@ -42,7 +42,8 @@ bool json_vfail(const struct json_reader *r, const struct place *place, const ch
 // Reports "found KIND, expected …". Returns false.
 bool json_unexpected(const struct json_reader *r, const struct place *place, const json_t *found, const char *expected);
 
-// Describes the kind of a value for error messages: "a number", "a text", "a list of 3", ….
+// Describes a value for error messages: a number or a string (in quotes) by its value, others as "a list of 3", "an
+// object", "true", "false" or "null".
 enum { JSON_KIND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *json_kind(const json_t *value, char out[JSON_KIND_SIZE]);
 

@@ -173,7 +173,7 @@ static bool read_formula(struct scene_reader *r, const struct place *place, cons
         return take_text(r, place, value, kind, &formula->text);
     if (!json_is_object(given)) {
         char found[JSON_KIND_SIZE];
-        return fail_place(r, at, "found %s, expected a text or an object with the key formula",
+        return fail_place(r, at, "found %s, expected a string or an object with the key formula",
                           json_kind(given, found));
     }
     const json_t *list = json_object_get(given, "segments");
@@ -183,7 +183,7 @@ static bool read_formula(struct scene_reader *r, const struct place *place, cons
         !take_text(r, at, given, "z", &formula->z) || !take_bool(r, at, given, "flip", &formula->flip))
         return false;
     if (!formula->text)
-        return fail_place(r, at, "'formula' is missing, expected a text such as \"%s\"",
+        return fail_place(r, at, "'formula' is missing, expected a string such as \"%s\"",
                           formula->implicit ? "x^2+y^2+z^2-1" : "x=u; y=v; z=sin(u)");
     if (formula->implicit)
         return take_whole(r, at, given, "segments", 2, 1024, &formula->u_segments);

@@ -171,7 +171,7 @@ static void test_errors(void **state)
         "my.json:1: uniforms.a.role: found \"normal\", expected a role of uniforms");
     bad(GOOD LIGHT "}, \"varyings\": {\"normals\": []}}",
         "my.json:1: varyings.normals: unknown key; expected normal, position");
-    bad(GOOD LIGHT "}, \"varyings\": {\"normal\": [1]}}", "my.json:1: varyings.normal[0]: found 1, expected a text");
+    bad(GOOD LIGHT "}, \"varyings\": {\"normal\": [1]}}", "my.json:1: varyings.normal[0]: found 1, expected a string");
     bad(GOOD LIGHT "}, \"undeclared\": {\"shininess\": -1}}",
         "my.json:1: undeclared.shininess: found -1, expected a number");
     bad(GOOD LIGHT "}, \"undeclared\": {\"light_color\": \"light\"}}",
@@ -192,7 +192,7 @@ static void test_errors(void **state)
     bad(GOOD LIGHT "}, \"outputs\": [\"a.b\"]}", "my.json:1: outputs[0]: found \"a.b\", expected a name of GLSL");
     bad(GOOD LIGHT "}, \"varyings\": {\"object_to_eye\": [\"e\"]}}", "my.json:1: varyings.object_to_eye: unknown key");
     bad(GOOD LIGHT "}, \"built_ins\": \"gl_Vertex\"}",
-        "my.json:1: built_ins: found \"gl_Vertex\", expected a list of texts");
+        "my.json:1: built_ins: found \"gl_Vertex\", expected a list of strings");
 }
 
 // Every truncated file is refused, and every failed allocation is reported without a leak.

@@ -138,7 +138,7 @@ class Scene(Case):
         answer = json.loads(self.good("info", "formulas.json", "--json").stdout)["counts"]
         self.assertEqual((answer["meshes"], answer["objects"], answer["triangles"]), (6, 8, 12 * 3 + 12 * 4 + 16))
         for shape, says in (({"parametric": {"formula": "x=u; y=v; z=w"}}, ("objects[0].shape", "'w'")), ({"parametric": {"u": "0..1"}}, ("objects[0].shape.parametric", "'formula' is missing")),
-                            ({"parametric": "x=u"}, ("objects[0].shape", "y is missing")), ({"parametric": 1}, ("objects[0].shape.parametric", "expected a text or an object")), ({"parametrics": {}}, ("parametrics", "parametric")),
+                            ({"parametric": "x=u"}, ("objects[0].shape", "y is missing")), ({"parametric": 1}, ("objects[0].shape.parametric", "expected a string or an object")), ({"parametrics": {}}, ("parametrics", "parametric")),
                             ({"parametric": {**flat["parametric"], "segments": [2]}}, ("segments", "two whole numbers")),
                             ({"parametric": {**flat["parametric"], "segments": [2, 20000]}}, ("segments", "two whole numbers")),
                             ({"parametric": {**flat["parametric"], "u": "0..x"}}, ("objects[0].shape", "range of u"))):

@@ -267,7 +267,7 @@ static void test_errors(void **unused)
         OBJECT(SPHERE "\"stacks\": 4.5", ".stacks: found 4.5, expected a whole number"),
         OBJECT("\"file\": \"none.obj\"", ".file: there is no such file"),
         OBJECT("\"file\": \"inner.json\"", ".file: 'inner.json' is a scene file, expected a model"),
-        OBJECT("\"file\": \"\"", ".file: found \"\", expected a text that is not empty"),
+        OBJECT("\"file\": \"\"", ".file: found \"\", expected a string that is not empty"),
         OBJECT("\"file\": \"a.obj\", \"materials\": {\"green\": {}}",
                ".materials.green: the model has no material of this name"),
         OBJECT("\"file\": \"a.obj\", \"parts\": [null]", ".parts: found a list of 1, expected a list of 2, "

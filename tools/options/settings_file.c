@@ -105,8 +105,8 @@ static bool unknown_key(struct reader *r, const char *group, const char *key)
 
 static const char *kind_of(const json_t *value)
 {
-    static const char *const kinds[] = {"an object", "a list", "a text", "a number",
-                                        "a number",  "true",   "false",  "null"};
+    static const char *const kinds[] = {"an object", "a list", "a string", "a number",
+                                        "a number",  "true",   "false",    "null"};
     return kinds[json_typeof(value)];
 }
 
@@ -142,22 +142,20 @@ static bool put_list(FILE *out, const json_t *list, char between)
 // Returns the JSON form that an option's value must have.
 static const char *expected_of(const struct option *option)
 {
-    static const char *const of_type[] = {[LAM_SETTING_WORD] = "a text",
-                                          [LAM_SETTING_FLAG] = "true or false",
-                                          [LAM_SETTING_NOT_FLAG] = "true or false",
-                                          [LAM_SETTING_WHOLE] = "a number",
-                                          [LAM_SETTING_NUMBER] = "a number",
-                                          [LAM_SETTING_ANGLE] = "a number",
-                                          [LAM_SETTING_WORDS] = "a list of texts"};
+    static const char *const of_type[] = {
+        [LAM_SETTING_WORD] = "a string",          [LAM_SETTING_FLAG] = "true or false",
+        [LAM_SETTING_NOT_FLAG] = "true or false", [LAM_SETTING_WHOLE] = "a number",
+        [LAM_SETTING_NUMBER] = "a number",        [LAM_SETTING_ANGLE] = "a number",
+        [LAM_SETTING_WORDS] = "a list of strings"};
     if (option->store == store_size)
         return "a list of two numbers";
     if (option->store == store_color)
-        return "a colour: a text, or a list of numbers";
+        return "a colour: a string, or a list of numbers";
     if (option->setting)
         return of_type[option->setting->type];
     if (option->kind == VALUE_ENVIRONMENT)
-        return "a text";
-    return option->words && strcmp(option->name, "samples") != 0 ? "a text" : "a number";
+        return "a string";
+    return option->words && strcmp(option->name, "samples") != 0 ? "a string" : "a number";
 }
 
 // Writes the value as it would appear on a command line. Returns false if its type is wrong.
@@ -166,7 +164,7 @@ static bool put_value(FILE *out, const struct option *option, const json_t *valu
     const char *expected = expected_of(option);
     if (json_is_array(value) && strstr(expected, "list"))
         return put_list(out, value, option->store == store_size ? 'x' : option->store == store_color ? '/' : ',');
-    if (json_is_string(value) && (strncmp(expected, "a text", 6) == 0 || option->store == store_color)) {
+    if (json_is_string(value) && (strncmp(expected, "a string", 8) == 0 || option->store == store_color)) {
         fputs(json_string_value(value), out);
         return json_string_length(value) == strlen(json_string_value(value));
     }
@@ -237,7 +235,7 @@ static bool take_ground(struct reader *r, const json_t *value)
     bool color = json_is_string(value) && strcmp(json_string_value(value), "color") == 0;
     if (color && !json_is_string(r->ground_color))
         return wrong(r, NULL, "ground",
-                     "found 'color', expected a text \"ground_color\" beside it, such as \"#888888\"");
+                     "found 'color', expected a string \"ground_color\" beside it, such as \"#888888\"");
     if (!color && r->ground_color)
         return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" beside it");
     return take_value(r, NULL, "ground", option, color ? r->ground_color : value);

@@ -50,12 +50,12 @@ bool contract_read_list(struct contract_reader *r, const struct place *place, co
                         bool of_names, bool plain, const char **out)
 {
     if (!json_is_array(list))
-        return json_unexpected(&r->json, place, list, "a list of texts");
+        return json_unexpected(&r->json, place, list, "a list of strings");
     size_t length = 1;
     for (size_t i = 0; i < json_array_size(list); i++) {
         const json_t *item = json_array_get(list, i);
         if (!json_is_string(item) || !json_string_length(item))
-            return json_unexpected(&r->json, ELEMENT_OF(place, i), item, "a text that is not empty");
+            return json_unexpected(&r->json, ELEMENT_OF(place, i), item, "a string that is not empty");
         if (of_names && !contract_check_name(r, ELEMENT_OF(place, i), json_string_value(item), plain))
             return false;
         length += json_string_length(item) + strlen(between);

@@ -1,4 +1,4 @@
-// dropped.js: reads dropped files, including the files in dropped folders. If the page was opened from a disk, Chromium cannot read the file of an entry
+// dropped.js: reads dropped files, including the files in dropped folders. If the page was opened as a local file, Chromium cannot read the file of an entry
 // (webkitGetAsEntry), so the item's own file and the folder's handle are tried first. Other browsers provide only entries.
 
 async function ofHandle(handle, prefix) {

@@ -1,4 +1,4 @@
-// packed_page.js: writes the page as one file that contains a model, as `lambent MODEL -o page.html` does. The file can be opened from a disk, without a
+// packed_page.js: writes the page as one file that contains a model, as `lambent MODEL -o page.html` does. A browser can open the file locally, without a
 // network.
 import { fetchModule } from './start.js';
 import { pristine } from './inside.js';

@@ -3,6 +3,8 @@
 
 #include "fail.h"
 
+#include <lambent/material.h>
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -189,5 +191,5 @@ const lam_material *export_material(const struct exporting *e, int index)
 {
     const struct lam_scene *s = e->scene;
     return index >= 0 && index < s->materials.count ? (const lam_material *)s->materials.items + index
-                                                    : &s->default_material;
+                                                    : s->default_material;
 }

@@ -9,6 +9,8 @@
 #include "dynamic_library.h"
 #include "texture_levels.h"
 
+#include <lambent/material.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,6 +6,8 @@
 #include "linear.h"
 #include "normals.h"
 
+#include <lambent/material.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,11 +23,15 @@ struct scene_token *scene_token_make(lam_error *error)
 
 struct lam_scene *scene_make(struct call_control *call, lam_error *error)
 {
-    struct lam_scene *scene = calloc(1, sizeof *scene);
-    if (!scene) {
-        fail_memory(error, sizeof *scene);
+    struct {
+        struct lam_scene scene;
+        lam_material default_material;
+    } *memory = calloc(1, sizeof *memory);
+    if (!memory) {
+        fail_memory(error, sizeof *memory);
         return NULL;
     }
+    struct lam_scene *scene = &memory->scene;
     scene->token = scene_token_make(error);
     if (!scene->token) {
         free(scene);
@@ -42,7 +48,8 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error)
     scene->up = LAM_UP_Y;
     scene->placement = lam_mat4_identity();
     scene->format = "";
-    scene->default_material = lam_material_default();
+    scene->default_material = &memory->default_material;
+    *scene->default_material = lam_material_default();
     return scene;
 }
 
@@ -391,7 +398,7 @@ const lam_environment *lam_scene_environment(const lam_scene *scene) { return sc
 
 const lam_material *lam_scene_default_material(const lam_scene *scene)
 {
-    return scene ? &scene->default_material : NULL;
+    return scene ? scene->default_material : NULL;
 }
 
 void lam_scene_times(const lam_scene *scene, double *read_ms, double *prepare_ms)

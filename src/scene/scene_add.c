@@ -8,6 +8,8 @@
 #include "linear.h"
 #include "normals.h"
 
+#include <lambent/material.h>
+
 #include <stdio.h>
 #include <string.h>
 
@@ -276,7 +278,7 @@ bool lam_scene_set_default_material(lam_scene *scene, const lam_material *materi
     lam_material own;
     if (!copy_material(scene, material, &own, error))
         return false;
-    scene->default_material = own;
+    *scene->default_material = own;
     return true;
 }
 

@@ -87,7 +87,7 @@ struct lam_scene {
     lam_up up;
     lam_mat4 placement; // the product of all lam_scene_transform calls
     lam_rgb ambient;
-    lam_material default_material;   // for parts without a material
+    lam_material *default_material;  // for parts without a material
     lam_environment *environment;    // may be shared with other scenes; NULL if there is none
     double environment_rotation_rad; // rotation about the up axis
     struct lazy_environment *studio; // the built-in studio environment (scene_lit_by_environment)

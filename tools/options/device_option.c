@@ -4,6 +4,8 @@
 
 #include "console.h"
 
+#include <lambent/gl.h>
+
 lam_device *device_option_make(const struct options *o, lam_error *error)
 {
     bool gl = o->shader.lecture_device || o->work.device == DEVICE_GL || o->work.device == DEVICE_GLES ||

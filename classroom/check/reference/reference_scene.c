@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/material.h>
+
 #include "fail.h"
 #include "linear.h"
 

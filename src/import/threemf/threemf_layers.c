@@ -15,6 +15,8 @@
 #include "encoding.h"
 #include "texture_levels.h"
 
+#include <lambent/material.h>
+
 #include <string.h>
 
 enum { WHITE }; // the first colour of each part

@@ -11,6 +11,8 @@
 #include "number.h"
 #include "texture_levels.h"
 
+#include <lambent/material.h>
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -122,10 +122,8 @@ static bool open_file(lam_font *font, const char *path, lam_error *error)
 lam_font *lam_font_open(const char *path, lam_error *error)
 {
     lam_font *font = calloc(1, sizeof *font);
-    if (!font) {
-        fail_memory(error, sizeof *font);
-        return NULL;
-    }
+    if (!font)
+        return fail_memory(error, sizeof *font), NULL;
     path = path ? path : find_font();
     bool ok = open_freetype(&font->ft, error);
     if (ok && font->ft.init(&font->library) != 0)

@@ -27,10 +27,8 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error)
         struct lam_scene scene;
         lam_material default_material;
     } *memory = calloc(1, sizeof *memory);
-    if (!memory) {
-        fail_memory(error, sizeof *memory);
-        return NULL;
-    }
+    if (!memory)
+        return fail_memory(error, sizeof *memory), NULL;
     struct lam_scene *scene = &memory->scene;
     scene->token = scene_token_make(error);
     if (!scene->token) {
@@ -92,10 +90,8 @@ int scene_append(struct lam_scene *scene, struct scene_list *list, const void *i
     if (list->count == list->capacity) {
         int capacity = list->capacity ? list->capacity * 2 : 8;
         void *items = list->capacity > INT32_MAX / 4 ? NULL : arena_array(&scene->arena, (size_t)capacity, size);
-        if (!items) {
-            call_memory_error(scene->arena.call, (size_t)capacity * size, error);
-            return -1;
-        }
+        if (!items)
+            return call_memory_error(scene->arena.call, (size_t)capacity * size, error), -1;
         if (list->count)
             memcpy(items, list->items, (size_t)list->count * size);
         list->items = items;

@@ -127,10 +127,8 @@ static bool complete(struct scene_reader *r, const struct model_wanted *wanted, 
 static struct model *read_model(struct scene_reader *r, const struct model_wanted *wanted, struct companion *file)
 {
     struct model *model = arena_alloc_zeroed(&r->scene->arena, sizeof *model);
-    if (!model) {
-        no_memory(r, sizeof *model);
-        return NULL;
-    }
+    if (!model)
+        return no_memory(r, sizeof *model), NULL;
     model->origin = (struct scene_origin){.path = file ? file->path : NULL,
                                           .normals = wanted->normals,
                                           .crease_angle_rad = wanted->crease_angle_rad,

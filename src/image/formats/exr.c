@@ -117,10 +117,8 @@ static const char *letters_of(const lam_layer *layer)
 static struct channel *list_channels(const lam_layer *layers, int count, int *channel_count, lam_error *error)
 {
     struct channel *channels = calloc(4 * (size_t)count, sizeof *channels);
-    if (!channels) {
-        fail_memory(error, 4 * (size_t)count * sizeof *channels);
-        return NULL;
-    }
+    if (!channels)
+        return fail_memory(error, 4 * (size_t)count * sizeof *channels), NULL;
     int used = 0;
     bool ok = true;
     for (int i = 0; ok && i < count; i++) {

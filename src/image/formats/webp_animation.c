@@ -67,10 +67,8 @@ static void *animation_start(const struct animation_settings *settings, lam_erro
     if (!webp_check_size(settings->width, settings->height, error))
         return NULL;
     struct webp_animation *animation = calloc(1, sizeof *animation);
-    if (!animation) {
-        fail_memory(error, sizeof *animation);
-        return NULL;
-    }
+    if (!animation)
+        return fail_memory(error, sizeof *animation), NULL;
     animation->settings = *settings;
     if (webp_open(&animation->webp, NULL, error) && open_mux(animation, error) && make_encoder(animation, error))
         return animation;

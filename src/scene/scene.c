@@ -284,37 +284,19 @@ const lam_light *lam_scene_light(const lam_scene *scene, int index)
     return scene ? item(&scene->lights, index, sizeof(lam_light)) : NULL;
 }
 
-uint64_t lam_scene_triangle_count(const lam_scene *scene)
+// Returns the sum of a count of meshes, the member at `offset`, over all objects.
+static uint64_t sum_of(const lam_scene *scene, size_t offset)
 {
     uint64_t count = 0;
     for (int i = 0; i < lam_scene_object_count(scene); i++)
-        count += scene_mesh(scene, scene_object(scene, i)->mesh)->triangle_count;
+        count += *(const uint32_t *)((const char *)scene_mesh(scene, scene_object(scene, i)->mesh) + offset);
     return count;
 }
 
-uint64_t lam_scene_line_count(const lam_scene *scene)
-{
-    uint64_t count = 0;
-    for (int i = 0; i < lam_scene_object_count(scene); i++)
-        count += scene_mesh(scene, scene_object(scene, i)->mesh)->line_count;
-    return count;
-}
-
-uint64_t lam_scene_point_count(const lam_scene *scene)
-{
-    uint64_t count = 0;
-    for (int i = 0; i < lam_scene_object_count(scene); i++)
-        count += scene_mesh(scene, scene_object(scene, i)->mesh)->point_count;
-    return count;
-}
-
-uint64_t lam_scene_vertex_count(const lam_scene *scene)
-{
-    uint64_t count = 0;
-    for (int i = 0; i < lam_scene_object_count(scene); i++)
-        count += scene_mesh(scene, scene_object(scene, i)->mesh)->vertex_count;
-    return count;
-}
+uint64_t lam_scene_triangle_count(const lam_scene *scene) { return sum_of(scene, offsetof(lam_mesh, triangle_count)); }
+uint64_t lam_scene_line_count(const lam_scene *scene) { return sum_of(scene, offsetof(lam_mesh, line_count)); }
+uint64_t lam_scene_point_count(const lam_scene *scene) { return sum_of(scene, offsetof(lam_mesh, point_count)); }
+uint64_t lam_scene_vertex_count(const lam_scene *scene) { return sum_of(scene, offsetof(lam_mesh, vertex_count)); }
 
 const lam_file_info *lam_scene_file_info(const lam_scene *scene) { return scene ? &scene->file : NULL; }
 

@@ -85,20 +85,27 @@ void scene_token_release(struct scene_token *token)
         free(token);
 }
 
-int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error)
+bool scene_list_append(struct scene_list *list, const void *item, size_t size, struct arena *arena)
 {
     if (list->count == list->capacity) {
         int capacity = list->capacity ? list->capacity * 2 : 8;
-        void *items = list->capacity > INT32_MAX / 4 ? NULL : arena_array(&scene->arena, (size_t)capacity, size);
+        void *items = list->capacity > INT32_MAX / 4 ? NULL : arena_array(arena, (size_t)capacity, size);
         if (!items)
-            return call_memory_error(scene->arena.call, (size_t)capacity * size, error), -1;
+            return false;
         if (list->count)
             memcpy(items, list->items, (size_t)list->count * size);
         list->items = items;
         list->capacity = capacity;
     }
-    memcpy((char *)list->items + (size_t)list->count * size, item, size);
-    return list->count++;
+    memcpy((char *)list->items + (size_t)list->count++ * size, item, size);
+    return true;
+}
+
+int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error)
+{
+    if (!scene_list_append(list, item, size, &scene->arena))
+        return call_memory_error(scene->arena.call, 2 * (size_t)list->capacity * size, error), -1;
+    return list->count - 1;
 }
 
 // Only loading limits the number of items here. The items of a scene that a program builds are limited when the scene

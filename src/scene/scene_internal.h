@@ -129,7 +129,9 @@ bool scene_share_texture(struct lam_scene *scene, const lam_texture *texture, la
 // Takes over the caller's reference to a texture, also on failure.
 bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_error *error);
 
-// Appends an item to a list. Returns its index, or −1 if memory runs out.
+// Appends an item to a list in an arena. Returns false if memory runs out.
+bool scene_list_append(struct scene_list *list, const void *item, size_t size, struct arena *arena);
+// Appends an item to a list of the scene. Returns its index, or −1 if memory runs out.
 int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error);
 
 // Adds a formatted warning. At most SCENE_WARNINGS_MAX warnings are kept; the last one says that others were omitted.

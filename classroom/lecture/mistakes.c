@@ -202,7 +202,7 @@ static const struct mistake mistakes[] = {
             "The light does not fade, because the distance is computed from L, whose length is 1.", FALLOFF,
             EDIT("length(way);", "length(L);")),
     // --- spotlights
-    MISTAKE("no-cone", "The spot light shines in all directions.", "a spotlight",
+    MISTAKE("no-cone", "The spot light shines in all directions.", "a spot light",
             EDIT("color += spot * ", "color += ")),
     FORM("no-cone", EDIT("spot * attenuation, ", "attenuation, ")),
     FORM("no-cone", EDIT("scale(spot, add(diffuse, specular))", "add(diffuse, specular)")),

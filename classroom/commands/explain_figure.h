@@ -4,6 +4,9 @@
 
 #include "drawing.h"
 
+#include <lambent/camera.h>
+#include <lambent/explain.h>
+
 struct explain_figure {
     const lam_explanation *explanation;
     const lam_camera *camera; // the camera that rendered the picture

@@ -4,6 +4,7 @@
 
 #include "camera.h"
 #include "image.h"
+#include "reflection.h"
 #include "scene.h"
 
 #ifdef __cplusplus

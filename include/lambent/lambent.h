@@ -34,6 +34,7 @@
 #include "material.h"
 #include "mesh.h"
 #include "pick.h"
+#include "reflection.h"
 #include "render.h"
 #include "scene.h"
 #include "scene_file.h"

@@ -4,8 +4,8 @@
 
 #include "environment.h"
 #include "light.h"
-#include "material.h"
 #include "mesh.h"
+#include "texture.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,6 +13,8 @@ extern "C" {
 
 // A scene. One call frees all of its memory. While nobody changes it, any number of threads may read and draw it.
 typedef struct lam_scene lam_scene;
+
+typedef struct lam_material lam_material; // material.h
 
 // The axis that points up.
 typedef enum lam_up {

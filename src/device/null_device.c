@@ -30,10 +30,8 @@ lam_device *lam_device_null(lam_error *error)
 {
     static const struct device_type type = {null_draw, null_memory, null_free, .makes_normals = true};
     struct lam_device *device = calloc(1, sizeof *device);
-    if (!device) {
-        fail_memory(error, sizeof *device);
-        return NULL;
-    }
+    if (!device)
+        return fail_memory(error, sizeof *device), NULL;
     device->type = &type;
     snprintf(device->name, sizeof device->name, "null");
     return device;

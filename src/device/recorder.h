@@ -18,14 +18,9 @@ struct recorder {
     // For each translucent fragment, 1 + its index in the explanation, or 0 if it belongs to another pixel.
     uint32_t *layer_slots;
 
-    // The current fragment.
-    bool on; // whether its values are being recorded
+    lam_explained_fragment *fragment; // the fragment whose values are being recorded, or NULL
     lam_explained_point points[RECORDER_POINTS];
     int point_count;
-    float weight_1, weight_2;
-    int lit_sample;
-    float picture_x, picture_y;
-    float received, unobstructed; // set only for a ground that catches shadows
     lam_explained_map maps[LAM_MAP_COUNT];
     int map_count;
     lam_explained_values values;

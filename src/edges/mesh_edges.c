@@ -69,10 +69,8 @@ static uint32_t list_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct
         return 0;
     uint32_t *starts = arena_alloc_zeroed(memory, ((size_t)weld.items + 1) * sizeof *starts), low, high, count = 0;
     uint64_t *keys = arena_array(memory, corners, sizeof *keys);
-    if (!starts || !keys) {
-        call_memory_error(call, corners * (sizeof *keys + sizeof *starts), error);
-        return 0;
-    }
+    if (!starts || !keys)
+        return call_memory_error(call, corners * (sizeof *keys + sizeof *starts), error), 0;
     for (uint32_t c = 0; c < corners; c++)
         if (ends_of(&weld, c, &low, &high))
             starts[low + 1]++;
@@ -83,10 +81,8 @@ static uint32_t list_edges(const lam_mesh *mesh, struct mesh_edge *edges, struct
             keys[starts[low]++] = edge_key(high, c);
     for (uint32_t v = 0, from = 0; v < weld.items; v++) {
         uint32_t to = starts[v];
-        if (v % CHECK_INTERVAL == 0 && !call_should_continue(call)) {
-            call_error(call, error);
-            return 0;
-        }
+        if (v % CHECK_INTERVAL == 0 && !call_should_continue(call))
+            return call_error(call, error), 0;
         sort_edge_keys(keys + from, to - from);
         for (uint32_t next; from < to; from = next) {
             for (next = from + 1; next < to && keys[next] >> 32 == keys[from] >> 32; next++)

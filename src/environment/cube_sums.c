@@ -28,10 +28,8 @@ struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *erro
     size_t count = (size_t)n * (size_t)n * LAM_FACE_COUNT / 2;
     size_t bytes = sizeof(struct cube_sums) + count * sizeof(struct opposite_texels);
     struct cube_sums *sums = malloc(bytes);
-    if (!sums) {
-        fail_memory(error, bytes);
-        return NULL;
-    }
+    if (!sums)
+        return fail_memory(error, bytes), NULL;
     sums->count = count;
     double total = 0; // sum of the solid angles; they are divided by it, so that no mean exceeds the brightest light
     for (int t = 0; t < n; t++)

@@ -15,10 +15,8 @@
 // `call` may be NULL in all functions of this section.
 static struct lam_environment *cube_within(struct call_control *call, int size, lam_error *error)
 {
-    if (call && !call_charge(call, cube_bytes(size))) {
-        call_memory_error(call, cube_bytes(size), error);
-        return NULL;
-    }
+    if (call && !call_charge(call, cube_bytes(size)))
+        return call_memory_error(call, cube_bytes(size), error), NULL;
     return cube_make(size, error);
 }
 

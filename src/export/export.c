@@ -54,10 +54,8 @@ lam_export *lam_scene_export(const lam_scene *scene, const char *format, const l
 {
     static const lam_export_params none;
     params = params ? params : &none;
-    if (!scene || !format) {
-        fail(error, LAM_BAD_ARGUMENT, "lam_scene_export: %s is NULL", scene ? "format" : "scene");
-        return NULL;
-    }
+    if (!scene || !format)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_export: %s is NULL", scene ? "format" : "scene"), NULL;
     if (!check_reserved("lam_export_params", params, error) ||
         (params->camera && !check_reserved("lam_camera", params->camera, error)))
         return NULL;
@@ -74,10 +72,8 @@ lam_export *lam_scene_export(const lam_scene *scene, const char *format, const l
     struct arena arena;
     arena_start(&arena, &call);
     struct lam_export *out = arena_alloc_zeroed(&arena, sizeof *out);
-    if (!out) {
-        call_memory_error(&call, sizeof *out, error);
-        return NULL;
-    }
+    if (!out)
+        return call_memory_error(&call, sizeof *out, error), NULL;
     out->arena = arena;
     struct exporting e = {.scene = scene,
                           .params = params,

@@ -3,6 +3,8 @@
 
 #include "fail.h"
 
+#include <lambent/material.h>
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,22 +48,6 @@ bool export_text_is_whole(struct exporting *e, const struct text *text)
 
 // --- losses
 
-static bool append(struct lam_export *out, struct scene_list *list, const void *item, size_t size)
-{
-    if (list->count == list->capacity) {
-        int capacity = list->capacity ? 2 * list->capacity : 8;
-        void *more = arena_array(&out->arena, (size_t)capacity, size);
-        if (!more)
-            return false;
-        if (list->count)
-            memcpy(more, list->items, (size_t)list->count * size);
-        list->items = more;
-        list->capacity = capacity;
-    }
-    memcpy((char *)list->items + (size_t)list->count++ * size, item, size);
-    return true;
-}
-
 void export_lose(struct exporting *e, const char *format, ...)
 {
     if (!e->out)
@@ -74,7 +60,7 @@ void export_lose(struct exporting *e, const char *format, ...)
         if (strcmp(((const char *const *)e->out->losses.items)[i], text) == 0)
             return;
     if (text)
-        append(e->out, &e->out->losses, &text, sizeof text);
+        scene_list_append(&e->out->losses, &text, sizeof text, &e->out->arena);
 }
 
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras)
@@ -144,7 +130,7 @@ const char *export_add_file(struct exporting *e, const char *ending, bool beside
         strcat(file.name, ending);
     // the model's own text has already been charged
     bool charged = !beside || !e->call || call_charge(e->call, bytes.size);
-    if (charged && file.name && append(e->out, &e->out->files, &file, sizeof file))
+    if (charged && file.name && scene_list_append(&e->out->files, &file, sizeof file, &e->out->arena))
         return file.name;
     lam_bytes_free(&bytes);
     export_no_memory(e, length);
@@ -189,5 +175,5 @@ const lam_material *export_material(const struct exporting *e, int index)
 {
     const struct lam_scene *s = e->scene;
     return index >= 0 && index < s->materials.count ? (const lam_material *)s->materials.items + index
-                                                    : &s->default_material;
+                                                    : s->default_material;
 }

@@ -85,20 +85,6 @@ void export_color(const lam_mesh *mesh, size_t element, float color[4])
     }
 }
 
-// Finds the byte whose linear intensity is closest to `light` by bisection, because the curve is monotonic.
-static uint8_t encoded(float light)
-{
-    int low = 0, high = 255;
-    while (low < high) {
-        int middle = (low + high) / 2;
-        if (srgb_linear((middle + 0.5) / 255) < (double)light)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return (uint8_t)low;
-}
-
 // Returns the number that OBJ and MTL use for a channel of light: sRGB-encoded below 1. The reader rounds the number to
 // a float and decodes it. If a byte divided by 255 decodes to exactly `light`, that quotient is the result. Otherwise,
 // the result is the smallest float between 0 and 1 that does not decode to less than `light`. A colour read from OBJ or
@@ -108,7 +94,7 @@ double export_encoded(float light)
     uint32_t low = 0, high = 0x3f800000; // bit patterns of 0 and 1
     if (!(light > 0) || light >= 1)
         return light > 0 ? (double)light : 0;
-    float number = (float)(encoded(light) / 255.0);
+    float number = (float)(srgb_byte((double)light) / 255.0);
     if ((float)srgb_linear((double)number) == light)
         return (double)number;
     while (low < high) {
@@ -132,7 +118,7 @@ void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4])
     }
     export_color(mesh, element, color);
     for (int i = 0; i < 3; i++)
-        bytes[i] = encoded(color[i]);
+        bytes[i] = srgb_byte((double)color[i]);
     float alpha = color[3] > 0 ? color[3] < 1 ? color[3] : 1 : 0;
     bytes[3] = (uint8_t)(alpha * 255 + 0.5f);
 }

@@ -3,6 +3,8 @@
 
 #include "fail.h"
 
+#include <lambent/material.h>
+
 #include <stdio.h>
 #include <string.h>
 

@@ -9,6 +9,8 @@
 #include "dynamic_library.h"
 #include "texture_levels.h"
 
+#include <lambent/material.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,23 +26,15 @@
 
 struct library {
     void *handle;
-#define MEMBER(name) __typeof__(&name) name;
-    FUNCTIONS(MEMBER)
+    FUNCTIONS(LIBRARY_MEMBER)
 };
 
 static bool open_library(struct exporting *e, struct library *zip)
 {
-    zip->handle = library_open(LIBRARY, true, NULL);
-    bool all = zip->handle != NULL;
-#define LOOK_UP(name) all = all && library_find(zip->handle, #name, &zip->name);
-    FUNCTIONS(LOOK_UP)
-    if (all)
-        return true;
-    fail(e->error, LAM_UNSUPPORTED, "%s: writing 3MF needs " LIBRARY ", which %s (Debian's package libzip4)", e->name,
-         zip->handle ? "lacks functions of libzip 1.6" : "is not installed");
-    library_close(zip->handle);
-    zip->handle = NULL;
-    return false;
+    const char *fault =
+        library_open_functions(&zip->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), "lacks functions of libzip 1.6");
+    return !fault || fail(e->error, LAM_UNSUPPORTED,
+                          "%s: writing 3MF needs " LIBRARY ", which %s (Debian's package libzip4)", e->name, fault);
 }
 
 // --- the model

@@ -10,6 +10,7 @@
 #include "scene_internal.h"
 
 #include <lambent/device.h>
+#include <lambent/material.h>
 
 // One object: a mesh with a transform.
 struct frame_draw {

@@ -41,9 +41,9 @@ static lam_material converted(const lam_material *material, lam_reflection model
 size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene)
 {
     size_t count = 0;
-    bool physical = scene->default_material.physical, mixed = false;
+    bool physical = scene->default_material->physical, mixed = false;
     for (int i = -1; i < scene->materials.count; i++) {
-        const lam_material *material = i < 0 ? &scene->default_material : lam_scene_material(scene, i);
+        const lam_material *material = i < 0 ? scene->default_material : lam_scene_material(scene, i);
         count += !fits(material, frame_reflection(frame, material));
         mixed |= material->physical != physical;
     }
@@ -59,7 +59,7 @@ size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *sc
 
 void frame_materials_build(struct frame *frame, const lam_scene *scene)
 {
-    frame->default_material = scene->default_material;
+    frame->default_material = *scene->default_material;
     frame->scene_material_count = frame->material_count = scene->materials.count + 1;
     frame->converted_count = 0;
     for (int i = 0; i < frame->material_count; i++) {

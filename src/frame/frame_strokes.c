@@ -141,20 +141,6 @@ static void interpolate(const float *from, const uint32_t *own, const lam_mesh *
         out[i] = segment_point.t == 0 ? a[i] : segment_point.t == 1 ? b[i] : mixed(a[i], b[i], segment_point.t);
 }
 
-// Returns the byte whose linear intensity is closest to `light`.
-static uint8_t encode_srgb(double light)
-{
-    int low = 0, high = 255;
-    while (low < high) {
-        int middle = (low + high) / 2;
-        if (srgb_linear((middle + 0.5) / 255) < light)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return (uint8_t)low;
-}
-
 static void interpolate_color(const lam_mesh *mesh, size_t item, struct segment_point segment_point, void *out)
 {
     bool each = mesh->colors_rate == LAM_PER_TRIANGLE;
@@ -181,7 +167,7 @@ static void interpolate_color(const lam_mesh *mesh, size_t item, struct segment_
             y = srgb_linear(y);
         }
         double light = x + (y - x) * segment_point.t;
-        to[i] = srgb && i < 3 ? encode_srgb(light) : (uint8_t)(light * 255 + 0.5);
+        to[i] = srgb && i < 3 ? srgb_byte(light) : (uint8_t)(light * 255 + 0.5);
     }
 }
 

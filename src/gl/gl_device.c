@@ -449,10 +449,8 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     params = params ? params : &plain;
     if (!check_reserved("lam_gl_params", params, error))
         return NULL;
-    if ((unsigned)params->api > LAM_GL_ES) {
-        fail(error, LAM_BAD_ARGUMENT, "OpenGL: api is %d, expected LAM_GL_CORE or LAM_GL_ES", params->api);
-        return NULL;
-    }
+    if ((unsigned)params->api > LAM_GL_ES)
+        return fail(error, LAM_BAD_ARGUMENT, "OpenGL: api is %d, expected LAM_GL_CORE or LAM_GL_ES", params->api), NULL;
     int mistake = mistake_find(params->mistake);
     if (params->mistake && (!params->lecture || !mistake)) {
         fail(error, LAM_BAD_ARGUMENT, "OpenGL: mistake '%.60s': %s", params->mistake,
@@ -460,10 +458,8 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
         return NULL;
     }
     struct gl_device *device = calloc(1, sizeof *device);
-    if (!device) {
-        fail_memory(error, sizeof *device);
-        return NULL;
-    }
+    if (!device)
+        return fail_memory(error, sizeof *device), NULL;
     device->base.type = &type;
     device->external_context = params->get_proc_address != NULL;
     device->style = params->lecture ? &lecture_style : NULL;

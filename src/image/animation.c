@@ -57,10 +57,8 @@ lam_animation *lam_animation_make(const char *format, int width, int height, con
     static const lam_animation_params plain = {0};
     const lam_animation_params *p = params ? params : &plain;
     int index = format ? format_index(format) : -1;
-    if (!format) {
-        fail(error, LAM_BAD_ARGUMENT, "animation: a format is needed");
-        return NULL;
-    }
+    if (!format)
+        return fail(error, LAM_BAD_ARGUMENT, "animation: a format is needed"), NULL;
     if (index < 0) {
         fail(error, LAM_UNSUPPORTED, "animation: '%s' is not a format for animations, expected png or webp", format);
         return NULL;
@@ -68,10 +66,8 @@ lam_animation *lam_animation_make(const char *format, int width, int height, con
     if (!check(width, height, p, error))
         return NULL;
     lam_animation *animation = calloc(1, sizeof *animation);
-    if (!animation) {
-        fail_memory(error, sizeof *animation);
-        return NULL;
-    }
+    if (!animation)
+        return fail_memory(error, sizeof *animation), NULL;
     animation->codec = formats[index].codec;
     animation->settings = (struct animation_settings){
         .width = width,

@@ -41,17 +41,13 @@ const char *lam_font_path(int index)
 #endif
 
 // The FreeType functions that Lambent uses, with the types of their declarations.
+#define FUNCTIONS(each)                                                                                                \
+    each(FT_Init_FreeType) each(FT_Done_FreeType) each(FT_New_Face) each(FT_New_Memory_Face) each(FT_Done_Face)        \
+        each(FT_Set_Char_Size) each(FT_Get_Char_Index) each(FT_Load_Glyph) each(FT_Get_Kerning)
+
 struct freetype {
     void *handle;
-    __typeof__(&FT_Init_FreeType) init;
-    __typeof__(&FT_Done_FreeType) done;
-    __typeof__(&FT_New_Face) new_face;
-    __typeof__(&FT_New_Memory_Face) new_memory_face;
-    __typeof__(&FT_Done_Face) done_face;
-    __typeof__(&FT_Set_Char_Size) set_char_size;
-    __typeof__(&FT_Get_Char_Index) get_char_index;
-    __typeof__(&FT_Load_Glyph) load_glyph;
-    __typeof__(&FT_Get_Kerning) get_kerning;
+    FUNCTIONS(LIBRARY_MEMBER)
 };
 
 struct lam_font {
@@ -63,17 +59,9 @@ struct lam_font {
 
 static bool open_freetype(struct freetype *ft, lam_error *error)
 {
-    ft->handle = library_open("libfreetype.so.6", false, NULL);
-    if (!ft->handle)
-        return fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 is not installed; " NEEDED);
-    void *h = ft->handle;
-    if (library_find(h, "FT_Init_FreeType", &ft->init) && library_find(h, "FT_Done_FreeType", &ft->done) &&
-        library_find(h, "FT_New_Face", &ft->new_face) && library_find(h, "FT_New_Memory_Face", &ft->new_memory_face) &&
-        library_find(h, "FT_Done_Face", &ft->done_face) && library_find(h, "FT_Set_Char_Size", &ft->set_char_size) &&
-        library_find(h, "FT_Get_Char_Index", &ft->get_char_index) &&
-        library_find(h, "FT_Load_Glyph", &ft->load_glyph) && library_find(h, "FT_Get_Kerning", &ft->get_kerning))
-        return true;
-    return fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 lacks functions that FreeType 2 has; " NEEDED);
+    const char *fault = library_open_functions(&ft->handle, "libfreetype.so.6", false, LIBRARY_NAMES(FUNCTIONS),
+                                               "lacks functions that FreeType 2 has");
+    return !fault || fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 %s; " NEEDED, fault);
 }
 
 static const char *find_font(void)
@@ -98,7 +86,7 @@ static bool open_contained(lam_font *font, lam_error *error)
     if (!font->bytes)
         return fail_memory(error, size);
     if (uncompress(font->bytes, &size, static_font, static_font_packed_size) == Z_OK &&
-        font->ft.new_memory_face(font->library, font->bytes, (FT_Long)size, 0, &font->face) == 0)
+        font->ft.FT_New_Memory_Face(font->library, font->bytes, (FT_Long)size, 0, &font->face) == 0)
         return true;
     return fail(error, LAM_LIMIT, "text: the program's own font cannot be opened: out of memory");
 #else
@@ -113,7 +101,7 @@ static bool open_file(lam_font *font, const char *path, lam_error *error)
         return fail(error, LAM_CANNOT_READ, "%s: the font is missing or cannot be read", path);
     if (!file_check_regular(path, error))
         return false;
-    if (font->ft.new_face(font->library, path, 0, &font->face) != 0)
+    if (font->ft.FT_New_Face(font->library, path, 0, &font->face) != 0)
         return fail(error, LAM_CANNOT_READ, "%s: not a font that FreeType can read", path);
     return FT_IS_SCALABLE(font->face) ||
            fail(error, LAM_CANNOT_READ, "%s: the font has fixed sizes, expected an outline font", path);
@@ -122,13 +110,11 @@ static bool open_file(lam_font *font, const char *path, lam_error *error)
 lam_font *lam_font_open(const char *path, lam_error *error)
 {
     lam_font *font = calloc(1, sizeof *font);
-    if (!font) {
-        fail_memory(error, sizeof *font);
-        return NULL;
-    }
+    if (!font)
+        return fail_memory(error, sizeof *font), NULL;
     path = path ? path : find_font();
     bool ok = open_freetype(&font->ft, error);
-    if (ok && font->ft.init(&font->library) != 0)
+    if (ok && font->ft.FT_Init_FreeType(&font->library) != 0)
         ok = fail(error, LAM_LIMIT, "text: FreeType did not start: out of memory");
     ok = ok && (path ? open_file(font, path, error) : open_contained(font, error));
     if (ok)
@@ -142,9 +128,9 @@ void lam_font_free(lam_font *font)
     if (!font)
         return;
     if (font->face)
-        font->ft.done_face(font->face);
+        font->ft.FT_Done_Face(font->face);
     if (font->library)
-        font->ft.done(font->library);
+        font->ft.FT_Done_FreeType(font->library);
     if (font->ft.handle)
         library_close(font->ft.handle);
     free(font->bytes);
@@ -225,17 +211,17 @@ static void stamp(lam_image *image, const FT_Bitmap *bitmap, int left, int top, 
 static double walk(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
                    const char *text)
 {
-    if (font->ft.set_char_size(font->face, 0, (FT_F26Dot6)(size_px * 64 + 0.5), 72, 72) != 0)
+    if (font->ft.FT_Set_Char_Size(font->face, 0, (FT_F26Dot6)(size_px * 64 + 0.5), 72, 72) != 0)
         return 0;
     FT_UInt before = 0;
     FT_Pos pen = 0; // in 1/64 pixel
     while (*text) {
-        FT_UInt glyph = font->ft.get_char_index(font->face, next_letter(&text));
+        FT_UInt glyph = font->ft.FT_Get_Char_Index(font->face, next_letter(&text));
         FT_Vector kerning = {0, 0};
-        if (before && glyph && font->ft.get_kerning(font->face, before, glyph, FT_KERNING_UNFITTED, &kerning) == 0)
+        if (before && glyph && font->ft.FT_Get_Kerning(font->face, before, glyph, FT_KERNING_UNFITTED, &kerning) == 0)
             pen += kerning.x;
         before = glyph;
-        if (font->ft.load_glyph(font->face, glyph, FT_LOAD_TARGET_LIGHT | (image ? FT_LOAD_RENDER : 0)) != 0)
+        if (font->ft.FT_Load_Glyph(font->face, glyph, FT_LOAD_TARGET_LIGHT | (image ? FT_LOAD_RENDER : 0)) != 0)
             continue;
         FT_GlyphSlot slot = font->face->glyph;
         if (image && slot->bitmap.pixel_mode == FT_PIXEL_MODE_GRAY)

@@ -11,10 +11,8 @@ static float *make_table(int last, lam_color_mode color, lam_error *error)
 {
     size_t bytes = ((size_t)last + 1) * sizeof(float);
     float *table = malloc(bytes);
-    if (!table) {
-        fail_memory(error, bytes);
-        return NULL;
-    }
+    if (!table)
+        return fail_memory(error, bytes), NULL;
     for (int i = 0; i <= last; i++) {
         double number = (double)i / last;
         table[i] = (float)(color == LAM_COLOR_RAW ? number : srgb_linear(number));

@@ -109,10 +109,8 @@ const uint8_t *parallel_rows_rest(const struct import_source *source, size_t off
     if (!source->parts)
         return source->bytes + offset;
     struct rest rest = {source, offset, source->size - offset, arena_alloc(arena, source->size - offset)};
-    if (!rest.to) {
-        call_memory_error(source->call, rest.size, error);
-        return NULL;
-    }
+    if (!rest.to)
+        return call_memory_error(source->call, rest.size, error), NULL;
     size_t chunks = (rest.size + REST_CHUNK - 1) / REST_CHUNK;
     return parallel_rows_run(source, chunks, rest_chunk, &rest, error) ? rest.to : NULL;
 }

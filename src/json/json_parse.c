@@ -148,10 +148,8 @@ static char *read_escape(struct parser *p, char *to)
         unit = low >= 0xdc00 && low < 0xe000 ? 0x10000 + (unit - 0xd800) * 0x400 + low - 0xdc00 : -1;
         length = 12;
     }
-    if (unit < 1 || (unit >= 0xd800 && unit < 0xe000)) {
-        fail_at(p, p->at, unit == 0 ? "a string has a zero character" : "an escape is not one of JSON");
-        return NULL;
-    }
+    if (unit < 1 || (unit >= 0xd800 && unit < 0xe000))
+        return fail_at(p, p->at, unit == 0 ? "a string has a zero character" : "an escape is not one of JSON"), NULL;
     p->at += length;
     return put_utf8(to, unit);
 }
@@ -162,15 +160,11 @@ static char *read_text(struct parser *p, size_t *length)
     const char *start = p->at++, *close = p->at;
     while (close < p->end && *close != '"')
         close += *close == '\\' ? 2 : 1;
-    if (close >= p->end) {
-        fail_at(p, start, "a string without its closing quote");
-        return NULL;
-    }
+    if (close >= p->end)
+        return fail_at(p, start, "a string without its closing quote"), NULL;
     char *text = malloc((size_t)(close - p->at) + 1), *to = text;
-    if (!text) {
-        fail_memory(p->error, (size_t)(close - p->at) + 1);
-        return NULL;
-    }
+    if (!text)
+        return fail_memory(p->error, (size_t)(close - p->at) + 1), NULL;
     while (to && p->at < close) {
         int step = *p->at == '\\' ? 0 : lam_utf8_length(p->at, (size_t)(close - p->at));
         if (step == 0 && *p->at == '\\') {
@@ -224,10 +218,8 @@ static json_t *read_number(struct parser *p)
     int64_t integer;
     double number = 0;
     const uint8_t *from = (const uint8_t *)p->at, *to = (const uint8_t *)at;
-    if (!good || (at < p->end && ((*at >= '0' && *at <= '9') || *at == '.'))) {
-        fail_found(p, "a number");
-        return NULL;
-    }
+    if (!good || (at < p->end && ((*at >= '0' && *at <= '9') || *at == '.')))
+        return fail_found(p, "a number"), NULL;
     json_t *value = NULL;
     if (whole && number_int(from, to, &integer) == to)
         value = json_integer(integer);
@@ -340,16 +332,12 @@ static json_t *read_string(struct parser *p)
 
 static json_t *read_value(struct parser *p, int depth)
 {
-    if (++p->values % 4096 == 0 && !call_should_continue(p->call)) {
-        call_error(p->call, p->error);
-        return NULL;
-    }
+    if (++p->values % 4096 == 0 && !call_should_continue(p->call))
+        return call_error(p->call, p->error), NULL;
     skip_space(p);
     char first = p->at < p->end ? *p->at : 0;
-    if (depth == p->depth_limit && (first == '{' || first == '[')) {
-        fail_depth(p);
-        return NULL;
-    }
+    if (depth == p->depth_limit && (first == '{' || first == '['))
+        return fail_depth(p), NULL;
     if (first == '{' || first == '[') {
         p->at++;
         return first == '{' ? read_object(p, depth + 1) : read_list(p, depth + 1);
@@ -371,10 +359,8 @@ json_t *json_parse(const char *text, size_t size, const char *file, struct call_
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
         p.begin = p.at = text + 3;
     skip_space(&p);
-    if (p.at == p.end || (*p.at != '{' && *p.at != '[')) {
-        fail_found(&p, "'{' or '['");
-        return NULL;
-    }
+    if (p.at == p.end || (*p.at != '{' && *p.at != '['))
+        return fail_found(&p, "'{' or '['"), NULL;
     json_t *root = read_value(&p, 0);
     skip_space(&p);
     if (root && p.at < p.end) {

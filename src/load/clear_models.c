@@ -1,11 +1,13 @@
 // clear_models.c: makes a fully transparent scene visible, because its picture would otherwise be empty.
 #include "clear_models.h"
 
+#include <lambent/material.h>
+
 #include <stdio.h>
 
 static lam_material *material_at(struct lam_scene *scene, int index)
 {
-    return index >= 0 ? (lam_material *)scene->materials.items + index : &scene->default_material;
+    return index >= 0 ? (lam_material *)scene->materials.items + index : scene->default_material;
 }
 
 static bool colors_are_clear(const lam_mesh *mesh)

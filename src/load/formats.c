@@ -68,10 +68,8 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
              format_list(list));
         return NULL;
     }
-    if (file->size == 0) {
-        fail(error, LAM_CANNOT_READ, "%s: the file is empty", name);
-        return NULL;
-    }
+    if (file->size == 0)
+        return fail(error, LAM_CANNOT_READ, "%s: the file is empty", name), NULL;
     const char *ending = path_ending(name);
     const struct importer *by_content = NULL, *by_ending = NULL;
     int best = 0;

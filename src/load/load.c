@@ -226,19 +226,15 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
 
 lam_scene *lam_scene_load(const char *path, const lam_load_params *params, const lam_control *control, lam_error *error)
 {
-    if (!path || !*path) {
-        fail(error, LAM_BAD_ARGUMENT, "no file name given");
-        return NULL;
-    }
+    if (!path || !*path)
+        return fail(error, LAM_BAD_ARGUMENT, "no file name given"), NULL;
     return load(path, NULL, 0, strcmp(path, "-") == 0 ? "standard input" : path, params, control, error);
 }
 
 lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name, const lam_load_params *params,
                                  const lam_control *control, lam_error *error)
 {
-    if (!bytes && size) {
-        fail(error, LAM_BAD_ARGUMENT, "no bytes given");
-        return NULL;
-    }
+    if (!bytes && size)
+        return fail(error, LAM_BAD_ARGUMENT, "no bytes given"), NULL;
     return load(NULL, bytes, size, name ? name : "(memory)", params, control, error);
 }

@@ -12,92 +12,60 @@ struct named_material {
     float shininess;
 };
 
+#define RGB(...) {__VA_ARGS__}
 // The published shininess is a fraction of OpenGL's maximum exponent, 128.
-#define SHININESS(share) ((float)((share) * 128.0))
+#define MATERIAL(id, name, ambient, diffuse, specular, shininess)                                                      \
+    [LAM_MATERIAL_##id] = {name, ambient, diffuse, specular, (float)((shininess) * 128.0)}
 
 // The numbers of SGI's demo teapots.c, unchanged. The demo's colours were chosen on displays of its time (sRGB).
 static const struct named_material named[LAM_MATERIAL_COUNT] = {
-    [LAM_MATERIAL_EMERALD] = {"emerald",
-                              {0.0215f, 0.1745f, 0.0215f},
-                              {0.07568f, 0.61424f, 0.07568f},
-                              {0.633f, 0.727811f, 0.633f},
-                              SHININESS(0.6)},
-    [LAM_MATERIAL_JADE] =
-        {"jade", {0.135f, 0.2225f, 0.1575f}, {0.54f, 0.89f, 0.63f}, {0.316228f, 0.316228f, 0.316228f}, SHININESS(0.1)},
-    [LAM_MATERIAL_OBSIDIAN] = {"obsidian",
-                               {0.05375f, 0.05f, 0.06625f},
-                               {0.18275f, 0.17f, 0.22525f},
-                               {0.332741f, 0.328634f, 0.346435f},
-                               SHININESS(0.3)},
-    [LAM_MATERIAL_PEARL] = {"pearl",
-                            {0.25f, 0.20725f, 0.20725f},
-                            {1.0f, 0.829f, 0.829f},
-                            {0.296648f, 0.296648f, 0.296648f},
-                            SHININESS(0.088)},
-    [LAM_MATERIAL_RUBY] = {"ruby",
-                           {0.1745f, 0.01175f, 0.01175f},
-                           {0.61424f, 0.04136f, 0.04136f},
-                           {0.727811f, 0.626959f, 0.626959f},
-                           SHININESS(0.6)},
-    [LAM_MATERIAL_TURQUOISE] = {"turquoise",
-                                {0.1f, 0.18725f, 0.1745f},
-                                {0.396f, 0.74151f, 0.69102f},
-                                {0.297254f, 0.30829f, 0.306678f},
-                                SHININESS(0.1)},
-    [LAM_MATERIAL_BRASS] = {"brass",
-                            {0.329412f, 0.223529f, 0.027451f},
-                            {0.780392f, 0.568627f, 0.113725f},
-                            {0.992157f, 0.941176f, 0.807843f},
-                            SHININESS(0.21794872)},
-    [LAM_MATERIAL_BRONZE] = {"bronze",
-                             {0.2125f, 0.1275f, 0.054f},
-                             {0.714f, 0.4284f, 0.18144f},
-                             {0.393548f, 0.271906f, 0.166721f},
-                             SHININESS(0.2)},
-    [LAM_MATERIAL_CHROME] =
-        {"chrome", {0.25f, 0.25f, 0.25f}, {0.4f, 0.4f, 0.4f}, {0.774597f, 0.774597f, 0.774597f}, SHININESS(0.6)},
-    [LAM_MATERIAL_COPPER] = {"copper",
-                             {0.19125f, 0.0735f, 0.0225f},
-                             {0.7038f, 0.27048f, 0.0828f},
-                             {0.256777f, 0.137622f, 0.086014f},
-                             SHININESS(0.1)},
-    [LAM_MATERIAL_GOLD] = {"gold",
-                           {0.24725f, 0.1995f, 0.0745f},
-                           {0.75164f, 0.60648f, 0.22648f},
-                           {0.628281f, 0.555802f, 0.366065f},
-                           SHININESS(0.4)},
-    [LAM_MATERIAL_SILVER] = {"silver",
-                             {0.19225f, 0.19225f, 0.19225f},
-                             {0.50754f, 0.50754f, 0.50754f},
-                             {0.508273f, 0.508273f, 0.508273f},
-                             SHININESS(0.4)},
-    [LAM_MATERIAL_BLACK_PLASTIC] =
-        {"black-plastic", {0.0f, 0.0f, 0.0f}, {0.01f, 0.01f, 0.01f}, {0.5f, 0.5f, 0.5f}, SHININESS(0.25)},
-    [LAM_MATERIAL_CYAN_PLASTIC] = {"cyan-plastic",
-                                   {0.0f, 0.1f, 0.06f},
-                                   {0.0f, 0.50980392f, 0.50980392f},
-                                   {0.50196078f, 0.50196078f, 0.50196078f},
-                                   SHININESS(0.25)},
-    [LAM_MATERIAL_GREEN_PLASTIC] =
-        {"green-plastic", {0.0f, 0.0f, 0.0f}, {0.1f, 0.35f, 0.1f}, {0.45f, 0.55f, 0.45f}, SHININESS(0.25)},
-    [LAM_MATERIAL_RED_PLASTIC] =
-        {"red-plastic", {0.0f, 0.0f, 0.0f}, {0.5f, 0.0f, 0.0f}, {0.7f, 0.6f, 0.6f}, SHININESS(0.25)},
-    [LAM_MATERIAL_WHITE_PLASTIC] =
-        {"white-plastic", {0.0f, 0.0f, 0.0f}, {0.55f, 0.55f, 0.55f}, {0.7f, 0.7f, 0.7f}, SHININESS(0.25)},
-    [LAM_MATERIAL_YELLOW_PLASTIC] =
-        {"yellow-plastic", {0.0f, 0.0f, 0.0f}, {0.5f, 0.5f, 0.0f}, {0.6f, 0.6f, 0.5f}, SHININESS(0.25)},
-    [LAM_MATERIAL_BLACK_RUBBER] =
-        {"black-rubber", {0.02f, 0.02f, 0.02f}, {0.01f, 0.01f, 0.01f}, {0.4f, 0.4f, 0.4f}, SHININESS(0.078125)},
-    [LAM_MATERIAL_CYAN_RUBBER] =
-        {"cyan-rubber", {0.0f, 0.05f, 0.05f}, {0.4f, 0.5f, 0.5f}, {0.04f, 0.7f, 0.7f}, SHININESS(0.078125)},
-    [LAM_MATERIAL_GREEN_RUBBER] =
-        {"green-rubber", {0.0f, 0.05f, 0.0f}, {0.4f, 0.5f, 0.4f}, {0.04f, 0.7f, 0.04f}, SHININESS(0.078125)},
-    [LAM_MATERIAL_RED_RUBBER] =
-        {"red-rubber", {0.05f, 0.0f, 0.0f}, {0.5f, 0.4f, 0.4f}, {0.7f, 0.04f, 0.04f}, SHININESS(0.078125)},
-    [LAM_MATERIAL_WHITE_RUBBER] =
-        {"white-rubber", {0.05f, 0.05f, 0.05f}, {0.5f, 0.5f, 0.5f}, {0.7f, 0.7f, 0.7f}, SHININESS(0.078125)},
-    [LAM_MATERIAL_YELLOW_RUBBER] =
-        {"yellow-rubber", {0.05f, 0.05f, 0.0f}, {0.5f, 0.5f, 0.4f}, {0.7f, 0.7f, 0.04f}, SHININESS(0.078125)},
+    MATERIAL(EMERALD, "emerald", RGB(0.0215f, 0.1745f, 0.0215f), RGB(0.07568f, 0.61424f, 0.07568f),
+             RGB(0.633f, 0.727811f, 0.633f), 0.6),
+    MATERIAL(JADE, "jade", RGB(0.135f, 0.2225f, 0.1575f), RGB(0.54f, 0.89f, 0.63f),
+             RGB(0.316228f, 0.316228f, 0.316228f), 0.1),
+    MATERIAL(OBSIDIAN, "obsidian", RGB(0.05375f, 0.05f, 0.06625f), RGB(0.18275f, 0.17f, 0.22525f),
+             RGB(0.332741f, 0.328634f, 0.346435f), 0.3),
+    MATERIAL(PEARL, "pearl", RGB(0.25f, 0.20725f, 0.20725f), RGB(1.0f, 0.829f, 0.829f),
+             RGB(0.296648f, 0.296648f, 0.296648f), 0.088),
+    MATERIAL(RUBY, "ruby", RGB(0.1745f, 0.01175f, 0.01175f), RGB(0.61424f, 0.04136f, 0.04136f),
+             RGB(0.727811f, 0.626959f, 0.626959f), 0.6),
+    MATERIAL(TURQUOISE, "turquoise", RGB(0.1f, 0.18725f, 0.1745f), RGB(0.396f, 0.74151f, 0.69102f),
+             RGB(0.297254f, 0.30829f, 0.306678f), 0.1),
+    MATERIAL(BRASS, "brass", RGB(0.329412f, 0.223529f, 0.027451f), RGB(0.780392f, 0.568627f, 0.113725f),
+             RGB(0.992157f, 0.941176f, 0.807843f), 0.21794872),
+    MATERIAL(BRONZE, "bronze", RGB(0.2125f, 0.1275f, 0.054f), RGB(0.714f, 0.4284f, 0.18144f),
+             RGB(0.393548f, 0.271906f, 0.166721f), 0.2),
+    MATERIAL(CHROME, "chrome", RGB(0.25f, 0.25f, 0.25f), RGB(0.4f, 0.4f, 0.4f), RGB(0.774597f, 0.774597f, 0.774597f),
+             0.6),
+    MATERIAL(COPPER, "copper", RGB(0.19125f, 0.0735f, 0.0225f), RGB(0.7038f, 0.27048f, 0.0828f),
+             RGB(0.256777f, 0.137622f, 0.086014f), 0.1),
+    MATERIAL(GOLD, "gold", RGB(0.24725f, 0.1995f, 0.0745f), RGB(0.75164f, 0.60648f, 0.22648f),
+             RGB(0.628281f, 0.555802f, 0.366065f), 0.4),
+    MATERIAL(SILVER, "silver", RGB(0.19225f, 0.19225f, 0.19225f), RGB(0.50754f, 0.50754f, 0.50754f),
+             RGB(0.508273f, 0.508273f, 0.508273f), 0.4),
+    MATERIAL(BLACK_PLASTIC, "black-plastic", RGB(0.0f, 0.0f, 0.0f), RGB(0.01f, 0.01f, 0.01f), RGB(0.5f, 0.5f, 0.5f),
+             0.25),
+    MATERIAL(CYAN_PLASTIC, "cyan-plastic", RGB(0.0f, 0.1f, 0.06f), RGB(0.0f, 0.50980392f, 0.50980392f),
+             RGB(0.50196078f, 0.50196078f, 0.50196078f), 0.25),
+    MATERIAL(GREEN_PLASTIC, "green-plastic", RGB(0.0f, 0.0f, 0.0f), RGB(0.1f, 0.35f, 0.1f), RGB(0.45f, 0.55f, 0.45f),
+             0.25),
+    MATERIAL(RED_PLASTIC, "red-plastic", RGB(0.0f, 0.0f, 0.0f), RGB(0.5f, 0.0f, 0.0f), RGB(0.7f, 0.6f, 0.6f), 0.25),
+    MATERIAL(WHITE_PLASTIC, "white-plastic", RGB(0.0f, 0.0f, 0.0f), RGB(0.55f, 0.55f, 0.55f), RGB(0.7f, 0.7f, 0.7f),
+             0.25),
+    MATERIAL(YELLOW_PLASTIC, "yellow-plastic", RGB(0.0f, 0.0f, 0.0f), RGB(0.5f, 0.5f, 0.0f), RGB(0.6f, 0.6f, 0.5f),
+             0.25),
+    MATERIAL(BLACK_RUBBER, "black-rubber", RGB(0.02f, 0.02f, 0.02f), RGB(0.01f, 0.01f, 0.01f), RGB(0.4f, 0.4f, 0.4f),
+             0.078125),
+    MATERIAL(CYAN_RUBBER, "cyan-rubber", RGB(0.0f, 0.05f, 0.05f), RGB(0.4f, 0.5f, 0.5f), RGB(0.04f, 0.7f, 0.7f),
+             0.078125),
+    MATERIAL(GREEN_RUBBER, "green-rubber", RGB(0.0f, 0.05f, 0.0f), RGB(0.4f, 0.5f, 0.4f), RGB(0.04f, 0.7f, 0.04f),
+             0.078125),
+    MATERIAL(RED_RUBBER, "red-rubber", RGB(0.05f, 0.0f, 0.0f), RGB(0.5f, 0.4f, 0.4f), RGB(0.7f, 0.04f, 0.04f),
+             0.078125),
+    MATERIAL(WHITE_RUBBER, "white-rubber", RGB(0.05f, 0.05f, 0.05f), RGB(0.5f, 0.5f, 0.5f), RGB(0.7f, 0.7f, 0.7f),
+             0.078125),
+    MATERIAL(YELLOW_RUBBER, "yellow-rubber", RGB(0.05f, 0.05f, 0.0f), RGB(0.5f, 0.5f, 0.4f), RGB(0.7f, 0.7f, 0.04f),
+             0.078125),
 };
 
 // Returns a grey that ranges from sRGB 60 to 230 under the studio rig. This leaves headroom for a highlight that shows

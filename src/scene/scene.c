@@ -6,6 +6,8 @@
 #include "linear.h"
 #include "normals.h"
 
+#include <lambent/material.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,11 +23,13 @@ struct scene_token *scene_token_make(lam_error *error)
 
 struct lam_scene *scene_make(struct call_control *call, lam_error *error)
 {
-    struct lam_scene *scene = calloc(1, sizeof *scene);
-    if (!scene) {
-        fail_memory(error, sizeof *scene);
-        return NULL;
-    }
+    struct {
+        struct lam_scene scene;
+        lam_material default_material;
+    } *memory = calloc(1, sizeof *memory);
+    if (!memory)
+        return fail_memory(error, sizeof *memory), NULL;
+    struct lam_scene *scene = &memory->scene;
     scene->token = scene_token_make(error);
     if (!scene->token) {
         free(scene);
@@ -42,7 +46,8 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error)
     scene->up = LAM_UP_Y;
     scene->placement = lam_mat4_identity();
     scene->format = "";
-    scene->default_material = lam_material_default();
+    scene->default_material = &memory->default_material;
+    *scene->default_material = lam_material_default();
     return scene;
 }
 
@@ -80,22 +85,27 @@ void scene_token_release(struct scene_token *token)
         free(token);
 }
 
-int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error)
+bool scene_list_append(struct scene_list *list, const void *item, size_t size, struct arena *arena)
 {
     if (list->count == list->capacity) {
         int capacity = list->capacity ? list->capacity * 2 : 8;
-        void *items = list->capacity > INT32_MAX / 4 ? NULL : arena_array(&scene->arena, (size_t)capacity, size);
-        if (!items) {
-            call_memory_error(scene->arena.call, (size_t)capacity * size, error);
-            return -1;
-        }
+        void *items = list->capacity > INT32_MAX / 4 ? NULL : arena_array(arena, (size_t)capacity, size);
+        if (!items)
+            return false;
         if (list->count)
             memcpy(items, list->items, (size_t)list->count * size);
         list->items = items;
         list->capacity = capacity;
     }
-    memcpy((char *)list->items + (size_t)list->count * size, item, size);
-    return list->count++;
+    memcpy((char *)list->items + (size_t)list->count++ * size, item, size);
+    return true;
+}
+
+int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error)
+{
+    if (!scene_list_append(list, item, size, &scene->arena))
+        return call_memory_error(scene->arena.call, 2 * (size_t)list->capacity * size, error), -1;
+    return list->count - 1;
 }
 
 // Only loading limits the number of items here. The items of a scene that a program builds are limited when the scene
@@ -281,37 +291,19 @@ const lam_light *lam_scene_light(const lam_scene *scene, int index)
     return scene ? item(&scene->lights, index, sizeof(lam_light)) : NULL;
 }
 
-uint64_t lam_scene_triangle_count(const lam_scene *scene)
+// Returns the sum of a count of meshes, the member at `offset`, over all objects.
+static uint64_t sum_of(const lam_scene *scene, size_t offset)
 {
     uint64_t count = 0;
     for (int i = 0; i < lam_scene_object_count(scene); i++)
-        count += scene_mesh(scene, scene_object(scene, i)->mesh)->triangle_count;
+        count += *(const uint32_t *)((const char *)scene_mesh(scene, scene_object(scene, i)->mesh) + offset);
     return count;
 }
 
-uint64_t lam_scene_line_count(const lam_scene *scene)
-{
-    uint64_t count = 0;
-    for (int i = 0; i < lam_scene_object_count(scene); i++)
-        count += scene_mesh(scene, scene_object(scene, i)->mesh)->line_count;
-    return count;
-}
-
-uint64_t lam_scene_point_count(const lam_scene *scene)
-{
-    uint64_t count = 0;
-    for (int i = 0; i < lam_scene_object_count(scene); i++)
-        count += scene_mesh(scene, scene_object(scene, i)->mesh)->point_count;
-    return count;
-}
-
-uint64_t lam_scene_vertex_count(const lam_scene *scene)
-{
-    uint64_t count = 0;
-    for (int i = 0; i < lam_scene_object_count(scene); i++)
-        count += scene_mesh(scene, scene_object(scene, i)->mesh)->vertex_count;
-    return count;
-}
+uint64_t lam_scene_triangle_count(const lam_scene *scene) { return sum_of(scene, offsetof(lam_mesh, triangle_count)); }
+uint64_t lam_scene_line_count(const lam_scene *scene) { return sum_of(scene, offsetof(lam_mesh, line_count)); }
+uint64_t lam_scene_point_count(const lam_scene *scene) { return sum_of(scene, offsetof(lam_mesh, point_count)); }
+uint64_t lam_scene_vertex_count(const lam_scene *scene) { return sum_of(scene, offsetof(lam_mesh, vertex_count)); }
 
 const lam_file_info *lam_scene_file_info(const lam_scene *scene) { return scene ? &scene->file : NULL; }
 
@@ -391,7 +383,7 @@ const lam_environment *lam_scene_environment(const lam_scene *scene) { return sc
 
 const lam_material *lam_scene_default_material(const lam_scene *scene)
 {
-    return scene ? &scene->default_material : NULL;
+    return scene ? scene->default_material : NULL;
 }
 
 void lam_scene_times(const lam_scene *scene, double *read_ms, double *prepare_ms)

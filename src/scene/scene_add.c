@@ -8,6 +8,8 @@
 #include "linear.h"
 #include "normals.h"
 
+#include <lambent/material.h>
+
 #include <stdio.h>
 #include <string.h>
 
@@ -185,10 +187,8 @@ bool scene_copy_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_mesh *co
 
 int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error)
 {
-    if (!scene || !mesh) {
-        fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_mesh: %s is NULL", scene ? "mesh" : "scene");
-        return -1;
-    }
+    if (!scene || !mesh)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_mesh: %s is NULL", scene ? "mesh" : "scene"), -1;
     uint64_t state = float_state_enter();
     lam_mesh copy;
     int index = scene_copy_mesh(scene, mesh, &copy, error) ? scene_adopt_mesh(scene, &copy, error) : -1;
@@ -276,7 +276,7 @@ bool lam_scene_set_default_material(lam_scene *scene, const lam_material *materi
     lam_material own;
     if (!copy_material(scene, material, &own, error))
         return false;
-    scene->default_material = own;
+    *scene->default_material = own;
     return true;
 }
 

@@ -1,6 +1,8 @@
 // scene_colors.c: materials for surfaces with vertex colours but without a material.
 #include "scene_internal.h"
 
+#include <lambent/material.h>
+
 // Returns the index of a white material, which is created on first use. Returns −1 if memory runs out.
 static int white_of(struct lam_scene *scene, int *white, lam_error *error)
 {

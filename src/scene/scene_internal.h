@@ -87,7 +87,7 @@ struct lam_scene {
     lam_up up;
     lam_mat4 placement; // the product of all lam_scene_transform calls
     lam_rgb ambient;
-    lam_material default_material;   // for parts without a material
+    lam_material *default_material;  // for parts without a material
     lam_environment *environment;    // may be shared with other scenes; NULL if there is none
     double environment_rotation_rad; // rotation about the up axis
     struct lazy_environment *studio; // the built-in studio environment (scene_lit_by_environment)
@@ -129,7 +129,9 @@ bool scene_share_texture(struct lam_scene *scene, const lam_texture *texture, la
 // Takes over the caller's reference to a texture, also on failure.
 bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_error *error);
 
-// Appends an item to a list. Returns its index, or −1 if memory runs out.
+// Appends an item to a list in an arena. Returns false if memory runs out.
+bool scene_list_append(struct scene_list *list, const void *item, size_t size, struct arena *arena);
+// Appends an item to a list of the scene. Returns its index, or −1 if memory runs out.
 int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error);
 
 // Adds a formatted warning. At most SCENE_WARNINGS_MAX warnings are kept; the last one says that others were omitted.

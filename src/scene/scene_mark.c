@@ -3,6 +3,8 @@
 
 #include "fail.h"
 
+#include <lambent/material.h>
+
 #include <string.h>
 
 // The lists that are restored, with the size of their items. Cameras and origins come from files and are never removed.
@@ -54,7 +56,7 @@ bool lam_scene_mark(lam_scene *scene, lam_error *error)
     *mark = (struct scene_mark){.up = scene->up,
                                 .placement = scene->placement,
                                 .ambient = scene->ambient,
-                                .default_material = scene->default_material,
+                                .default_material = *scene->default_material,
                                 .deferred_crease_rad = scene->deferred_crease_rad};
     for (int i = 0; i < LISTS; i++) {
         const struct scene_list *list = list_of(scene, i);
@@ -94,7 +96,7 @@ bool lam_scene_reset(lam_scene *scene, lam_error *error)
     scene->up = mark->up;
     scene->placement = mark->placement;
     scene->ambient = mark->ambient;
-    scene->default_material = mark->default_material;
+    *scene->default_material = mark->default_material;
     scene->deferred_crease_rad = mark->deferred_crease_rad;
     return true;
 }

@@ -6,6 +6,8 @@
 #include "linear.h"
 #include "up_axis.h"
 
+#include <lambent/material.h>
+
 // A point whose squared distance is below this number is nearer than `distance`, regardless of rounding.
 static double nearer_than(double distance)
 {
@@ -148,7 +150,7 @@ bool scene_lit_by_environment(const struct lam_scene *scene)
         return false;
     int physical = 0, classic = 0;
     for (int i = scene->materials.count ? 0 : -1; i < scene->materials.count; i++) {
-        const lam_material *material = i < 0 ? &scene->default_material : lam_scene_material(scene, i);
+        const lam_material *material = i < 0 ? scene->default_material : lam_scene_material(scene, i);
         physical += material->physical && !material->unlit;
         classic += !material->physical && !material->unlit;
     }

@@ -5,6 +5,8 @@
 #include "fail.h"
 #include "float_state.h"
 
+#include <lambent/material.h>
+
 // Returns the first map of a material that uses tangents.
 static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int material)
 {

@@ -26,20 +26,10 @@ lam_vec3 from_y_up(lam_up up, lam_vec3 d)
 
 lam_vec3 to_y_up(lam_up up, lam_vec3 d)
 {
-    switch (up) {
-    case LAM_UP_X:
-        return v3(-d.y, d.x, d.z);
-    case LAM_UP_Z:
+    if (up == LAM_UP_Z)
         return v3(d.x, d.z, -d.y);
-    case LAM_UP_NEGATIVE_X:
-        return v3(d.y, -d.x, d.z);
-    case LAM_UP_NEGATIVE_Y:
-        return v3(-d.x, -d.y, d.z);
-    case LAM_UP_NEGATIVE_Z:
-        return v3(-d.x, -d.z, -d.y);
-    default:
-        return d;
-    }
+    // Opposite quarter turns undo each other; half turns undo themselves.
+    return from_y_up(up == LAM_UP_X ? LAM_UP_NEGATIVE_X : up == LAM_UP_NEGATIVE_X ? LAM_UP_X : up, d);
 }
 
 static const char *const names[LAM_UP_COUNT] = {

@@ -4,6 +4,8 @@
 #include "fail.h"
 #include "spelling.h"
 
+#include <lambent/material.h>
+
 #include <string.h>
 
 bool read_material_keys(struct scene_reader *r, const struct place *place, const json_t *value, bool whole,

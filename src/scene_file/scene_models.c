@@ -9,6 +9,8 @@
 #include "companion.h"
 #include "fail.h"
 
+#include <lambent/material.h>
+
 #include <stdio.h>
 #include <string.h>
 
@@ -23,6 +25,7 @@ struct variant {
 
 struct model {
     struct lam_scene inner;            // the model as it was read; its lists and arrays are in the outer scene's arena
+    lam_material inner_material;       // the default material of `inner`, which importers may set
     struct scene_origin origin;        // the origin without its counts and copies
     double crease_angle_rad;           // the angle for its normals; 0 means the default
     struct variant variants[VARIANTS]; // the most recent variants
@@ -124,10 +127,8 @@ static bool complete(struct scene_reader *r, const struct model_wanted *wanted, 
 static struct model *read_model(struct scene_reader *r, const struct model_wanted *wanted, struct companion *file)
 {
     struct model *model = arena_alloc_zeroed(&r->scene->arena, sizeof *model);
-    if (!model) {
-        no_memory(r, sizeof *model);
-        return NULL;
-    }
+    if (!model)
+        return no_memory(r, sizeof *model), NULL;
     model->origin = (struct scene_origin){.path = file ? file->path : NULL,
                                           .normals = wanted->normals,
                                           .crease_angle_rad = wanted->crease_angle_rad,
@@ -137,6 +138,7 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
                                           .time_s = wanted->time_s};
     model->crease_angle_rad = wanted->crease_angle_rad;
     model->inner.arena = r->scene->arena;
+    model->inner.default_material = &model->inner_material;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
     r->scene->arena = model->inner.arena;
     for (int i = 0; i < model->inner.textures.count; i++) { // also after an error, because the outer scene frees them

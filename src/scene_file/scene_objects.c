@@ -4,6 +4,8 @@
 #include "fail.h"
 #include "linear.h"
 
+#include <lambent/material.h>
+
 #include <stdio.h>
 #include <string.h>
 

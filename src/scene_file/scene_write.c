@@ -9,6 +9,8 @@
 #include "float_state.h"
 #include "linear.h"
 
+#include <lambent/material.h>
+
 #include <errno.h>
 #include <limits.h>
 #include <stdlib.h>

@@ -470,10 +470,8 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
     const lam_shape_params plain = {0};
     params = params ? params : &plain;
     int row = lam_shape_find(shape);
-    if (row < 0) {
-        fail_unknown_shape(shape, error);
-        return -1;
-    }
+    if (row < 0)
+        return fail_unknown_shape(shape, error), -1;
     if (!check_params(shape, params, error))
         return -1;
     struct shape_request request = {params->slices, params->stacks, &scene->arena, call, error, params->threads};
@@ -497,10 +495,8 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
 
 int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_params *params, lam_error *error)
 {
-    if (!scene || !shape) {
-        fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_shape: %s is NULL", scene ? "shape" : "scene");
-        return -1;
-    }
+    if (!scene || !shape)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_shape: %s is NULL", scene ? "shape" : "scene"), -1;
     struct call_control call;
     uint64_t state = begin(scene, &call, params ? params->control : NULL);
     return end(scene, state, scene_add_shape(scene, shape, params, &call, error));
@@ -509,10 +505,8 @@ int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_par
 int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, const lam_control *control,
                              lam_error *error)
 {
-    if (!scene || !surface) {
-        fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_parametric: %s is NULL", scene ? "surface" : "scene");
-        return -1;
-    }
+    if (!scene || !surface)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_parametric: %s is NULL", scene ? "surface" : "scene"), -1;
     if (!check_reserved("lam_parametric", surface, error))
         return -1;
     struct call_control call;
@@ -525,10 +519,8 @@ int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, co
 
 int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const lam_control *control, lam_error *error)
 {
-    if (!scene || !surface) {
-        fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_implicit: %s is NULL", scene ? "surface" : "scene");
-        return -1;
-    }
+    if (!scene || !surface)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_add_implicit: %s is NULL", scene ? "surface" : "scene"), -1;
     if (!check_reserved("lam_implicit", surface, error))
         return -1;
     struct call_control call;
@@ -562,10 +554,8 @@ int scene_add_formula(struct lam_scene *scene, const lam_formula *formula, struc
     bool made = formula->implicit ? tessellate_implicit_formula(formula, &scene->arena, call, &mesh, error)
                                   : tessellate_formula(formula, &scene->arena, call, &mesh, error);
     struct scene_origin origin = {.first_mesh = scene->meshes.count, .first_material = scene->materials.count};
-    if (made && !(origin.formula = copy_formula(scene, formula))) {
-        call_memory_error(call, strlen(formula->text), error);
-        return -1;
-    }
+    if (made && !(origin.formula = copy_formula(scene, formula)))
+        return call_memory_error(call, strlen(formula->text), error), -1;
     int index = add_mesh(scene, made, &mesh, error);
     return index < 0 || scene_note_origin(scene, origin, scene->objects.count, error) ? index : -1;
 }

@@ -39,10 +39,8 @@ static struct lam_texture *allocate(const lam_image *image, int channels, const 
     size_t floats_bytes = (texels * (size_t)channels + 1) * sizeof(float);
     size_t own = sizeof(struct lam_texture) + table + name_bytes;
     bool large = floats_bytes >= PAGES_FROM;
-    if (call && !call_charge(call, own + floats_bytes)) {
-        call_memory_error(call, own + floats_bytes, error);
-        return NULL;
-    }
+    if (call && !call_charge(call, own + floats_bytes))
+        return call_memory_error(call, own + floats_bytes, error), NULL;
     struct lam_texture *texture = calloc(1, large ? own : own + floats_bytes);
     size_t held = 0;
     float *pages = texture && large ? pages_get(floats_bytes, &held) : NULL;

@@ -105,7 +105,7 @@ def model_format():
 # The patch, the maximum number of files, and the test programs that must pass with it.
 CHANGES = {
     "reflection_model": (3, reflection_model, ["lighting-equations", "lighting-widths", "lighting-words", "glsl"]),
-    "material_field": (3, material_field, ["lighting-equations", "lighting-widths", "lighting-words", "materials", "scene-file"]),
+    "material_field": (4, material_field, ["lighting-equations", "lighting-widths", "lighting-words", "materials", "scene-file"]),
     "setting": (3, setting, ["device", "scene-file"]),
     "picture_format": (4, picture_format, ["image", "encoders", "fuzz-qoi"]),
     "model_format": (4, model_format, ["import", "fuzz-off"]),

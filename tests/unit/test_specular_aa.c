@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include <lambent/device.h>
+#include <lambent/material.h>
 
 enum { SIDE = 64, FINE = 8 * SIDE, TEXELS = 256 };
 

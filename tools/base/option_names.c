@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include <lambent/lambent.h>
+#include <lambent/settings.h>
 
 // Fields without a row in the library's table of settings.
 static const struct {

@@ -8,6 +8,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include <lambent/export.h>
+
 #include "console.h"
 #include "device_option.h"
 #include "interrupt.h"

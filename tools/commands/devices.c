@@ -3,6 +3,8 @@
 
 #include <stdio.h>
 
+#include <lambent/gl.h>
+
 #include "json.h"
 #include "report.h"
 

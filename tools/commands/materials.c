@@ -6,6 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/caption.h>
+#include <lambent/fields.h>
+#include <lambent/material.h>
+
 #include "console.h"
 #include "interrupt.h"
 #include "json.h"

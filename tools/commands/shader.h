@@ -2,7 +2,7 @@
 #ifndef SHADER_COMMAND_H
 #define SHADER_COMMAND_H
 
-#include <lambent/lambent.h>
+#include <lambent/shader.h>
 
 #include <stdio.h>
 

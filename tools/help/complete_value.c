@@ -5,6 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <lambent/fields.h>
+#include <lambent/material.h>
+#include <lambent/words.h>
+
 #include "sheet.h"
 #include "sweep_option.h"
 

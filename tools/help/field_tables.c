@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <lambent/material.h>
+
 #include "help_print.h"
 
 const char *field_standard(const lam_field *field, char text[80])

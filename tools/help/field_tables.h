@@ -2,7 +2,7 @@
 #ifndef FIELD_TABLES_H
 #define FIELD_TABLES_H
 
-#include <lambent/lambent.h>
+#include <lambent/fields.h>
 
 void field_tables_markdown(void);
 void field_tables_man(void);

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include <lambent/fields.h>
+
 #include "help_print.h"
 #include "topics.h"
 

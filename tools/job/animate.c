@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/animation.h>
+
 #include "command_table.h"
 #include "console.h"
 #include "job_inputs.h"

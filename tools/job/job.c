@@ -7,6 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/explain.h>
+#include <lambent/render.h>
+
 #include "animate_frame.h"
 #include "console.h"
 #include "environment_apply.h"

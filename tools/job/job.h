@@ -2,6 +2,9 @@
 #ifndef JOB_H
 #define JOB_H
 
+#include <lambent/scene_file.h>
+#include <lambent/shader.h>
+
 #include "environment_cache.h"
 #include "options.h"
 #include "progress.h"
@@ -124,7 +127,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error);
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error);
 
 // Runs both steps and explains one pixel. Returns NULL on failure.
-lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error);
+struct lam_explanation *job_explain(struct job *job, int x, int y, struct progress *progress, lam_error *error);
 
 // Runs both steps and makes the shaders of the picture. Returns NULL on failure.
 lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error);

@@ -2,7 +2,7 @@
 #ifndef JOB_INPUTS_H
 #define JOB_INPUTS_H
 
-#include <lambent/lambent.h>
+#include <lambent/scene.h>
 
 // Returns whether writing `path` would leave the scene's input files unchanged. Fails with LAM_BAD_ARGUMENT. With
 // `own`, the scene file itself may be replaced by another scene file, but not the files that it names.

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/words.h>
+
 #include "options.h"
 #include "console.h"
 #include "light_place.h"

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/material.h>
+
 #include "console.h"
 #include "light_place.h"
 

@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <lambent/fields.h>
+
 #include "console.h"
 
 // --- vectors

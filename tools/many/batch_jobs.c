@@ -86,10 +86,8 @@ struct batch_jobs *batch_jobs_open(struct batch *b, lam_error *error)
 {
     const struct options *o = b->options;
     struct batch_jobs *jobs = calloc(1, sizeof *jobs);
-    if (!jobs) {
-        complain(error, LAM_LIMIT, "out of memory");
-        return NULL;
-    }
+    if (!jobs)
+        return complain(error, LAM_LIMIT, "out of memory"), NULL;
     jobs->batch = b;
     jobs->stream =
         (struct job_stream){.file = -1, .limit = o->batch.line_limit_bytes ? o->batch.line_limit_bytes : LINE_LIMIT};

@@ -4,6 +4,8 @@
 
 #include "console.h"
 
+#include <lambent/gl.h>
+
 lam_device *device_option_make(const struct options *o, lam_error *error)
 {
     bool gl = o->shader.lecture_device || o->work.device == DEVICE_GL || o->work.device == DEVICE_GLES ||
@@ -12,10 +14,8 @@ lam_device *device_option_make(const struct options *o, lam_error *error)
         complain(error, LAM_BAD_ARGUMENT, "options '--device cpu' and '--gl-device' cannot be used together");
         return NULL;
     }
-    if (gl && o->work.isa) {
-        complain(error, LAM_BAD_ARGUMENT, "option '--isa' applies to the CPU device, not to OpenGL");
-        return NULL;
-    }
+    if (gl && o->work.isa)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--isa' applies to the CPU device, not to OpenGL"), NULL;
     bool hardware_filter = o->work.texture_filter == TEXTURE_FILTER_HARDWARE;
     if (hardware_filter && !gl) {
         complain(error, LAM_BAD_ARGUMENT,

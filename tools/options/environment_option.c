@@ -10,10 +10,8 @@
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error)
 {
     char *copy = strdup(text), *rest = copy;
-    if (!copy) {
-        complain(error, LAM_LIMIT, "out of memory");
-        return NULL;
-    }
+    if (!copy)
+        return complain(error, LAM_LIMIT, "out of memory"), NULL;
     int count = 0;
     bool empty = false;
     for (char *path; (path = strsep(&rest, ",")); count++) {

@@ -5,6 +5,9 @@
 #include <string.h>
 #include <strings.h>
 
+#include <lambent/fields.h>
+#include <lambent/words.h>
+
 #include "console.h"
 
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error)

@@ -2,7 +2,8 @@
 #ifndef MATERIAL_OPTION_H
 #define MATERIAL_OPTION_H
 
-#include <lambent/lambent.h>
+#include <lambent/material.h>
+#include <lambent/scene.h>
 
 struct material_option {
     const char *target; // the name of an object, part or material; NULL means the whole model

@@ -2,7 +2,7 @@
 #ifndef OPTION_GROUPS_H
 #define OPTION_GROUPS_H
 
-#include <lambent/lambent.h>
+#include <lambent/base.h>
 
 enum { ACROSS_MAX = 2, VIEWS_MAX = 16 };
 

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/words.h>
+
 #include "console.h"
 #include "material_option.h"
 #include "suggest.h"

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/render.h>
+
 #include "command_table.h"
 #include "console.h"
 #include "look_option.h"

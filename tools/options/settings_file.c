@@ -324,10 +324,8 @@ static char *read_text(const char *path, size_t *length, lam_error *error)
 {
     uint64_t unused;
     int file = open_regular(path, &unused);
-    if (file < 0 && errno == 0) {
-        complain(error, LAM_CANNOT_READ, "%.300s: not a regular file, expected settings (JSON)", path);
-        return NULL;
-    }
+    if (file < 0 && errno == 0)
+        return complain(error, LAM_CANNOT_READ, "%.300s: not a regular file, expected settings (JSON)", path), NULL;
     char *text = file >= 0 ? malloc(FILE_MAX + 2) : NULL;
     bool read = text && read_up_to(file, text, FILE_MAX + 1, length);
     if (!read)

@@ -2,7 +2,7 @@
 #ifndef SHOW_OPTION_H
 #define SHOW_OPTION_H
 
-#include <lambent/lambent.h>
+#include <lambent/device.h>
 
 // Returns the output that a checked value names. NULL means the picture.
 lam_output show_option_what(const char *text);

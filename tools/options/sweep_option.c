@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/fields.h>
+#include <lambent/words.h>
+
 #include "console.h"
 #include "material_option.h"
 #include "suggest.h"

@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <lambent/scene.h>
+
 #include "console.h"
 #include "writer.h"
 

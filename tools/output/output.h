@@ -2,7 +2,7 @@
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
-#include <lambent/lambent.h>
+#include <lambent/image.h>
 
 #include "output_folder.h"
 #include "output_name.h"

@@ -5,6 +5,8 @@
 #include "json.h"
 #include "settings_json.h"
 
+#include <lambent/fields.h>
+
 static void color(struct json *json, const char *key, lam_rgb c)
 {
     json_numbers(json, key, (double[]){(double)c.r, (double)c.g, (double)c.b}, 3);

@@ -4,6 +4,8 @@
 
 #include <stdio.h>
 
+#include <lambent/explain.h>
+
 #include "job.h"
 
 void explain_json(FILE *file, const lam_explanation *explanation, const struct job *job);

@@ -2,7 +2,7 @@
 #ifndef EXPLAIN_WORDS_H
 #define EXPLAIN_WORDS_H
 
-#include <lambent/lambent.h>
+#include <lambent/device.h>
 
 static inline const char *shading_word(lam_shading shading)
 {

@@ -3,6 +3,8 @@
 
 #include "console.h"
 
+#include <lambent/material.h>
+
 // Replaces the default material with a copy in the scene, so that a scene file can store it.
 static bool replace_default(lam_scene *scene, int material, lam_error *error)
 {

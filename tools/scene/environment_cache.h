@@ -3,7 +3,7 @@
 #ifndef ENVIRONMENT_CACHE_H
 #define ENVIRONMENT_CACHE_H
 
-#include <lambent/lambent.h>
+#include <lambent/scene.h>
 
 struct environment_cache;
 

@@ -4,6 +4,8 @@
 
 #include "material_option.h"
 
+#include <lambent/scene.h>
+
 // Sets the front or back (`back`) material of a scene's objects. Error messages use `name` as the option's name.
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                          lam_error *error);

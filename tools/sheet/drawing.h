@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include <lambent/lambent.h>
+#include <lambent/caption.h>
 
 struct drawing {
     int width, height; // pixels

@@ -2,7 +2,7 @@
 #ifndef HIGHLIGHT_H
 #define HIGHLIGHT_H
 
-#include <lambent/lambent.h>
+#include <lambent/image.h>
 
 // A rectangle of a picture, in pixels from its top left corner.
 struct highlight {

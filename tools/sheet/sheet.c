@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/shader.h>
+
 #include "command_table.h"
 #include "console.h"
 #include "sheet_defaults.h"

@@ -233,10 +233,8 @@ lam_check_contract *lam_check_contract_read(const char *text, size_t size, const
 {
     lam_check_contract *out = calloc(1, sizeof *out);
     lam_error unused;
-    if (!out) {
-        fail_memory(error, sizeof *out);
-        return NULL;
-    }
+    if (!out)
+        return fail_memory(error, sizeof *out), NULL;
     arena_start(&out->arena, NULL);
     struct contract_reader r = {
         .json = {.file = file ? file : "contract", .error = error ? error : &unused, .text = text, .size = size},

@@ -137,7 +137,7 @@ static void sound_of(const char *name, char out[WORD_LENGTH])
     out[length] = 0;
 }
 
-static bool same_letters(const char *a, const char *b)
+bool same_letters(const char *a, const char *b)
 {
     for (;; a++, b++) {
         a += strspn(a, "_");

@@ -3,6 +3,11 @@
 #ifndef NAME_SIMILARITY_H
 #define NAME_SIMILARITY_H
 
+#include <stdbool.h>
+
+// Returns whether the names are equal except for case and underscores.
+bool same_letters(const char *a, const char *b);
+
 // Returns 1 for names that are equal except for case and underscores, and 0 for unrelated names. Names whose words have
 // different roles (light and eye, ambient and diffuse, position and direction) are unrelated, even if they look
 // similar. Words with the same role are treated as equal (position and point, eye and camera, normal and N).

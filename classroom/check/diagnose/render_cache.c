@@ -28,10 +28,8 @@ struct lam_check_cache {
 lam_check_cache *lam_check_cache_make(size_t max_bytes, lam_error *error)
 {
     lam_check_cache *p = calloc(1, sizeof *p);
-    if (!p) {
-        fail_memory(error, sizeof *p);
-        return NULL;
-    }
+    if (!p)
+        return fail_memory(error, sizeof *p), NULL;
     pthread_mutex_init(&p->lock, NULL);
     arena_start(&p->arena, NULL);
     p->max_bytes = max_bytes;

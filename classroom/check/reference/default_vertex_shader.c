@@ -55,10 +55,8 @@ char *default_vertex_shader(const struct shader_interface *r, char unknown[256],
     size_t capacity = 2048 + 400 * (size_t)d->count, at = 0;
     char *text = malloc(capacity);
     unknown[0] = 0;
-    if (!text) {
-        fail_memory(error, capacity);
-        return NULL;
-    }
+    if (!text)
+        return fail_memory(error, capacity), NULL;
     bool modern = d->version >= 130;
     if (d->version)
         at += (size_t)snprintf(text, capacity, "#version %d%s%s\n", d->version, d->profile[0] ? " " : "", d->profile);

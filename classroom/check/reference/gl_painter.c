@@ -80,10 +80,8 @@ static void *open(void *user, lam_check_language language, int size, char render
                                                [LAM_CHECK_LANGUAGE_ES] = GL_PROFILE_ES,
                                                [LAM_CHECK_LANGUAGE_COMPATIBILITY] = GL_PROFILE_COMPATIBILITY};
     struct gl_place *t = calloc(1, sizeof *t);
-    if (!t) {
-        fail_memory(error, sizeof *t);
-        return NULL;
-    }
+    if (!t)
+        return fail_memory(error, sizeof *t), NULL;
     t->size = size;
     t->built_ins = language == LAM_CHECK_LANGUAGE_COMPATIBILITY;
     if (!gl_context_make(&t->context, NULL, user, profiles[language], false, error)) {

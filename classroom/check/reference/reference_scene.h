@@ -4,7 +4,6 @@
 #define REFERENCE_SCENE_H
 
 #include <lambent/check.h>
-#include <lambent/lambent.h>
 
 enum { MAX_SCENE_LIGHTS = 4, MESH_COUNT = 9 };
 

@@ -159,10 +159,8 @@ char *shader_dialect_es(const char *text, bool is_vertex, lam_error *error)
     put_all(&r, text);
     r.capacity = r.at + 1;
     r.out = malloc(r.capacity);
-    if (!r.out) {
-        fail_memory(error, r.capacity);
-        return NULL;
-    }
+    if (!r.out)
+        return fail_memory(error, r.capacity), NULL;
     put_all(&r, text);
     r.out[r.at] = 0;
     return r.out;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "fail.h"
+#include "number.h"
 #include "preprocess.h"
 
 // A struct type of the source.
@@ -310,4 +311,22 @@ const struct declaration *declarations_find(const struct declarations *d, enum d
         if (d->items[i].kind == kind && strcmp(d->items[i].name, name) == 0)
             return &d->items[i];
     return NULL;
+}
+
+bool word_is(const struct declarations *d, int i, const char *text)
+{
+    return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
+}
+
+bool number_at_word(const struct declarations *d, int *at, double *out)
+{
+    bool minus = word_is(d, *at, "-");
+    const char *text = *at + minus < d->word_count ? d->words[*at + minus].text : "";
+    size_t length = strcspn(text, "fF");
+    const uint8_t *end = (const uint8_t *)text + length;
+    if (!length || !strchr("0123456789.", text[0]) || number_double((const uint8_t *)text, end, out) != end)
+        return false;
+    *out = minus ? -*out : *out;
+    *at += minus + 1;
+    return true;
 }

@@ -50,6 +50,11 @@ void declarations_free(struct declarations *d);
 // Returns whether an identifier occurs outside its own declaration.
 bool declarations_uses(const struct declarations *d, const char *name);
 
+// Returns whether word i exists and is this text.
+bool word_is(const struct declarations *d, int i, const char *text);
+// Parses a number with its sign at word *at, and advances *at past the number. Returns false if there is none.
+bool number_at_word(const struct declarations *d, int *at, double *out);
+
 const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name);
 
 #endif

@@ -23,10 +23,8 @@ char *check_read_text(const char *path, lam_error *error)
 {
     bool standard = strcmp(path, "-") == 0;
     FILE *file = standard ? stdin : fopen(path, "rb");
-    if (!file) {
-        complain(error, LAM_CANNOT_READ, "%s: %s", path, strerror(errno));
-        return NULL;
-    }
+    if (!file)
+        return complain(error, LAM_CANNOT_READ, "%s: %s", path, strerror(errno)), NULL;
     char *text = malloc(MAX_TEXT_BYTES + 1);
     size_t size = text ? fread(text, 1, MAX_TEXT_BYTES + 1, file) : 0;
     bool bad = ferror(file);

@@ -63,10 +63,8 @@ static int list_folder(const char *folder, char ***paths, lam_error *error)
     DIR *open = opendir(folder);
     int count = 0;
     *paths = NULL;
-    if (!open) {
-        complain(error, LAM_CANNOT_READ, "%s: %s", folder, strerror(errno));
-        return -1;
-    }
+    if (!open)
+        return complain(error, LAM_CANNOT_READ, "%s: %s", folder, strerror(errno)), -1;
     for (struct dirent *entry; (entry = readdir(open));) {
         if (entry->d_name[0] == '.' || strcmp(entry->d_name, "__MACOSX") == 0)
             continue;

@@ -5,6 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/light_eval.h>
+#include <lambent/words.h>
+
 #include "options.h"
 #include "command.h"
 #include "console.h"

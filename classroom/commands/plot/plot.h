@@ -4,6 +4,9 @@
 
 #include "drawing.h"
 
+#include <lambent/light.h>
+#include <lambent/reflection.h>
+
 enum { CURVES_MAX = 32 };
 
 // A function y(x), clipped at the top of the plot.

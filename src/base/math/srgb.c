@@ -1,7 +1,6 @@
 // srgb.c: converts sRGB-encoded numbers to linear light, using only + − × ÷.
 #include "srgb.h"
 
-#include <stdint.h>
 #include <string.h>
 
 // Returns the fifth root by Newton's method. The first estimate, computed from the exponent divided by five, has an
@@ -28,4 +27,18 @@ double srgb_linear(double encoded)
         return encoded / 12.92;
     double base = (encoded + 0.055) / 1.055, square = base * base;
     return square * fifth_root(square); // base^2.4
+}
+
+// By bisection, because the curve is monotonic.
+uint8_t srgb_byte(double linear)
+{
+    int low = 0, high = 255;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (srgb_linear((middle + 0.5) / 255) < linear)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return (uint8_t)low;
 }

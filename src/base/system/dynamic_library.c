@@ -1,7 +1,6 @@
 // dynamic_library.c: opens libraries with dlopen and dlsym.
 #include "dynamic_library.h"
 
-#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -121,3 +120,18 @@ bool library_find(void *library, const char *name, void *function)
 }
 
 #endif
+
+const char *library_open_functions(void **handle, const char *name, bool resident, const char *const *functions,
+                                   const char *lacking)
+{
+    *handle = library_open(name, resident, NULL);
+    if (!*handle)
+        return "is not installed";
+    for (int i = 0; functions[i]; i++)
+        if (!library_find(*handle, functions[i], (char *)handle + (size_t)(i + 1) * sizeof *handle)) {
+            library_close(*handle);
+            *handle = NULL;
+            return lacking;
+        }
+    return NULL;
+}

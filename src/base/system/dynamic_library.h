@@ -3,6 +3,7 @@
 #define DYNAMIC_LIBRARY_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 // Opens a library by its file name ("libfreetype.so.6"). Returns NULL if the library is not installed, and stores the
 // loader's error message in *reason (`reason` may be NULL). With `resident`, the library stays loaded until the process
@@ -17,5 +18,20 @@ void library_close(void *library); // NULL is allowed
 // Stores the address of a function at `function`, a pointer to a function pointer. Returns false if the library does
 // not contain it.
 bool library_find(void *library, const char *name, void *function);
+
+// A module lists the functions of a library that it calls as a macro, FUNCTIONS(each), and declares a struct of a handle
+// and these functions with the types of their declarations:
+//  struct zip {
+//      void *handle;
+//      FUNCTIONS(LIBRARY_MEMBER)
+//  };
+#define LIBRARY_MEMBER(name)     __typeof__(&name) name;
+#define LIBRARY_NAME(name)       #name,
+#define LIBRARY_NAMES(functions) ((const char *const[]){functions(LIBRARY_NAME) NULL})
+
+// Opens a library and looks up LIBRARY_NAMES(FUNCTIONS), in the order of the struct. `handle` points to the struct's
+// handle. Returns NULL on success. Otherwise sets the handle to NULL and returns "is not installed" or `lacking`.
+const char *library_open_functions(void **handle, const char *name, bool resident, const char *const *functions,
+                                   const char *lacking);
 
 #endif

@@ -42,10 +42,8 @@ struct material_products *products_make(struct buffer *storage, const struct fra
     size_t skies = (size_t)frame->hemisphere_count,
            each = lights * sizeof(struct light_products) + skies * 6 * sizeof(float);
     size_t bytes;
-    if (__builtin_mul_overflow(materials, each + sizeof(struct material_products), &bytes)) {
-        fail(error, LAM_LIMIT, "%zu materials under %zu lights are too many", materials, lights);
-        return NULL;
-    }
+    if (__builtin_mul_overflow(materials, each + sizeof(struct material_products), &bytes))
+        return fail(error, LAM_LIMIT, "%zu materials under %zu lights are too many", materials, lights), NULL;
     if (!buffer_reserve(storage, bytes, call, error))
         return NULL;
     struct material_products *products = storage->data;

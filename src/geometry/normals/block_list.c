@@ -10,10 +10,8 @@ struct list_block *list_block_new(struct block_lists *lists, struct list_block *
         if (lists->slab_left < BLOCK_BYTES) {
             lists->slab = scratch_take(lists->scratch, &lists->arena, 1, lists->slab_bytes);
             lists->slab_left = lists->slab ? lists->slab_bytes : 0;
-            if (!lists->slab) {
-                no_memory(lists->loop);
-                return NULL;
-            }
+            if (!lists->slab)
+                return no_memory(lists->loop), NULL;
         }
         block = (struct list_block *)lists->slab;
         lists->slab += BLOCK_BYTES;

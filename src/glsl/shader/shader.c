@@ -441,10 +441,8 @@ lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, co
     draw = draw ? draw : &plain_draw;
     if (params && !check_reserved("lam_shader_params", params, error))
         return NULL;
-    if (!scene || !camera) {
-        fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %s is NULL", scene ? "camera" : "scene");
-        return NULL;
-    }
+    if (!scene || !camera)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %s is NULL", scene ? "camera" : "scene"), NULL;
     if (width < 1 || height < 1 || width > 65535 || height > 65535) {
         fail(error, LAM_BAD_ARGUMENT, "lam_shader_make: %d×%d pixels, expected 1 to 65535 each way", width, height);
         return NULL;

@@ -42,25 +42,15 @@ static bool exr_probe(const uint8_t *bytes, size_t size)
 
 struct core {
     void *handle;
-#define MEMBER(name) __typeof__(&name) name;
-    FUNCTIONS(MEMBER)
+    FUNCTIONS(LIBRARY_MEMBER)
 };
 
 static bool open_core(struct core *core, lam_error *error)
 {
-    *core = (struct core){.handle = library_open(LIBRARY, false, NULL)};
-    if (!core->handle)
-        return fail(error, LAM_UNSUPPORTED,
-                    "EXR: " LIBRARY " is not installed; the Debian package libopenexr-3-1-30 has it");
-    bool all = true;
-#define LOOK_UP(name) all = all && library_find(core->handle, #name, &core->name);
-    FUNCTIONS(LOOK_UP)
-    if (all)
-        return true;
-    library_close(core->handle);
-    return fail(error, LAM_UNSUPPORTED,
-                "EXR: " LIBRARY " lacks functions that OpenEXR 3.1 has; the Debian package "
-                "libopenexr-3-1-30 has them");
+    const char *fault = library_open_functions(&core->handle, LIBRARY, false, LIBRARY_NAMES(FUNCTIONS),
+                                               "lacks functions that OpenEXR 3.1 has");
+    return !fault ||
+           fail(error, LAM_UNSUPPORTED, "EXR: " LIBRARY " %s; the Debian package libopenexr-3-1-30 has it", fault);
 }
 
 // Replaces the error handler of OpenEXRCore, which would print to standard error.
@@ -117,10 +107,8 @@ static const char *letters_of(const lam_layer *layer)
 static struct channel *list_channels(const lam_layer *layers, int count, int *channel_count, lam_error *error)
 {
     struct channel *channels = calloc(4 * (size_t)count, sizeof *channels);
-    if (!channels) {
-        fail_memory(error, 4 * (size_t)count * sizeof *channels);
-        return NULL;
-    }
+    if (!channels)
+        return fail_memory(error, 4 * (size_t)count * sizeof *channels), NULL;
     int used = 0;
     bool ok = true;
     for (int i = 0; ok && i < count; i++) {

@@ -31,19 +31,10 @@ static bool webp_probe(const uint8_t *bytes, size_t size)
 bool webp_open(struct webp_library *webp, const char *file, lam_error *error)
 {
     const char *name = file ? file : "", *colon = file ? ": " : "";
-    *webp = (struct webp_library){.handle = library_open(WEBP_LIBRARY, false, NULL)};
-    if (!webp->handle)
-        return fail(error, LAM_UNSUPPORTED, "%s%sWebP needs " WEBP_LIBRARY ", which is not installed; " NEEDED, name,
-                    colon);
-    bool all = true;
-#define LOOK_UP(name) all = all && library_find(webp->handle, #name, &webp->name);
-    WEBP_FUNCTIONS(LOOK_UP)
-    if (all)
-        return true;
-    library_close(webp->handle);
-    webp->handle = NULL;
-    return fail(error, LAM_UNSUPPORTED, "%s%s" WEBP_LIBRARY " lacks functions that libwebp 1.0 has; " NEEDED, name,
-                colon);
+    const char *fault = library_open_functions(&webp->handle, WEBP_LIBRARY, false, LIBRARY_NAMES(WEBP_FUNCTIONS),
+                                               "lacks functions that libwebp 1.0 has");
+    return !fault ||
+           fail(error, LAM_UNSUPPORTED, "%s%sWebP needs " WEBP_LIBRARY ", which %s; " NEEDED, name, colon, fault);
 }
 
 bool webp_is_installed(void)

@@ -22,8 +22,7 @@
 struct webp_animation {
     struct webp_library webp;
     void *handle;
-#define MEMBER(name) __typeof__(&name) name;
-    FUNCTIONS(MEMBER)
+    FUNCTIONS(LIBRARY_MEMBER)
     struct animation_settings settings;
     WebPAnimEncoder *encoder;
     int count; // number of frames so far
@@ -41,13 +40,9 @@ static void animation_free(void *state)
 
 static bool open_mux(struct webp_animation *animation, lam_error *error)
 {
-    animation->handle = library_open(LIBRARY, false, NULL);
-    if (!animation->handle)
-        return fail(error, LAM_UNSUPPORTED, "animated WebP needs " LIBRARY ", which is not installed; " NEEDED);
-    bool all = true;
-#define LOOK_UP(name) all = all && library_find(animation->handle, #name, &animation->name);
-    FUNCTIONS(LOOK_UP)
-    return all || fail(error, LAM_UNSUPPORTED, LIBRARY " lacks functions that libwebp 1.0 has; " NEEDED);
+    const char *fault = library_open_functions(&animation->handle, LIBRARY, false, LIBRARY_NAMES(FUNCTIONS),
+                                               "lacks functions that libwebp 1.0 has");
+    return !fault || fail(error, LAM_UNSUPPORTED, "animated WebP needs " LIBRARY ", which %s; " NEEDED, fault);
 }
 
 static bool make_encoder(struct webp_animation *animation, lam_error *error)
@@ -67,10 +62,8 @@ static void *animation_start(const struct animation_settings *settings, lam_erro
     if (!webp_check_size(settings->width, settings->height, error))
         return NULL;
     struct webp_animation *animation = calloc(1, sizeof *animation);
-    if (!animation) {
-        fail_memory(error, sizeof *animation);
-        return NULL;
-    }
+    if (!animation)
+        return fail_memory(error, sizeof *animation), NULL;
     animation->settings = *settings;
     if (webp_open(&animation->webp, NULL, error) && open_mux(animation, error) && make_encoder(animation, error))
         return animation;

@@ -10,6 +10,7 @@ bool webp_is_installed(void);
 #ifdef HAVE_WEBP
 
 #include "call_control.h"
+#include "dynamic_library.h"
 
 #include <webp/decode.h>
 #include <webp/encode.h>
@@ -25,9 +26,7 @@ bool webp_is_installed(void);
 
 struct webp_library {
     void *handle; // the handle for library_close
-#define MEMBER(name) __typeof__(&name) name;
-    WEBP_FUNCTIONS(MEMBER)
-#undef MEMBER
+    WEBP_FUNCTIONS(LIBRARY_MEMBER)
 };
 
 // Opens libwebp. Error messages begin with `file`, unless `file` is NULL. Fails with LAM_UNSUPPORTED.

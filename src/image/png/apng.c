@@ -46,10 +46,8 @@ static void apng_free(void *state)
 static void *apng_start(const struct animation_settings *settings, lam_error *error)
 {
     struct apng *apng = calloc(1, sizeof *apng);
-    if (!apng) {
-        fail_memory(error, sizeof *apng);
-        return NULL;
-    }
+    if (!apng)
+        return fail_memory(error, sizeof *apng), NULL;
     apng->settings = *settings;
     return apng;
 }

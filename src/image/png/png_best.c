@@ -28,12 +28,13 @@ enum {
     BOUNDARY = 5, // the maximum size of an empty stored block in bytes
 };
 
+#define FUNCTIONS(each)                                                                                                \
+    each(libdeflate_alloc_compressor) each(libdeflate_free_compressor) each(libdeflate_deflate_compress)               \
+        each(libdeflate_deflate_compress_bound)
+
 struct libdeflate {
     void *library;
-    __typeof__(&libdeflate_alloc_compressor) alloc_compressor;
-    __typeof__(&libdeflate_free_compressor) free_compressor;
-    __typeof__(&libdeflate_deflate_compress) compress;
-    __typeof__(&libdeflate_deflate_compress_bound) bound;
+    FUNCTIONS(LIBRARY_MEMBER)
 };
 
 struct best_thread {
@@ -52,17 +53,10 @@ struct best_state {
 
 static bool open_libdeflate(struct libdeflate *d, lam_error *error)
 {
-    d->library = library_open(LIBRARY, false, NULL);
-    if (!d->library)
-        return fail(error, LAM_UNSUPPORTED,
-                    "PNG: the best compression needs " LIBRARY ", which is not installed; " NEEDED);
-    void *l = d->library;
-    if (library_find(l, "libdeflate_alloc_compressor", &d->alloc_compressor) &&
-        library_find(l, "libdeflate_free_compressor", &d->free_compressor) &&
-        library_find(l, "libdeflate_deflate_compress", &d->compress) &&
-        library_find(l, "libdeflate_deflate_compress_bound", &d->bound))
-        return true;
-    return fail(error, LAM_UNSUPPORTED, "PNG: " LIBRARY " lacks functions of its version 1.0; " NEEDED);
+    const char *fault = library_open_functions(&d->library, LIBRARY, false, LIBRARY_NAMES(FUNCTIONS),
+                                               "lacks functions of its version 1.0");
+    return !fault ||
+           fail(error, LAM_UNSUPPORTED, "PNG: the best compression needs " LIBRARY ", which %s; " NEEDED, fault);
 }
 
 static size_t padded_width(const struct png_encoding *encoding) { return ((size_t)encoding->image->width + 3) / 4 * 4; }
@@ -82,13 +76,13 @@ static bool best_start(struct png_encoding *encoding, struct pool *pool, struct 
     if (!open_libdeflate(&state->libdeflate, error))
         return false;
     state->count = count;
-    encoding->capacity = state->libdeflate.bound(NULL, strip_bytes) + BOUNDARY;
+    encoding->capacity = state->libdeflate.libdeflate_deflate_compress_bound(NULL, strip_bytes) + BOUNDARY;
     bool ok = true;
     for (size_t i = 0; ok && i < count; i++) {
         struct best_thread *t = &state->threads[i];
         t->libdeflate = &state->libdeflate;
-        t->trial = state->libdeflate.alloc_compressor(TRIAL_LEVEL);
-        t->best = state->libdeflate.alloc_compressor(BEST_LEVEL);
+        t->trial = state->libdeflate.libdeflate_alloc_compressor(TRIAL_LEVEL);
+        t->best = state->libdeflate.libdeflate_alloc_compressor(BEST_LEVEL);
         t->filtered = arena_alloc(arena, strip_bytes);
         t->smallest = arena_alloc(arena, strip_bytes);
         t->words = arena_array(arena, 2 * padded_width(encoding), sizeof *t->words);
@@ -102,9 +96,9 @@ static void best_end(struct png_encoding *encoding)
     struct best_state *state = encoding->threads;
     for (size_t i = 0; state && i < state->count; i++) {
         if (state->threads[i].trial)
-            state->libdeflate.free_compressor(state->threads[i].trial);
+            state->libdeflate.libdeflate_free_compressor(state->threads[i].trial);
         if (state->threads[i].best)
-            state->libdeflate.free_compressor(state->threads[i].best);
+            state->libdeflate.libdeflate_free_compressor(state->threads[i].best);
     }
     if (state)
         library_close(state->libdeflate.library);
@@ -184,7 +178,8 @@ static size_t best_strip(struct png_encoding *encoding, int strip, int thread, s
         if (!call_should_continue(&encoding->call))
             return 0;
         filter_strip(encoding, t, strip, way);
-        const size_t compressed = t->libdeflate->compress(t->trial, t->filtered, size, out, encoding->capacity);
+        const size_t compressed =
+            t->libdeflate->libdeflate_deflate_compress(t->trial, t->filtered, size, out, encoding->capacity);
         if (compressed < min_size) {
             min_size = compressed;
             uint8_t *smallest = t->filtered;
@@ -195,7 +190,8 @@ static size_t best_strip(struct png_encoding *encoding, int strip, int thread, s
     if (!call_should_continue(&encoding->call))
         return 0;
     adler_bytes(adler, t->smallest, size);
-    const size_t compressed = t->libdeflate->compress(t->best, t->smallest, size, out, encoding->capacity - BOUNDARY);
+    const size_t compressed =
+        t->libdeflate->libdeflate_deflate_compress(t->best, t->smallest, size, out, encoding->capacity - BOUNDARY);
     return open_stream(out, compressed, t->filtered, size);
 }
 #else

@@ -20,22 +20,14 @@ enum {
     CHUNK_EXTRA = 12,      // length, type and checksum of a chunk
 };
 
+#define FUNCTIONS(each)                                                                                                \
+    each(libdeflate_alloc_decompressor) each(libdeflate_free_decompressor) each(libdeflate_zlib_decompress_ex)         \
+        each(libdeflate_crc32)
+
 struct inflater {
     void *library;
-    __typeof__(&libdeflate_alloc_decompressor) alloc;
-    __typeof__(&libdeflate_free_decompressor) free;
-    __typeof__(&libdeflate_zlib_decompress_ex) decompress;
-    __typeof__(&libdeflate_crc32) crc;
+    FUNCTIONS(LIBRARY_MEMBER)
 };
-
-static bool open_inflater(struct inflater *d)
-{
-    d->library = library_open("libdeflate.so.0", true, NULL);
-    return d->library && library_find(d->library, "libdeflate_alloc_decompressor", &d->alloc) &&
-           library_find(d->library, "libdeflate_free_decompressor", &d->free) &&
-           library_find(d->library, "libdeflate_zlib_decompress_ex", &d->decompress) &&
-           library_find(d->library, "libdeflate_crc32", &d->crc);
-}
 
 // --- the chunks
 
@@ -52,7 +44,7 @@ static bool chunk_at(const struct picture_file *file, size_t at, const char *typ
 static bool is_intact(const struct inflater *d, const struct picture_file *file, size_t at, uint32_t length)
 {
     const uint8_t *chunk = (const uint8_t *)file->bytes + at;
-    return d->crc(0, chunk + 4, (size_t)length + 4) == png_u32_at(chunk + 8 + length);
+    return d->libdeflate_crc32(0, chunk + 4, (size_t)length + 4) == png_u32_at(chunk + 8 + length);
 }
 
 // Returns the position of the first chunk of pixels, or 0 if there is none.
@@ -198,12 +190,13 @@ static bool unfilter_row(uint8_t *row, const uint8_t *above, const uint8_t *from
 static bool decompress(const struct inflater *d, const uint8_t *compressed, size_t size, uint8_t *out, size_t out_size)
 {
     size_t used, made;
-    struct libdeflate_decompressor *decompressor = size ? d->alloc() : NULL;
+    struct libdeflate_decompressor *decompressor = size ? d->libdeflate_alloc_decompressor() : NULL;
     bool ok = decompressor &&
-              d->decompress(decompressor, compressed, size, out, out_size, &used, &made) == LIBDEFLATE_SUCCESS &&
+              d->libdeflate_zlib_decompress_ex(decompressor, compressed, size, out, out_size, &used, &made) ==
+                  LIBDEFLATE_SUCCESS &&
               used == size && made == out_size;
     if (decompressor)
-        d->free(decompressor);
+        d->libdeflate_free_decompressor(decompressor);
     return ok;
 }
 
@@ -238,7 +231,8 @@ bool png_read_whole(const struct picture_file *file, int channels, lam_image *im
     struct inflater d;
     uint32_t width = (uint32_t)image->width, height = (uint32_t)image->height;
     size_t first = find_pixels(file), filtered = filtered_bytes(width, height, channels), zeros = 4 * (size_t)width + 1;
-    if (!first || (size_t)width * height < PIXELS_MIN || filtered > BYTES_MAX || !open_inflater(&d))
+    if (!first || (size_t)width * height < PIXELS_MIN || filtered > BYTES_MAX ||
+        library_open_functions(&d.library, "libdeflate.so.0", true, LIBRARY_NAMES(FUNCTIONS), ""))
         return false;
     size_t bytes = zeros + (file->size - first), held;
     if (file->call && !call_charge_spare(file->call, bytes))

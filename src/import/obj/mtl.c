@@ -7,6 +7,8 @@
 #include "shown_name.h"
 #include "text_cursor.h"
 
+#include <lambent/material.h>
+
 #include <string.h>
 #include <strings.h>
 

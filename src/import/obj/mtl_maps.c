@@ -8,6 +8,8 @@
 
 #include "fail.h"
 
+#include <lambent/material.h>
+
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>

@@ -13,10 +13,8 @@
 static float *grow(struct obj *obj, const float *array, size_t count, size_t more, size_t width, lam_error *error)
 {
     float *larger = arena_array(&obj->scene->arena, count + more, width * sizeof *larger);
-    if (!larger) {
-        call_memory_error(obj->source->call, (count + more) * width * sizeof *larger, error);
-        return NULL;
-    }
+    if (!larger)
+        return call_memory_error(obj->source->call, (count + more) * width * sizeof *larger, error), NULL;
     memcpy(larger, array, count * width * sizeof *larger);
     return larger;
 }

@@ -51,19 +51,15 @@ static const uint8_t *read_scalar(const struct ply_reader *reader, size_t row, i
         float narrow = 0.0f;
         double wide = 0.0;
         next = type == PLY_F32 ? number_float(at, reader->end, &narrow) : number_double(at, reader->end, &wide);
-        if (!next || (next < reader->end && !text_white(*next))) {
-            fail_number(reader, row, property, at, "a number", error);
-            return NULL;
-        }
+        if (!next || (next < reader->end && !text_white(*next)))
+            return fail_number(reader, row, property, at, "a number", error), NULL;
         memcpy(out, type == PLY_F32 ? (const void *)&narrow : &wide, ply_type_size(type));
         return next;
     }
     int64_t value = 0;
     next = read_integer(reader, at, &value);
-    if (!next || value < ranges[type].min || value > ranges[type].max) {
-        fail_number(reader, row, property, at, ranges[type].expected, error);
-        return NULL;
-    }
+    if (!next || value < ranges[type].min || value > ranges[type].max)
+        return fail_number(reader, row, property, at, ranges[type].expected, error), NULL;
     // Two's complement, truncated to the type's size.
     uint8_t value8 = (uint8_t)value;
     uint16_t value16 = (uint16_t)value;

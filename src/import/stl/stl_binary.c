@@ -14,6 +14,8 @@
 #include "fail.h"
 #include "srgb.h"
 
+#include <lambent/material.h>
+
 #include <string.h>
 
 // Statistics of the attribute words of a chunk.

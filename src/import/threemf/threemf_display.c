@@ -6,6 +6,8 @@
 
 #ifdef HAVE_3MF
 
+#include <lambent/material.h>
+
 #include <string.h>
 
 // The surface that an element of display properties describes.

@@ -15,6 +15,8 @@
 #include "encoding.h"
 #include "texture_levels.h"
 
+#include <lambent/material.h>
+
 #include <string.h>
 
 enum { WHITE }; // the first colour of each part
@@ -257,10 +259,8 @@ static int add_mixed_material(struct threemf *file, const lam_texture_map *like,
 {
     lam_material material = base >= 0 ? *lam_scene_material(file->scene, base) : lam_material_default();
     lam_texture_map *map = arena_alloc(&file->scene->arena, sizeof *map);
-    if (!map) {
-        threemf_no_memory(file, sizeof *map);
-        return -1;
-    }
+    if (!map)
+        return threemf_no_memory(file, sizeof *map), -1;
     *map = *like;
     map->texture = texture;
     material.maps[LAM_MAP_DIFFUSE] = map;

@@ -314,10 +314,8 @@ struct threemf_part *threemf_part_at(struct threemf *file, const char *path)
     if (part)
         part->path = arena_string(file->scratch, path);
     struct threemf_part **row = part && part->path ? threemf_add(file, &file->parts, sizeof part) : NULL;
-    if (!row || !name_table_add(&file->part_names, part->path, (int32_t)file->parts.count - 1)) {
-        threemf_no_memory(file, sizeof *part);
-        return NULL;
-    }
+    if (!row || !name_table_add(&file->part_names, part->path, (int32_t)file->parts.count - 1))
+        return threemf_no_memory(file, sizeof *part), NULL;
     *row = part;
     part->ids.memory = file->scratch;
     return read_part(file, part) ? part : NULL;

@@ -23,10 +23,9 @@
 
 struct zip_library {
     void *handle;
+    FUNCTIONS(LIBRARY_MEMBER)
     zip_t *archive;
     size_t charged; // bytes charged for libzip's list of entries
-#define MEMBER(name) __typeof__(&name) name;
-    FUNCTIONS(MEMBER)
 };
 
 // --- checking the declared size before libzip allocates memory
@@ -99,20 +98,15 @@ static bool open_library(struct threemf *file)
     struct zip_library *zip = arena_alloc_zeroed(file->scratch, sizeof *zip);
     if (!zip)
         return threemf_no_memory(file, sizeof *zip);
-    zip->handle = library_open(NEWER_LIBRARY, true, NULL);
-    if (!zip->handle)
-        zip->handle = library_open(LIBRARY, true, NULL);
-    bool all = zip->handle != NULL;
-#define LOOK_UP(name) all = all && library_find(zip->handle, #name, &zip->name);
-    FUNCTIONS(LOOK_UP)
-    if (all) {
-        file->zip = zip;
-        return true;
-    }
-    library_close(zip->handle);
-    return fail(file->error, LAM_UNSUPPORTED,
+    static const char *const lacking = "lacks functions of libzip 1.7";
+    const char *fault = library_open_functions(&zip->handle, NEWER_LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), lacking);
+    if (fault)
+        fault = library_open_functions(&zip->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), lacking);
+    file->zip = fault ? NULL : zip;
+    return !fault ||
+           fail(file->error, LAM_UNSUPPORTED,
                 "%s: reading 3MF needs " LIBRARY ", which %s (Debian's package libzip4, in Debian 13 libzip5)",
-                file->source->name, zip->handle ? "lacks functions of libzip 1.7" : "is not installed");
+                file->source->name, fault);
 }
 
 static bool open_archive(struct threemf *file)

@@ -11,6 +11,8 @@
 #include "number.h"
 #include "texture_levels.h"
 
+#include <lambent/material.h>
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -191,10 +193,8 @@ static int add_textured_material(struct threemf *file, const lam_texture_map *ma
         material.maps[LAM_MAP_DIFFUSE] = copy;
         material.diffuse = (lam_rgba){1, 1, 1, 1};
         material.ambient = (lam_rgb){1, 1, 1};
-    } else if (map->texture) {
-        threemf_no_memory(file, sizeof *copy);
-        return -1;
-    }
+    } else if (map->texture)
+        return threemf_no_memory(file, sizeof *copy), -1;
     return scene_adopt_material(file->scene, &material, file->error);
 }
 

@@ -55,17 +55,13 @@ struct threemf_resource *model_add_resource(struct threemf_xml *xml, const char 
     char name[16];
     if (!threemf_take_number(xml, attributes, "id", &id, NULL))
         return NULL;
-    if (threemf_resource_at(part, (int32_t)id)) {
-        threemf_xml_fail(xml, "the id %u is used twice", id);
-        return NULL;
-    }
+    if (threemf_resource_at(part, (int32_t)id))
+        return threemf_xml_fail(xml, "the id %u is used twice", id), NULL;
     snprintf(name, sizeof name, "%d", (int32_t)id);
     const char *copy = arena_string(reader->file->scratch, name);
     struct threemf_resource *resource = copy ? threemf_add(reader->file, &part->resources, sizeof *resource) : NULL;
-    if (!resource || !name_table_add(&part->ids, copy, (int32_t)part->resources.count - 1)) {
-        threemf_no_memory(reader->file, sizeof *resource);
-        return NULL;
-    }
+    if (!resource || !name_table_add(&part->ids, copy, (int32_t)part->resources.count - 1))
+        return threemf_no_memory(reader->file, sizeof *resource), NULL;
     *resource = (struct threemf_resource){.kind = kind, .material = -1, .base = -1};
     reader->group = (int32_t)part->resources.count - 1;
     return resource;

@@ -28,8 +28,7 @@
 
 struct expat_library {
     void *handle;
-#define MEMBER(name) __typeof__(&name) name;
-    FUNCTIONS(MEMBER)
+    FUNCTIONS(LIBRARY_MEMBER)
 };
 
 enum { DEPTH_MAX = 256, TOKEN_BYTES = 1 << 20, SPACES_MAX = 256 };
@@ -288,18 +287,12 @@ bool threemf_xml_open(struct threemf *file)
     struct expat_library *expat = arena_alloc_zeroed(file->scratch, sizeof *expat);
     if (!expat)
         return threemf_no_memory(file, sizeof *expat);
-    expat->handle = library_open(LIBRARY, true, NULL);
-    bool all = expat->handle != NULL;
-#define LOOK_UP(name) all = all && library_find(expat->handle, #name, &expat->name);
-    FUNCTIONS(LOOK_UP)
-    if (all) {
-        file->expat = expat;
-        return true;
-    }
-    library_close(expat->handle);
-    return fail(file->error, LAM_UNSUPPORTED,
-                "%s: reading 3MF needs " LIBRARY ", which %s (Debian's package libexpat1)", file->source->name,
-                expat->handle ? "lacks functions of expat 2" : "is not installed");
+    const char *fault =
+        library_open_functions(&expat->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), "lacks functions of expat 2");
+    file->expat = fault ? NULL : expat;
+    return !fault ||
+           fail(file->error, LAM_UNSUPPORTED,
+                "%s: reading 3MF needs " LIBRARY ", which %s (Debian's package libexpat1)", file->source->name, fault);
 }
 
 void threemf_xml_close(struct threemf *file)

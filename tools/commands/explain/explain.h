@@ -2,7 +2,7 @@
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 
-#include <lambent/lambent.h>
+#include <lambent/explain.h>
 
 void explain_text(const lam_explanation *explanation, const char *model);
 

@@ -2,7 +2,7 @@
 #ifndef EXPLAIN_ROWS_H
 #define EXPLAIN_ROWS_H
 
-#include <lambent/lambent.h>
+#include <lambent/explain.h>
 
 void row_label(int indent, const char *text); // pads the label with blanks
 void row_three(int indent, const char *name, double x, double y, double z, const char *remark);

@@ -4,6 +4,8 @@
 
 #include <stdio.h>
 
+#include <lambent/fields.h>
+
 #include "job.h"
 
 // A texture that a material uses, or an unused picture in the file.

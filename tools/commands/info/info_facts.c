@@ -1,6 +1,8 @@
 // info_facts.c: collects the facts about a model that both output formats of the command `info` print.
 #include "info.h"
 
+#include <lambent/material.h>
+
 #include <string.h>
 
 struct info_counts info_count(const lam_scene *scene)

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include <lambent/material.h>
+
 #include "json.h"
 #include "report.h"
 

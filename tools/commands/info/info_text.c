@@ -4,6 +4,8 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include <lambent/material.h>
+
 #include "option_names.h"
 
 enum { ROWS = 8, NAME_BYTES = 40, LINE_BYTES = 120 };

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/material.h>
+
 #include "console.h"
 
 static void add(struct info_textures *textures, const lam_texture *texture, const lam_file_image *image)

@@ -115,10 +115,8 @@ static char *write_text(const struct specialization *made_for, bool es, bool fra
     size_t capacity = strlen(text_fault_maps_glsl) + strlen(text_fault_physical_glsl) + strlen(text_fault_light_glsl) +
                       strlen(body) + 40 * FAULT_BIT_COUNT + 800;
     char *text = malloc(capacity);
-    if (!text) {
-        fail_memory(error, capacity);
-        return NULL;
-    }
+    if (!text)
+        return fail_memory(error, capacity), NULL;
     size_t at = write_constants(made_for, es, text, capacity);
     snprintf(text + at, capacity - at, "%s%s%s%s%s%s", made_for->maps ? "#define MAPS\n" : "",
              fragment ? "#define FRAGMENT\n" : "", text_fault_maps_glsl, text_fault_physical_glsl,
@@ -129,10 +127,8 @@ static char *write_text(const struct specialization *made_for, bool es, bool fra
 struct fault_shader *fault_shader_open(const lam_check_painter *painter, int size, int stride, lam_error *error)
 {
     struct fault_shader *m = calloc(1, sizeof *m);
-    if (!m) {
-        fail_memory(error, sizeof *m);
-        return NULL;
-    }
+    if (!m)
+        return fail_memory(error, sizeof *m), NULL;
     m->size = size;
     m->stride = stride;
     if (!place_open(&m->place, painter, LAM_CHECK_LANGUAGE_CORE, fault_shader_size(size, stride), error)) {

@@ -84,10 +84,8 @@ static const uint8_t *take_run(struct gltf *gltf, const struct place *place, con
     if (!gltf_take_index(gltf, place, object, "bufferView", "bufferViews", &index) ||
         !gltf_take_whole(gltf, place, object, "byteOffset", 0, 9e15, &offset))
         return NULL;
-    if (index < 0) {
-        json_fail(&gltf->json, place, "bufferView is missing");
-        return NULL;
-    }
+    if (index < 0)
+        return json_fail(&gltf->json, place, "bufferView is missing"), NULL;
     const struct gltf_view *view = gltf_view_at(gltf, index);
     if (!view)
         return NULL;
@@ -152,10 +150,8 @@ struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index)
     if (accessor->ready)
         return accessor;
     *accessor = (struct gltf_accessor){.buffer = -1};
-    if (!json_object_get(object, "count")) {
-        json_fail(&gltf->json, place, "count is missing");
-        return NULL;
-    }
+    if (!json_object_get(object, "count"))
+        return json_fail(&gltf->json, place, "count is missing"), NULL;
     if (!take_component(gltf, place, object, &accessor->component) ||
         !take_type(gltf, place, object, accessor, &element) ||
         !gltf_take_whole(gltf, place, object, "count", 1, 4294967295.0, &accessor->count) ||

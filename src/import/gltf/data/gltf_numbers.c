@@ -189,10 +189,8 @@ static float *convert_all(struct gltf *gltf, const struct gltf_accessor *a, stru
     size_t bytes = a->count * (size_t)a->width * sizeof(float);
     struct conversion conversion = {.accessor = a, .out = arena_array(arena, bytes, 1)};
     struct sparse_floats sparse = {a, conversion.out};
-    if (!conversion.out) {
-        gltf_no_memory(gltf, bytes);
-        return NULL;
-    }
+    if (!conversion.out)
+        return gltf_no_memory(gltf, bytes), NULL;
     return parallel_rows_run(gltf->source, parallel_rows_count(a->count), convert_chunk, &conversion,
                              gltf->json.error) &&
                    each_sparse(gltf, a, put_floats, &sparse)
@@ -291,10 +289,8 @@ const uint32_t *gltf_indices(struct gltf *gltf, const struct place *place, struc
     }
     struct indexing indexing = {.accessor = a};
     bool keep = in_place(a, GLTF_U32);
-    if (!keep && !(indexing.out = arena_array(&gltf->scene->arena, a->count, sizeof *indexing.out))) {
-        gltf_no_memory(gltf, a->count * sizeof *indexing.out);
-        return NULL;
-    }
+    if (!keep && !(indexing.out = arena_array(&gltf->scene->arena, a->count, sizeof *indexing.out)))
+        return gltf_no_memory(gltf, a->count * sizeof *indexing.out), NULL;
     if (!parallel_rows_run(gltf->source, parallel_rows_count(a->count), index_chunk, &indexing, gltf->json.error) ||
         !each_sparse(gltf, a, put_index, &indexing))
         return NULL;

@@ -21,10 +21,8 @@ const struct gltf_view *gltf_view_at(struct gltf *gltf, int index)
         !gltf_take_whole(gltf, place, object, "byteLength", 1, 9e15, &length) ||
         !gltf_take_whole(gltf, place, object, "byteStride", 1, 1 << 20, &stride))
         return NULL;
-    if (view->buffer < 0 || !length) {
-        json_fail(&gltf->json, place, "%s is missing", view->buffer < 0 ? "buffer" : "byteLength");
-        return NULL;
-    }
+    if (view->buffer < 0 || !length)
+        return json_fail(&gltf->json, place, "%s is missing", view->buffer < 0 ? "buffer" : "byteLength"), NULL;
     const uint8_t *data;
     if (!gltf_buffer_bytes(gltf, place, view->buffer, offset, length, &data))
         return NULL;

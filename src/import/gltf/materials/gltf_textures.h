@@ -4,6 +4,8 @@
 
 #include "gltf.h"
 
+#include <lambent/material.h>
+
 bool gltf_textures_start(struct gltf *gltf);
 
 // A request for a material's map, from the textureInfo under `key`. `material` is the material's index in the file. If

@@ -34,14 +34,10 @@ const struct gltf_skin *gltf_skin_at(struct gltf *gltf, int index)
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "skins"), (size_t)index), *here = KEY_OF(place, "joints");
     struct gltf_skin *skin = GLTF_ALLOC(gltf, 1, struct gltf_skin);
     const float *inverse;
-    if (!json_array_size(joints)) {
-        json_fail(&gltf->json, here, "expected a list of at least one node");
-        return NULL;
-    }
-    if (!skin || !(skin->joints = GLTF_ALLOC(gltf, json_array_size(joints), lam_mat4))) {
-        gltf_no_memory(gltf, json_array_size(joints) * sizeof *skin->joints);
-        return NULL;
-    }
+    if (!json_array_size(joints))
+        return json_fail(&gltf->json, here, "expected a list of at least one node"), NULL;
+    if (!skin || !(skin->joints = GLTF_ALLOC(gltf, json_array_size(joints), lam_mat4)))
+        return gltf_no_memory(gltf, json_array_size(joints) * sizeof *skin->joints), NULL;
     skin->count = json_array_size(joints);
     if (!take_inverse_matrices(gltf, place, object, skin->count, &inverse))
         return NULL;

@@ -167,6 +167,7 @@ class Sources(Batch):
         (self.folder / "empty").mkdir()
         (self.folder / "zero").write_bytes(b"a\0b\n")
         for words, code, says in ((["a"], 1, ["'a/x.obj' and 'a/x.stl' would both be written to 'x.png'", "{ext}"]),
+                                  (["a/x.stl", "a/x.stl"], 1, "'a/x.stl' is listed twice"),
                                   ([], 1, "no model given"), (["empty"], 2, "found no model"), (["@none"], 2, "none: cannot read the list"),
                                   (["@zero"], 2, "zero byte"), (["a/x.stl", "-o", "-"], 1, "pictures are files"),
                                   (["a/x.stl", "--views", "front,left", "-o", "x.png"], 1, "names one picture"),

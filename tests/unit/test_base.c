@@ -261,7 +261,9 @@ static void test_limits(void **state)
     struct call_control call;
     lam_error error = {0};
     assert_true(call_triangle_limit(NULL) == LAM_TRIANGLE_LIMIT && call_pixel_limit(NULL) == LAM_PIXEL_LIMIT);
-    assert_true(call_file_limit(NULL) == LAM_FILE_LIMIT_BYTES && call_json_depth_limit(NULL) == LAM_JSON_DEPTH_LIMIT);
+    assert_true(call_check_file(NULL, "a", LAM_FILE_LIMIT_BYTES, &error) &&
+                call_json_depth_limit(NULL) == LAM_JSON_DEPTH_LIMIT);
+    assert_false(call_check_file(NULL, "a", (uint64_t)LAM_FILE_LIMIT_BYTES + 1, &error));
     call_start(&call, NULL);
     assert_true(call_triangle_limit(&call) == LAM_TRIANGLE_LIMIT);
     assert_true(call_check_triangles(&call, "a", LAM_TRIANGLE_LIMIT, "triangles", &error));

@@ -1,7 +1,6 @@
 // view_page.c: makes the page of the viewer.
 #include "view_page.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,6 @@
 // info_facts.c: collects the facts about a model that both output formats of the command `info` print.
 #include "info.h"
 
-#include <string.h>
-
 struct info_counts info_count(const lam_scene *scene)
 {
     struct info_counts counts = {0};

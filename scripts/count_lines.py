@@ -6,7 +6,7 @@ import re
 import subprocess
 import sys
 
-PRODUCT = ["src", "include", "tools", "web", "scenes", "classroom"]
+PRODUCT = ["src", "include", "tools", "web", "classroom"]
 DRAWING = ("src/cpu/", "src/gl/", "src/glsl/", "src/lighting/")
 C_LIKE = ("c", "h", "cpp", "inc", "glsl", "js", "mjs", "ts")
 # Strings, template literals and the slashes of regular expressions are not comments; the first match wins.

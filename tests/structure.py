@@ -129,7 +129,7 @@ def circles(edges):
     return found
 
 
-TOPS = "src|classroom|tools|tests|include|web|scripts|bench|scenes|examples|docs"
+TOPS = "src|classroom|tools|tests|include|web|scripts|bench|examples|docs"
 # What is asked of the system that a program is compiled for, outside the one folder that knows Windows.
 WINDOWS = re.compile(r"\b_WIN\w*\b|\b__MINGW\w*|<windows\.h>")
 NAMED = re.compile(r"(?<![\w./-])((?:%s)/[\w./-]*\w)" % TOPS)  # a path from the root
@@ -160,7 +160,7 @@ NAMED_LOBE = re.compile(r"[!=]= *LAM_REFLECTION_(?!NONE\b|AUTO\b)\w+")
 
 def windows_elsewhere():
     """Files of C that ask for Windows outside src/base/system."""
-    for top in ("src", "tools", "classroom", "scenes", "include"):
+    for top in ("src", "tools", "classroom", "include"):
         for path, folders, names in os.walk(os.path.join(ROOT, top)):
             folders[:] = [f for f in folders if os.path.relpath(os.path.join(path, f), ROOT) != os.path.join("src", "base", "system")]
             for name in sorted(names):

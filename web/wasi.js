@@ -94,7 +94,7 @@ export function system(files, words, print) {
 
   // Calls `part(at, size)` for each block of a list. `part` returns the number of bytes that it has transferred. Stops after a block that was not fully
   // transferred. Returns the total number of bytes.
-  function pieces(list, count, part) {
+  function transfer(list, count, part) {
     let sum = 0;
     for (let i = 0; i < count; i++) {
       const at = view().getUint32(list + 8 * i, true), size = view().getUint32(list + 8 * i + 4, true);
@@ -113,7 +113,7 @@ export function system(files, words, print) {
       return OK;
     }
     let from = offset;
-    const sum = pieces(list, count, (at, size) => {
+    const sum = transfer(list, count, (at, size) => {
       const part = one.file.bytes.subarray(from, Math.min(from + size, one.file.size));
       bytes(at, part.length).set(part);
       from += part.length;
@@ -125,7 +125,7 @@ export function system(files, words, print) {
 
   function stream(fd, list, count, result) {
     decoders[fd] ??= new TextDecoder();
-    const sum = pieces(list, count, (at, size) => {
+    const sum = transfer(list, count, (at, size) => {
       print(fd, decoders[fd].decode(bytes(at, size).slice(), { stream: true }));
       return size;
     });
@@ -209,7 +209,7 @@ export function system(files, words, print) {
       if (fd === 1 || fd === 2) return stream(fd, list, count, result);
       const one = open.get(fd);
       if (!one?.file) return BADF;
-      const sum = pieces(list, count, (at, size) => {
+      const sum = transfer(list, count, (at, size) => {
         grow(one.file, one.at + size);
         one.file.bytes.set(bytes(at, size), one.at);
         one.at += size;

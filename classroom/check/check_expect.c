@@ -1,7 +1,6 @@
 // check_expect.c: draws the reference pictures: the pictures that correct shaders would draw.
 #include "check_run.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "arena.h"

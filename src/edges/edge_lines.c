@@ -6,7 +6,6 @@
 #include "linear.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 enum {
     POINTS_PER_LINE = 32768,
@@ -206,6 +205,25 @@ static bool set_line(const struct edge_task *task, const struct mesh_edge *edge,
     return true;
 }
 
+// Appends a stroke to `strokes`. Returns false if memory runs out.
+static bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call)
+{
+    if (strokes->count == strokes->capacity) {
+        size_t capacity = strokes->capacity ? 2 * strokes->capacity : 1024;
+        if (!call_charge(call, (capacity - strokes->capacity) * sizeof stroke))
+            return false;
+        struct edge_stroke *list = realloc(strokes->list, capacity * sizeof *list);
+        if (!list) {
+            call_refund(call, (capacity - strokes->capacity) * sizeof stroke);
+            return false;
+        }
+        strokes->list = list;
+        strokes->capacity = capacity;
+    }
+    strokes->list[strokes->count++] = stroke;
+    return true;
+}
+
 // --- visible parts
 
 static bool add_part(struct edge_task *task, const struct edge_line *line, double from, double to)
@@ -402,22 +420,4 @@ void edge_task_measure(struct edge_task *task)
             m->whole[k] = line.whole[k];
         }
     }
-}
-
-bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call)
-{
-    if (strokes->count == strokes->capacity) {
-        size_t capacity = strokes->capacity ? 2 * strokes->capacity : 1024;
-        if (!call_charge(call, (capacity - strokes->capacity) * sizeof stroke))
-            return false;
-        struct edge_stroke *list = realloc(strokes->list, capacity * sizeof *list);
-        if (!list) {
-            call_refund(call, (capacity - strokes->capacity) * sizeof stroke);
-            return false;
-        }
-        strokes->list = list;
-        strokes->capacity = capacity;
-    }
-    strokes->list[strokes->count++] = stroke;
-    return true;
 }

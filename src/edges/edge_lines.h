@@ -51,9 +51,6 @@ typedef void edge_rays(const struct edge_view *view, const struct edge_line *lin
 // Returns the version with the most lanes, at most `lanes`. All versions give the same results.
 edge_rays *edge_rays_for(int lanes);
 
-// Appends a stroke to `strokes`. Returns false if memory runs out.
-bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call);
-
 // Fills memory->coverage from the strokes of all threads.
 bool edges_cover(struct edge_memory *memory, const struct frame *frame, struct pool *pool, struct call_control *call,
                  lam_error *error);

@@ -20,7 +20,8 @@
 
 // --- the cells of a lobe
 
-double prefiltered_roughness(int level)
+// Returns the roughness of a level. The steps of its fourth root are equal.
+static double prefiltered_roughness(int level)
 {
     double start = math_sqrt(math_sqrt(0.045)), root = start + (1 - start) * level / (ENVIRONMENT_LEVELS - 1);
     return root * root * (root * root);

@@ -42,7 +42,6 @@ int prefiltered_size(int level); // texels per side, for levels from 1
 enum { ENVIRONMENT_LIGHT_WIDTH = 1024 };
 int environment_light_first(int level);
 int environment_light_rows(void);
-double prefiltered_roughness(int level);
 
 // Returns the light of an environment. Computes the parts in `needed` that do not exist yet, and stores them with the
 // environment. Any number of threads may call this function at the same time, and read the parts that they requested.

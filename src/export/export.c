@@ -13,7 +13,9 @@ enum { COUNT = (int)(sizeof exporters / sizeof *exporters) };
 
 const char *lam_export_format(int index) { return index >= 0 && index < COUNT ? exporters[index]->ending : NULL; }
 
-const struct exporter *exporter_find(const char *ending, const char *path, lam_error *error)
+// Returns the exporter for a file extension. Returns NULL if no format uses this extension; the error then names
+// `path`.
+static const struct exporter *exporter_find(const char *ending, const char *path, lam_error *error)
 {
     char list[8 * COUNT + 8] = "";
     for (int i = 0; i < COUNT; i++) {

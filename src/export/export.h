@@ -54,10 +54,6 @@ struct exporter {
 #define EXPORTER_DECLARED(name) extern const struct exporter exporter_##name;
 EXPORTERS(EXPORTER_DECLARED)
 
-// Returns the exporter for a file extension. Returns NULL if no format uses this extension; the error then names
-// `path`.
-const struct exporter *exporter_find(const char *ending, const char *path, lam_error *error);
-
 // Records a loss: something in the scene that the file cannot store. Each message is recorded once.
 void export_lose(struct exporting *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -5,7 +5,6 @@
 #include "srgb.h"
 #include "texture_levels.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { ATTRIBUTES = 6 };

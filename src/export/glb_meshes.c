@@ -2,8 +2,6 @@
 // part.
 #include "glb.h"
 
-#include <stdlib.h>
-
 enum { FLOAT = 5126, UNSIGNED_INT = 5125, UNSIGNED_BYTE = 5121, ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963 };
 
 // Returns whether all attributes already share one index, as in meshes read from glTF and PLY files.

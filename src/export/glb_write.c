@@ -4,7 +4,6 @@
 #include "fail.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static bool start(struct glb *glb)
 {

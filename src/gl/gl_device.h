@@ -350,8 +350,6 @@ void meshes_free(struct gl_device *device);
 // Sets the attributes of a vertex array, by the locations of glsl.h. With `lit`, omits attributes that only lighting
 // reads.
 void mesh_describe(struct gl_frame *f, const struct gl_mesh *mesh, GLuint array, bool lit);
-// Returns the number of floats per vertex in the buffer.
-size_t mesh_vertex_floats(const lam_mesh *mesh);
 
 // --- gl_textures.c
 // Uploads the textures that a program reads for a range. textures_use can bind these textures until the frame ends.

@@ -105,7 +105,8 @@ void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum ve
 
 // --- on the device
 
-size_t mesh_vertex_floats(const lam_mesh *mesh)
+// Returns the number of floats per vertex in the buffer.
+static size_t mesh_vertex_floats(const lam_mesh *mesh)
 {
     return 6u + (mesh->colors ? 4 : 0) + (mesh->tangents ? 4 : 0) + (mesh->texcoords ? 2 : 0) +
            (mesh->second_texcoords ? 2 : 0);

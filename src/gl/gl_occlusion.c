@@ -10,8 +10,6 @@
 
 #include "screen_occlusion.inc"
 
-#include <string.h>
-
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
                     lam_error *error)
 {

@@ -9,8 +9,6 @@
 #define LANES 8
 #include "picture_pixels.h"
 
-#include <string.h>
-
 // Encodes premultiplied RGBA pixels of a row into `to`, in a working format.
 static void store_light(const struct gl_frame *f, const float *from, int count, lam_pixel_format format, char *to)
 {

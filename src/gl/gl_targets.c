@@ -4,8 +4,6 @@
 
 #include "fail.h"
 
-#include <string.h>
-
 static GLuint make_texture(struct gl_frame *f, GLenum format, int width, int height, GLenum layout, GLenum type)
 {
     const struct gl *gl = f->gl;

@@ -14,7 +14,6 @@
 #include "encoding.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 // The format of an uploaded texture.
 struct format {

@@ -6,7 +6,6 @@
 
 #include <lambent/gl.h>
 
-#define EGL_NO_X11 // excludes the headers of window systems
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 

@@ -5,7 +5,6 @@
 #include "glsl_rows.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static bool check(const struct glsl_choices *c, const struct glsl_facts *f, lam_error *error)
 {

@@ -288,7 +288,8 @@ void glsl_declare_attributes(struct text *text, const struct glsl_facts *f)
     }
 }
 
-bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool fragment)
+// Returns whether the vertex shader (`fragment` false) or the fragment shader uses a uniform.
+static bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool fragment)
 {
     switch (row->semantic) {
     case GLSL_MODEL_VIEW_PROJECTION:

@@ -181,8 +181,6 @@ enum { GLSL_ATTRIBUTES_MAX = 11 };
 // Lists the vertex attributes. Returns their number.
 int glsl_attributes(const struct glsl_facts *facts, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX]);
 
-// Returns whether the vertex shader (`fragment` false) or the fragment shader uses a uniform.
-bool glsl_row_is_in(const struct glsl_facts *facts, const struct glsl_row *row, bool fragment);
 // Lists the members of a struct type. Returns their number, or 0 if `type` is not a struct.
 int glsl_members(const struct glsl_facts *facts, const char *type, struct glsl_row rows[GLSL_ROWS_MAX]);
 // Writes the value of element `index` of a uniform, or of a member of that element, matrices by columns. Returns the

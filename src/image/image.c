@@ -4,7 +4,6 @@
 #include "pixels.h"
 
 #include <stdlib.h>
-#include <string.h>
 #if !defined(__wasm__)
 #include <sys/mman.h>
 #endif

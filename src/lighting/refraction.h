@@ -1,6 +1,6 @@
 // refraction.h: the effect of a transmitting surface on the picture behind it (KHR_materials_transmission, volume and
 // ior; the formulas of the extensions' notes, which three.js and the Khronos sample viewer use). C only: OpenGL rejects
-// such surfaces.
+// rough and thick glass.
 #ifndef REFRACTION_H
 #define REFRACTION_H
 

@@ -5,8 +5,6 @@
 #include "linear.h"
 #include "shapes.h"
 
-#include <string.h>
-
 enum {
     CELLS = 96, // default number of cells along the longest side
     CELLS_MAX = 1024,

@@ -1,7 +1,6 @@
 // light_words.c: parses descriptions of lights: lists of key=value pairs.
 #include <lambent/words.h>
 
-#include <stdio.h>
 #include <string.h>
 
 #include "fail.h"

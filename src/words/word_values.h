@@ -20,9 +20,6 @@ int word_key(const char *name, const char *const *names, lam_error *error);
 enum { WORD_KEYS_MAX = 256 };
 int word_key_of(const char *name, int count, const char *(*name_of)(int key), lam_error *error);
 
-// Parses a finite decimal number, but not "inf" or "nan". Returns the position after it, or NULL if there is no number.
-const char *word_number(const char *text, double *number);
-
 // Parses `min` to `max` numbers with '/' between them. If `radii` is not NULL, each number may end in 'r', which sets
 // radii[i].
 bool word_numbers(const char *text, int min, int max, double *numbers, int *count, bool *radii);

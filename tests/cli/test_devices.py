@@ -6,7 +6,7 @@ import struct
 import subprocess
 import zlib
 
-from harness import Case, PROGRAM
+from harness import Case, PROGRAM, chunk
 
 
 class Devices(Case):
@@ -111,7 +111,6 @@ class Drawing(Case):
         """The graphics card's filters give another picture, close to the exact one."""
         rows = b"".join(b"\0" + bytes(c for x in range(64) for c in ((230, 220, 200) if x // 8 % 2 == y // 8 % 2 else (40, 30, 20)))
                         for y in range(64))
-        chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
         (self.folder / "tiles.png").write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 64, 64, 8, 2, 0, 0, 0)) +
                                                 chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
         (self.folder / "floor.mtl").write_text("newmtl a\nmap_Kd -s 5 5 tiles.png\n")

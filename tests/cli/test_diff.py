@@ -7,7 +7,7 @@ import shutil
 import struct
 import zlib
 
-from harness import Case, covered, pixel, read_png
+from harness import Case, chunk, covered, pixel, read_png
 
 
 def ppm(width, height, pixels):
@@ -68,7 +68,6 @@ class Diff(Case):
                         for x0, y0, dx, dy in passes for y in range(y0, height, dy) if x0 < width]
                 plain = [b"\0" + b"".join(pixel_at(x, y) for x in range(width)) for y in range(height)]
                 for name, interlace, packed in (("i.png", 1, rows), ("p.png", 0, plain)):
-                    chunk = lambda kind, body: struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
                     self.write(name, b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8 * depth, 2, 0, 0, interlace)) +
                                chunk(b"IDAT", zlib.compress(b"".join(packed))) + chunk(b"IEND", b""))
                 self.assertEqual(self.numbers("i.png", "p.png")["maximum"], 0)

@@ -6,7 +6,7 @@ import subprocess
 import unittest
 import zlib
 
-from harness import PROGRAM, Case, pixel, read_png
+from harness import Case, PROGRAM, chunk, pixel, read_png
 
 
 class Models(Case):
@@ -74,7 +74,6 @@ class Models(Case):
         row = b"\0" + bytes(5000)
         packer = zlib.compressobj()
         packed = b"".join(packer.compress(row) for _ in range(20000)) + packer.flush()
-        chunk = lambda kind, body: struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
         self.write("huge.png", b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 40000, 20000, 1, 0, 0, 0, 0)) +
                    chunk(b"IDAT", packed) + chunk(b"IEND", b""))
         for words in (["sphere", "--environment", "huge.png"], ["diff", "huge.png", "huge.png"]):

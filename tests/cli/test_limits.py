@@ -9,14 +9,10 @@ import subprocess
 import sys
 import zlib
 
-from harness import Case, PROGRAM, ROOT, long
+from harness import Case, PROGRAM, ROOT, chunk, long
 
 BILLIONS = 4294967295
 SANITIZED = b"libasan" in pathlib.Path(PROGRAM).read_bytes() or b"__asan_init" in pathlib.Path(PROGRAM).read_bytes()
-
-
-def chunk(kind, data):
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
 def png(width, height, bits=8, color=2, data=b"\0" * 4):

@@ -367,6 +367,7 @@ class CommandLine(Case):
             ("--shading", "per-vertex"): "did you mean 'gouraud'?", ("--shading", "per-pixel"): "did you mean 'phong'?",
             ("--shading", "Faceted"): "did you mean 'flat'?", ("--stage", "per_pixel"): "did you mean 'fragment'?",
             ("--show", "ndotl"): "did you mean 'n.l'?", ("--show", "NdotH"): "did you mean 'n.h'?", ("--show", "normal"): "did you mean 'normals'?",
+            ("--show", "env"): "did you mean 'environment'?", ("--env", "sky"): "did you mean '--environment'?",
             ("--show", "zbuffer"): "did you mean 'depth'?", ("--projection", "ortho"): "did you mean 'orthographic'?",
             ("--view", "isometric"): "did you mean 'iso'?", ("--view", "FRONT"): "did you mean 'front'?",
             ("--reflection", "blinn"): "did you mean 'blinn-phong'?", ("--rig", "3-point"): "did you mean 'three-point'?",

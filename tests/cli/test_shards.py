@@ -183,7 +183,8 @@ class Shards(Batch):
     def test_the_order_of_a_list(self):
         """No shard sees all names. Their order guarantees that no two pictures share a name, also at the borders of parts."""
         for lines, says in ((["a/1.stl", "a/3.stl", "a/2.stl", "a/4.stl"], "'out/a/2.png' comes after 'out/a/3.png'"),
-                            (["a/1.stl", "a/2.obj", "a/2.stl", "a/4.stl"], "would both be written to 'out/a/2.png'")):
+                            (["a/1.stl", "a/2.obj", "a/2.stl", "a/4.stl"], "would both be written to 'out/a/2.png'"),
+                            (["a/1.stl", "a/2.stl", "a/2.stl", "a/4.stl"], "'a/2.stl' is listed twice")):
             (self.folder / "list").write_text("\n".join(lines))
             for count in (1, 2, 4):
                 done = [self.run_program("batch", "@list", "-o", "out/{dir}/{stem}.png", "--shard", f"{k}/{count}", "--shard-by", "list", "--dry-run")

@@ -50,6 +50,20 @@ lam_scene *floor_scene(const lam_texture_map *map)
     return scene;
 }
 
+lam_scene *floor_and_cube(const lam_texture_map *map, const lam_texture_map *other)
+{
+    lam_error error = {0};
+    lam_scene *scene = floor_scene(map);
+    lam_material material = lam_material_default();
+    material.unlit = true;
+    material.maps[LAM_MAP_DIFFUSE] = other;
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_shape(scene, "cube", NULL, &error);
+    object.material = lam_scene_add_material(scene, &material, &error);
+    assert_true(object.mesh >= 0 && object.material >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
+    return scene;
+}
+
 lam_image floor_draw(lam_device *device, const lam_scene *scene, int size, int anisotropy, const lam_draw_params *more)
 {
     lam_error error = {0};

@@ -11,6 +11,9 @@ lam_texture *random_texture(int width, int height, float scale);
 // set of texture coordinates is rotated by 90°. If `map` is NULL, there is no texture.
 lam_scene *floor_scene(const lam_texture_map *map);
 
+// The same with an unlit cube of another map, which may be NULL.
+lam_scene *floor_and_cube(const lam_texture_map *map, const lam_texture_map *other);
+
 // Draws a scene with the floor's camera into size × size floats; the samples and the ambient occlusion in `more` are
 // ignored.
 lam_image floor_draw(lam_device *device, const lam_scene *scene, int size, int anisotropy, const lam_draw_params *more);

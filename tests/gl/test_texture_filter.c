@@ -284,14 +284,7 @@ static void printed_shaders(void **state)
     lam_error error = {0};
     lam_texture *texture = random_texture(16, 16, 1);
     lam_texture_map map = {.texture = texture, .wrap_s = LAM_WRAP_CLAMP}, other = {.texture = texture};
-    lam_scene *scene = floor_scene(&map);
-    lam_material material = lam_material_default();
-    material.unlit = true;
-    material.maps[LAM_MAP_DIFFUSE] = &other;
-    lam_object object = lam_object_default();
-    object.mesh = lam_scene_add_shape(scene, "cube", NULL, &error);
-    object.material = lam_scene_add_material(scene, &material, &error);
-    assert_true(object.mesh >= 0 && object.material >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
+    lam_scene *scene = floor_and_cube(&map, &other);
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
     for (int glsl = 0; glsl < LAM_GLSL_COUNT; glsl++) {
         lam_shader_params params = {.glsl = (lam_glsl)glsl, .hardware_filter = true};

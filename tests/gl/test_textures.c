@@ -290,14 +290,7 @@ static void printed_shaders(void **state)
     lam_texture_map map = {.texture = texture, .wrap_s = LAM_WRAP_CLAMP, .scale = 0.5f, .offset = 0.25f}, other = map;
     other.wrap_s = LAM_WRAP_MIRROR;
     for (int i = 0; i < 2; i++) {
-        lam_scene *scene = floor_scene(&map);
-        lam_material material = lam_material_default();
-        material.unlit = true;
-        material.maps[LAM_MAP_DIFFUSE] = i ? &other : NULL;
-        lam_object object = lam_object_default();
-        object.mesh = lam_scene_add_shape(scene, "cube", NULL, &error);
-        object.material = lam_scene_add_material(scene, &material, &error);
-        assert_true(object.mesh >= 0 && object.material >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
+        lam_scene *scene = floor_and_cube(&map, i ? &other : NULL);
         lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
         lam_shader *shader = lam_shader_make(scene, &camera, NULL, SIZE, SIZE, -1, NULL, &error);
         if (i) {

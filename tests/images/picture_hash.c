@@ -1,17 +1,11 @@
 // picture_hash.c: draws a demonstration scene and hashes the picture.
 #include "picture_hash.h"
 
+#include "../fnv.h"
+
 size_t picture_bytes(const lam_image *image)
 {
     return (size_t)image->width * (size_t)image->height * (image->format == LAM_RGBA8 ? 4 : 16);
-}
-
-static uint64_t hash_of(const void *bytes, size_t size)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ ((const uint8_t *)bytes)[i]) * 0x100000001b3u;
-    return hash;
 }
 
 bool picture_draw(const struct demo *demo, lam_isa isa, int threads, lam_image *image, lam_error *error)

@@ -125,3 +125,25 @@ void check_white_furnace(lam_draw_params params)
     lam_scene_free(scene);
     lam_environment_free(environment);
 }
+
+void check_same_bytes(lam_draw_params params)
+{
+    static const int threads[] = {1, 2, 5};
+    lam_image first = {0};
+    for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++) {
+        if (!lam_isa_usable((lam_isa)isa))
+            continue;
+        lam_environment *environment = make_environment();
+        lam_scene *scene = make_spheres(environment, (lam_rgb){0.9f, 0.55f, 0.2f});
+        lam_image picture = draw_spheres(scene, params, threads[isa % 3], (lam_isa)isa);
+        if (!first.pixels)
+            first = picture;
+        else
+            assert_memory_equal(first.pixels, picture.pixels, (size_t)picture.width * (size_t)picture.height * 16);
+        if (picture.pixels != first.pixels)
+            lam_image_free(&picture);
+        lam_scene_free(scene);
+        lam_environment_free(environment);
+    }
+    lam_image_free(&first);
+}

@@ -26,4 +26,7 @@ lam_image draw_spheres(const lam_scene *scene, lam_draw_params params, int threa
 // In a uniform environment of 1, white metals return all of its light, whatever their roughness.
 void check_white_furnace(lam_draw_params params);
 
+// The same bytes with every instruction set and with 1, 2 and 5 threads. Each picture prefilters the environment anew.
+void check_same_bytes(lam_draw_params params);
+
 #endif

@@ -4,6 +4,8 @@
 // behind. Models are loaded and pictures encoded again each time; the device is recreated every 500 pictures.
 #include <lambent/lambent.h>
 
+#include "../fnv.h"
+
 #include <dirent.h>
 #include <malloc.h>
 #include <stdio.h>
@@ -39,15 +41,6 @@ static const struct model {
               {"scene.json", scene, true}, {"cloud.ply", cloud, true},        {"bad.gltf", bad_json, false},
               {"triangle.stl", stl, true}};
 enum { MODELS = sizeof models / sizeof *models };
-
-// FNV-1a (http://www.isthe.com/chongo/tech/comp/fnv/).
-static uint64_t hash_of(const lam_bytes *bytes)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < bytes->size; i++)
-        hash = (hash ^ ((const uint8_t *)bytes->data)[i]) * 0x100000001b3u;
-    return hash;
-}
 
 static _Noreturn void give_up(const char *what, int picture, const lam_error *error)
 {
@@ -101,7 +94,7 @@ static uint64_t draw(lam_device *device, const struct model *model, int picture)
         !lam_draw(device, loaded, &camera, NULL, &image, NULL, &error) ||
         !lam_image_encode(&image, "png", NULL, &png, &error))
         give_up(model->name, picture, &error);
-    uint64_t hash = hash_of(&png);
+    uint64_t hash = hash_of(png.data, png.size);
     lam_bytes_free(&png);
     lam_image_free(&image);
     lam_scene_free(loaded);

@@ -232,9 +232,11 @@ def write_tga():
 
 # --- PNG
 
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
 def png(color, bits, rows, interlaced=False, before=b""):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", W, H, bits, color, 0, 0, interlaced)) + before +
             chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
 
@@ -256,8 +258,6 @@ def png_rows(bits, values, interlaced):
 
 
 def write_png():
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     for interlaced in (False, True):
         end = "-interlaced.png" if interlaced else ".png"
         for bits in (1, 2, 4, 8):

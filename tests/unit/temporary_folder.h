@@ -17,7 +17,7 @@ static const char *in_folder(const char *name)
     return path;
 }
 
-static int remove_folder(void **state)
+static inline int remove_folder(void **state)
 {
     (void)state;
     char command[100];

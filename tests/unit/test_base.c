@@ -245,8 +245,10 @@ static void test_memory_of_process(void **state)
     uint64_t machine = lam_memory_available();
     assert_true(machine > 1 << 20);
     assert_int_equal(getrlimit(RLIMIT_DATA, &before), 0);
-    if (machine <= (uint64_t)1 << 31)
+    if (machine <= (uint64_t)1 << 31) {
+        print_message("less than 2 GiB are available: the limit of a process was not tested\n");
         skip();
+    }
     assert_int_equal(setrlimit(RLIMIT_DATA, &(struct rlimit){(rlim_t)1 << 31, before.rlim_max}), 0);
     assert_true(lam_memory_available() == (uint64_t)1 << 31);
     assert_int_equal(setrlimit(RLIMIT_DATA, &before), 0);
@@ -259,7 +261,9 @@ static void test_limits(void **state)
     struct call_control call;
     lam_error error = {0};
     assert_true(call_triangle_limit(NULL) == LAM_TRIANGLE_LIMIT && call_pixel_limit(NULL) == LAM_PIXEL_LIMIT);
-    assert_true(call_file_limit(NULL) == LAM_FILE_LIMIT_BYTES && call_json_depth_limit(NULL) == LAM_JSON_DEPTH_LIMIT);
+    assert_true(call_check_file(NULL, "a", LAM_FILE_LIMIT_BYTES, &error) &&
+                call_json_depth_limit(NULL) == LAM_JSON_DEPTH_LIMIT);
+    assert_false(call_check_file(NULL, "a", (uint64_t)LAM_FILE_LIMIT_BYTES + 1, &error));
     call_start(&call, NULL);
     assert_true(call_triangle_limit(&call) == LAM_TRIANGLE_LIMIT);
     assert_true(call_check_triangles(&call, "a", LAM_TRIANGLE_LIMIT, "triangles", &error));

@@ -20,20 +20,12 @@
 
 #include <cmocka.h>
 
+#include "temporary_folder.h"
+
 enum { LARGE = 6 << 20 };
 
-static char folder[64];
 static uint8_t *bytes; // LARGE bytes
 static const char *const way_names[] = {[FILE_UNNAMED] = "unnamed", [FILE_NAMED] = "named"};
-
-static char *in_folder(const char *name)
-{
-    static char path[2][400];
-    static int next;
-    next ^= 1;
-    snprintf(path[next], sizeof path[next], "%s/%s", folder, name);
-    return path[next];
-}
 
 // Removes everything in the folder and returns the number of its files. Each must have LARGE bytes, or `other` bytes.
 static int empty_folder(size_t other, const char *doing)
@@ -94,7 +86,7 @@ static void test_written_and_replaced(void **state)
     mode_t before = umask(027);
     for (enum file_way way = FILE_UNNAMED; way <= FILE_NAMED; way++) {
         lam_error error;
-        char *path = in_folder("x");
+        const char *path = in_folder("x");
         assert_true(file_write_by(way, path, bytes, LARGE, NULL, &error));
         assert_holds("x", bytes, LARGE, 0640);
         assert_int_equal(chmod(in_folder("x"), 0604), 0);

@@ -1,4 +1,6 @@
 // test_ground.c: the ground plane under a scene: its height, its shadow, contact, and cases without it.
+#include "device_fixture.h"
+
 #include <lambent/explain.h>
 #include <lambent/lambent.h>
 
@@ -15,14 +17,6 @@
 enum { SIZE = 128 };
 
 static lam_error error;
-
-static lam_device *device(void)
-{
-    static lam_device *cpu;
-    if (!cpu)
-        cpu = lam_device_cpu(NULL, &error);
-    return cpu;
-}
 
 static void add(lam_scene *scene, const char *shape, lam_vec3 scale, lam_vec3 at)
 {
@@ -42,11 +36,7 @@ static void add(lam_scene *scene, const char *shape, lam_vec3 scale, lam_vec3 at
 
 static lam_image draw(const lam_scene *scene, const lam_camera *camera, lam_draw_params params)
 {
-    lam_image image = {0};
-    if (!lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error) ||
-        !lam_draw(device(), scene, camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
-    return image;
+    return draw_square(scene, camera, &params, SIZE);
 }
 
 static const float *at(const lam_image *image, int x, int y)
@@ -97,7 +87,7 @@ static void check_shadow(const lam_camera *camera, lam_rgb color)
     lam_scene_set_ambient(scene, (lam_rgb){0.5f, 0.5f, 0.5f});
     lam_image image = draw(scene, camera, (lam_draw_params){.ground = LAM_GROUND_SHADOW, .samples = 1});
     lam_frame_report report;
-    lam_device_report(device(), &report);
+    lam_device_report(device, &report);
     assert_true(report.ground && fabs(report.ground_height) < 2e-3 && report.ground_square == 0);
     double y = 0.2126 * (double)color.r + 0.7152 * (double)color.g + 0.0722 * (double)color.b, lit = y * sqrt(0.5);
     double share = lit / (lit + 0.5), pixel = 3 * camera->ortho_half_height * 2 / SIZE;
@@ -188,7 +178,7 @@ static double height_of(const lam_scene *scene, const lam_camera *camera, lam_dr
 {
     lam_image image = draw(scene, camera, params);
     lam_frame_report report;
-    lam_device_report(device(), &report);
+    lam_device_report(device, &report);
     lam_image_free(&image);
     assert_true(report.ground);
     return report.ground_height;
@@ -216,7 +206,7 @@ static void test_height(void **state)
     camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
     assert_true(fabs(height_of(scene, &camera, params) - (6 - drop)) < 1e-6);
     lam_frame_report report;
-    lam_device_report(device(), &report);
+    lam_device_report(device, &report);
     assert_true(report.ground_square == 1 && report.triangles > 12 && report.triangles_binned <= report.triangles);
     lam_scene_free(scene);
 }
@@ -236,7 +226,7 @@ static void test_absent(void **state)
         camera.ortho_half_height = ortho ? 1.2 : 0;
         lam_image with = draw(scene, &camera, (lam_draw_params){.ground = LAM_GROUND_COLOR});
         lam_frame_report report;
-        lam_device_report(device(), &report);
+        lam_device_report(device, &report);
         assert_false(report.ground);
         lam_image without = draw(scene, &camera, (lam_draw_params){.shadows = true});
         assert_true(same(&with, &without));
@@ -290,7 +280,7 @@ static void refused(lam_draw_params params, const char *says)
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
     lam_image image = {0};
     lam_image_make(&image, SIZE, SIZE, LAM_RGBA8, &error);
-    assert_false(lam_draw(device(), scene, &camera, &params, &image, NULL, &error));
+    assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     assert_non_null(strstr(error.text, says));
     lam_image_free(&image);
@@ -319,5 +309,5 @@ int main(void)
         cmocka_unit_test(test_shadow), cmocka_unit_test(test_contact),       cmocka_unit_test(test_height),
         cmocka_unit_test(test_absent), cmocka_unit_test(test_premultiplied), cmocka_unit_test(test_refused),
     };
-    return cmocka_run_group_tests_name("ground", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("ground", tests, set_up, tear_down);
 }

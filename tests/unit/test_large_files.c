@@ -1,21 +1,14 @@
 // test_large_files.c: large STL and PLY files, which are read in parts, give the same scenes and errors as in memory.
-#include "loading.h"
+#include "large_file.h"
 
-#include "file.h"
+enum { SIDE = 260, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
 
-#include <unistd.h>
-
-enum { SIDE = 260, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1), ROOM = 8 << 20 };
-
-static char path[] = "/tmp/lambent-large-XXXXXX";
-static uint8_t *bytes;
-static size_t size;
 static bool big; // numbers of more than a byte are written big-endian
 
 static void add(const void *from, size_t count)
 {
     assert_true(size + count <= ROOM);
-    memcpy(bytes + size, from, count);
+    memcpy(text + size, from, count);
     size += count;
 }
 
@@ -26,7 +19,7 @@ static void add_number(const void *number, size_t count)
         add(from + (big ? count - 1 - i : i), 1);
 }
 
-static void add_text(const char *text) { add(text, strlen(text)); }
+static void add_text(const char *line) { add(line, strlen(line)); }
 static void add_u8(unsigned n) { add(&(uint8_t){(uint8_t)n}, 1); }
 static void add_u16(unsigned n) { add_number(&(uint16_t){(uint16_t)n}, 2); }
 static void add_u32(uint32_t n) { add_number(&n, 4); }
@@ -52,16 +45,13 @@ static int corner(int triangle, int c)
 static bool load_both(const char *format)
 {
     bool loaded = false;
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
+    write_file();
     assert_true(size > FILE_LARGE);
     for (int threads = 1; threads <= 3; threads += 2) {
         lam_error errors[2] = {0};
         lam_load_params params = {.threads = threads, .format = format};
         lam_scene *scenes[2] = {lam_scene_load(path, &params, NULL, &errors[0]),
-                                lam_scene_load_memory(bytes, size, path, &params, NULL, &errors[1])};
+                                lam_scene_load_memory(text, size, path, &params, NULL, &errors[1])};
         loaded = scenes[0] != NULL;
         assert_int_equal(errors[0].code, errors[1].code);
         assert_string_equal(errors[0].text, errors[1].text);
@@ -128,8 +118,8 @@ static void stl_errors(void **state)
     (void)state;
     const float nan = __builtin_nanf("");
     make_stl("a header", 0);
-    memcpy(bytes + 84 + 50 * 20000 + 12, &nan, 4);
-    memcpy(bytes + 84 + 50 * 40000 + 16, &nan, 4);
+    memcpy(text + 84 + 50 * 20000 + 12, &nan, 4);
+    memcpy(text + 84 + 50 * 40000 + 16, &nan, 4);
     assert_false(load_both(NULL)); // the first of both is reported
     make_stl("a header", 0);
     size -= 51;
@@ -137,7 +127,7 @@ static void stl_errors(void **state)
     size = 84;
     while (size < 2 << 20)
         add_u8('x');
-    bytes[0] = 'x';
+    text[0] = 'x';
     assert_false(load_both("stl"));
 }
 
@@ -251,11 +241,11 @@ static void ply_errors(void **state)
     };
     for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
         make_ply(layouts[i]);
-        size_t vertices = (size_t)(strstr((char *)bytes, "end_header\n") + 11 - (char *)bytes), whole = size;
-        memset(bytes + whole - 30, 0x77, 4);
+        size_t vertices = (size_t)(strstr(text, "end_header\n") + 11 - text), whole = size;
+        memset(text + whole - 30, 0x77, 4);
         assert_false(load_both(NULL)); // an index, or a number of corners
         make_ply(layouts[i]);
-        memset(bytes + vertices + 48 * 9001, 0xff, 24); // not a number
+        memset(text + vertices + 48 * 9001, 0xff, 24); // not a number
         assert_false(load_both(NULL));
         make_ply(layouts[i]);
         size = whole - 5;
@@ -267,7 +257,7 @@ static void ply_errors(void **state)
         load_both(NULL);
     }
     make_ply((struct layout){0});
-    memcpy(strstr((char *)bytes, "float y"), "float q", 7);
+    memcpy(strstr(text, "float y"), "float q", 7);
     assert_false(load_both(NULL));
 }
 
@@ -276,13 +266,7 @@ static void can_be_stopped(void **state)
     (void)state;
     make_ply((struct layout){0});
     assert_true(load_both(NULL));
-    lam_cancel cancel = {0};
-    lam_cancel_raise(&cancel);
-    lam_error error;
-    assert_null(lam_scene_load(path, NULL, &(lam_control){.cancel = &cancel}, &error));
-    assert_int_equal(error.code, LAM_CANCELLED);
-    assert_null(lam_scene_load(path, NULL, &(lam_control){.memory_limit_bytes = 1 << 20}, &error));
-    assert_int_equal(error.code, LAM_LIMIT);
+    check_stops(1 << 20);
 }
 
 // Each allocation fails in turn: the file is refused for want of memory; nothing leaks.
@@ -309,21 +293,6 @@ static void memory(void **state)
         }
         assert_true(refused >= 3);
     }
-}
-
-static int start(void **state)
-{
-    (void)state;
-    bytes = calloc(1, ROOM + FILE_PADDING);
-    int file = mkstemp(path);
-    return bytes && file >= 0 && close(file) == 0 ? 0 : -1;
-}
-
-static int stop(void **state)
-{
-    (void)state;
-    free(bytes);
-    return unlink(path);
 }
 
 int main(void)

@@ -1,16 +1,12 @@
-// test_obj_large.c: large OBJ files read piece by piece give the same scene as files read as a whole.
-#include "loading.h"
+// test_obj_large.c: large OBJ files read chunk by chunk give the same scene as files read as a whole.
+#include "large_file.h"
 
 #include "obj.h"
 #include "share.h"
 
-#include <unistd.h>
+enum { SIDE = 210, VERTICES = SIDE * SIDE, SQUARES = (SIDE - 1) * (SIDE - 1) };
 
-enum { SIDE = 210, VERTICES = SIDE * SIDE, SQUARES = (SIDE - 1) * (SIDE - 1), ROOM = 16 << 20 };
-
-static char path[] = "/tmp/lambent-large-XXXXXX";
-static char *text;
-static size_t size, faces_begin;
+static size_t faces_begin;
 
 // The style of a generated file.
 struct style {
@@ -86,14 +82,6 @@ static void make(struct style style)
     if (style.last_line_open)
         size -= strlen(line_end);
     assert_true(size > 1 << 20);
-}
-
-static void write_file(void)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
 }
 
 // Whether obj_stream.c reads the file.
@@ -174,7 +162,7 @@ static bool load_both(void)
     return loaded;
 }
 
-// Typical files are read piece by piece.
+// Typical files are read chunk by chunk.
 static void usual_files(void **state)
 {
     (void)state;
@@ -337,13 +325,7 @@ static void can_be_stopped(void **state)
     (void)state;
     make((struct style){0});
     write_file();
-    lam_cancel cancel = {0};
-    lam_cancel_raise(&cancel);
-    lam_error error;
-    assert_null(lam_scene_load(path, NULL, &(lam_control){.cancel = &cancel}, &error));
-    assert_int_equal(error.code, LAM_CANCELLED);
-    assert_null(lam_scene_load(path, NULL, &(lam_control){.memory_limit_bytes = 2 << 20}, &error));
-    assert_int_equal(error.code, LAM_LIMIT);
+    check_stops(2 << 20);
 }
 
 // Each allocation fails once: the file is refused, or read as a whole; nothing leaks.
@@ -359,21 +341,6 @@ static void memory(void **state)
         arena_fail_after(-1);
     }
     assert_in_range(refused, 5, 29);
-}
-
-static int start(void **state)
-{
-    (void)state;
-    text = calloc(1, ROOM);
-    int file = mkstemp(path);
-    return text && file >= 0 && close(file) == 0 ? 0 : -1;
-}
-
-static int stop(void **state)
-{
-    (void)state;
-    free(text);
-    return unlink(path);
 }
 
 int main(void)

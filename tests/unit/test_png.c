@@ -1,6 +1,7 @@
 // test_png.c: PNG files decode to the picture from which they were made, and have the same bytes on every machine. The
 // file has more than 600 lines because the encoder's steps, each with a second implementation here, share their test
 // pictures.
+#include "fnv.h"
 #include "checksum.h"
 #include "deflate.h"
 #include "huffman.h"
@@ -203,15 +204,6 @@ static void threads_change_nothing(void **state)
             lam_bytes_free(&five);
             lam_image_free(&image);
         }
-}
-
-// FNV-1a, 64 bits.
-static uint64_t hash_of(const void *data, size_t size)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ ((const uint8_t *)data)[i]) * 0x100000001b3u;
-    return hash;
 }
 
 // One hash for each picture, the same for every compiler, build type and instruction set. They change only if the

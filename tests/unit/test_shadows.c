@@ -1,4 +1,6 @@
 // test_shadows.c: the share of light that passes blocking surfaces, in pictures and explanations.
+#include "device_fixture.h"
+
 #include <lambent/explain.h>
 #include <lambent/lambent.h>
 
@@ -54,30 +56,18 @@ static lam_light *sun(void)
     return &l;
 }
 
-static lam_device *device(void)
-{
-    static lam_device *cpu;
-    if (!cpu)
-        cpu = lam_device_cpu(NULL, &error);
-    return cpu;
-}
-
 static const lam_draw_params with = {.shadows = true, .samples = 1};
 
 static lam_image draw(const lam_scene *scene, lam_draw_params params)
 {
-    lam_image image = {0};
-    if (!lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error) ||
-        !lam_draw(device(), scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
-    return image;
+    return draw_square(scene, &camera, &params, SIZE);
 }
 
 // The share of light 0 that reaches a point of the floor (x, 0, z), or of a surface over it.
 static lam_explained_light explained(const lam_scene *scene, lam_draw_params params, double x, double z)
 {
     int px = (int)((x + 4) / 8 * SIZE), py = (int)((z + 4) / 8 * SIZE);
-    lam_explanation *e = lam_explain(device(), scene, &camera, &params, SIZE, SIZE, LAM_RGBA32F, px, py, NULL, &error);
+    lam_explanation *e = lam_explain(device, scene, &camera, &params, SIZE, SIZE, LAM_RGBA32F, px, py, NULL, &error);
     if (!e)
         fail_msg("%s", error.text);
     const lam_explained_fragment *f = &e->fragments[e->fragment_count - 1]; // the floor: opaque surfaces come last
@@ -162,7 +152,7 @@ static void test_lights(void **unused)
     lam_image bare = draw(scene, (lam_draw_params){.samples = 1}), shadowed = draw(scene, with);
     assert_true(memcmp(bare.pixels, shadowed.pixels, SIZE * SIZE * 16) != 0);
     lam_frame_report report;
-    lam_device_report(device(), &report);
+    lam_device_report(device, &report);
     assert_true(report.rays > 1000 && report.rays <= report.points_lit);
     lam_image_free(&shadowed);
     // A light without shadows, and a picture without shadows, do not change.
@@ -170,7 +160,7 @@ static void test_lights(void **unused)
     assert_true(lam_scene_set_light(scene, 0, &l, &error));
     shadowed = draw(scene, with);
     assert_memory_equal(bare.pixels, shadowed.pixels, SIZE * SIZE * 16);
-    lam_device_report(device(), &report);
+    lam_device_report(device, &report);
     assert_true(report.rays == 0);
     lam_image_free(&shadowed);
     // Ambient light and emission do not change: the shadow removes the light's own terms, once.
@@ -378,7 +368,7 @@ static void test_models(void **unused)
             lam_draw_params params = {
                 .samples = 1, .shadows = i, .output = LAM_OUTPUT_LIGHT, .reflection = LAM_REFLECTION_LAMBERT};
             assert_true(lam_image_make(&image[i], SIDE, SIDE, LAM_RGBA32F, &error));
-            assert_true(lam_draw(device(), scene, &camera, &params, &image[i], NULL, &error));
+            assert_true(lam_draw(device, scene, &camera, &params, &image[i], NULL, &error));
         }
         for (int i = 0; i < SIDE * SIDE; i++) {
             const float *a = (const float *)image[0].pixels + 4 * i, *b = (const float *)image[1].pixels + 4 * i;
@@ -562,5 +552,5 @@ int main(void)
         cmocka_unit_test(test_contact), cmocka_unit_test(test_twins),    cmocka_unit_test(test_refused),
         cmocka_unit_test(test_models),  cmocka_unit_test(test_coplanar), cmocka_unit_test(test_near_sheet),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -29,8 +29,9 @@ int run_looks(int operand_count, char **operands, const struct options *options)
     if (text || !operand_count)
         return 0;
     lam_error error;
-    complain(&error, LAM_BAD_ARGUMENT, "looks: found '%.100s', expected studio, classic, catalog or technical",
-             operands[0]);
+    char names[OPTION_WORDS_SIZE];
+    complain(&error, LAM_BAD_ARGUMENT, "looks: found '%.100s', expected %s", operands[0],
+             option_words_list(option_find("look"), names));
     say_error(error.text);
     return exit_code_of(error.code)->code;
 }

@@ -36,7 +36,8 @@ static void list_uniforms(FILE *file, const lam_shader_uniform *list, int count)
     }
 }
 
-void shader_contract(FILE *file, const lam_shader *s)
+// Prints the attributes, the uniforms and their values as comments (`//` before each line).
+static void shader_contract(FILE *file, const lam_shader *s)
 {
     fprintf(file, "// Attributes%s:\n",
             s->glsl == LAM_GLSL_120 ? ", to be bound to these locations before linking"

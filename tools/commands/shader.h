@@ -6,9 +6,6 @@
 
 #include <stdio.h>
 
-// Prints the attributes, the uniforms and their values as comments (`//` before each line).
-void shader_contract(FILE *file, const lam_shader *shader);
-
 // Prints C code that compiles the sources and sets their inputs. `name` is the name of the files without `.vert` and
 // `.frag`.
 void shader_host(FILE *file, const lam_shader *shader, const char *name, const char *model);

@@ -30,7 +30,8 @@ const char *field_standard(const lam_field *field, char text[80])
     return text;
 }
 
-const char *field_range(const lam_field *field, char text[80])
+// Returns the range as text.
+static const char *field_range(const lam_field *field, char text[80])
 {
     switch (field->type) {
     case LAM_FIELD_FLAG:

@@ -8,8 +8,7 @@ void field_tables_markdown(void);
 void field_tables_man(void);
 void field_tables_text(const lam_field *(*row)(int)); // for `help`: the rows of lam_light_field or lam_material_field
 
-// Return the default and the range as text.
+// Returns the default as text.
 const char *field_standard(const lam_field *field, char text[80]);
-const char *field_range(const lam_field *field, char text[80]);
 
 #endif

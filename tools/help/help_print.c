@@ -88,9 +88,7 @@ void help_option(const struct option *option, const struct command *command, boo
 
 // `lambent --help` describes the options of these groups; other commands list only their names.
 #define SHARED                                                                                                         \
-    (1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |                         \
-     1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK |                  \
-     1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
+    (PICTURE_GROUPS | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
 
 // Returns whether the command's help lists only the name of an option, because `lambent --help` describes the option.
 // An option whose default differs for this command is described again.

@@ -147,9 +147,9 @@ const struct topic topics[] = {
     {"glass", "Glass", 0, TOPIC_NO_TABLE,
      "`--material glass` is clear, smooth glass: `white,roughness=0,transmission=1`. You can change this material with "
      "keys: `--material glass,roughness=0.3` blurs the scene behind the glass, `glass,diffuse=0.2/0.8/0.5` tints the "
-     "glass, and `thickness` refracts the light. Glass requires the CPU device, Phong shading and a physical "
-     "reflection model. For the formulas, see `docs/lighting/layers.md`. For surfaces that are partly transparent and "
-     "refract no light, use `--material opacity=0.5`."},
+     "glass, and `thickness` refracts the light. Glass requires Phong shading and a physical reflection model. "
+     "Rough or thick glass also requires the CPU device. For the formulas, see `docs/lighting/layers.md`. For surfaces "
+     "that are partly transparent and refract no light, use `--material opacity=0.5`."},
     {"settings", "The user's own defaults", BIT(SETTINGS), TOPIC_NO_TABLE,
      "The file `lambent.json` in the folder `~/.config/lambent` overrides the default picture settings. The file "
      "contains keys of scene files: `{\"image\": {\"background\": \"white\"}, \"shadows\": true}`. Looks and options "

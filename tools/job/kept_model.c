@@ -14,19 +14,10 @@ void kept_model_forget(struct kept_model *model)
     *model = (struct kept_model){0};
 }
 
-// Returns whether a loaded scene can be used again with another value of the option. This is true for options of the
-// picture, view, lights, materials and drawing. All other options are assumed to change the scene.
+// Returns whether a loaded scene can be used again with another value of the option.
 static bool changes_drawing_only(const struct option *option)
 {
-    static const char *const except[] = {"up", "color-mode", "look"};
-    for (size_t i = 0; i < sizeof except / sizeof *except; i++)
-        if (strcmp(option->name, except[i]) == 0)
-            return false;
-    if (option->loads)
-        return false;
-    return option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
-           option->group == GROUP_MATERIALS || option->setting || strcmp(option->name, "cull") == 0 ||
-           strcmp(option->name, "back-faces") == 0 || strcmp(option->name, "reflectivity") == 0;
+    return !option->loads && (option->setting || option_is_in(option, KEEPS_MODEL));
 }
 
 // Returns a key for the model and its load options, from malloc.

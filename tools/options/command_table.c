@@ -121,9 +121,8 @@ const struct command command_table[] = {
         {"view", "MODEL|FOLDER",
          "Show a model in the browser and update the picture when the model file changes, or show the gallery of a "
          "folder.",
-         ABOUT | 1ull << GROUP_VIEWER | 1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW |
-             1ull << GROUP_LIGHTS | 1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING | 1ull << GROUP_LIMITS |
-             TAKES_THREADS | TAKES_QUIET | WRITES_NO_FILE,
+         ABOUT | 1ull << GROUP_VIEWER | PICTURE_GROUPS | 1ull << GROUP_LIMITS | TAKES_THREADS | TAKES_QUIET |
+             WRITES_NO_FILE,
          .min_operands = 1, .max_operands = 1, .one_more = "it shows one model, or the models of one folder"},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0,
                         .one_more = "it lists all shapes; lambent teapot draws one"},

@@ -4,7 +4,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { POOL = 192, NAME_SIZE = 40 };
 static struct choice pool[POOL];

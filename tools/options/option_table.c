@@ -272,20 +272,21 @@ struct option option_table[OPTIONS_MAX] = {
      "option. The page works offline (`docs/web.md`). This format requires the page built by `make web`.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
-     FIELD(picture.output), .single = TAKES_OUTPUT},
+     FIELD(picture.output), .single = TAKES_OUTPUT, .not_in = IN_LOOK | IN_JOB | IN_KEY | IN_PAGE},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800, 1920x1080, or a list of sizes.",
      "`render` and `batch` accept up to 16 sizes, such as `1024,256x128`. These commands read each model once and draw "
      "each picture separately, without scaling. If `--view` lists several sides, Lambent draws each side in each size. "
      "Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
      .several = "sizes", .brief = "pixels: 800, 1920x1080, or a list", .store = store_size,
      .others = "resolution resolutions thumbnails width height dimensions pixels viewport window", .max = 65535,
-     .single = TAKES_SIZE},
+     .single = TAKES_SIZE, .not_in = IN_LOOK | IN_KEY},
     {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
      "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, most visibly in small pictures. On a sheet, the default depends on the size of "
      "each picture. Lambent computes the lighting once per triangle and pixel, regardless of the number of samples.",
      sample_words, .store = store_word,
-     .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples)},
+     .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples),
+     .also_in = IN_SHEET},
     {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
      "A pixel on a slanted surface covers a long, narrow area of the texture. A single texture sample blurs the whole "
      "area. With N samples along the area, textures look up to N times as sharp.",
@@ -307,22 +308,23 @@ struct option option_table[OPTIONS_MAX] = {
      "four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a name. The names are `black`, `white`, `gray`, "
      "`silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour names of HTML 4.",
      .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
-     .others = "bg background-color backdrop transparent", FIELD(picture.background)},
+     .others = "bg background-color backdrop transparent", FIELD(picture.background), .also_in = IN_SHEET},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
-     FIELD(picture.color_mode)},
+     FIELD(picture.color_mode), .also_in = IN_SHEET, .not_in = KEEPS_MODEL},
     {"compress", 0, GROUP_PICTURE, "LEVEL", "fast", "The compression of PNG files: fast or best.",
      "`best` makes the file about a third smaller, but takes a second or two for a million pixels; `fast` takes a few "
      "milliseconds. The pixels are identical. Other formats ignore the option. `best` needs libdeflate, and the bytes "
      "of the file depend on the version of libdeflate. With `fast`, the bytes depend only on the picture.",
-     compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress)},
+     compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress),
+     .not_in = IN_PAGE},
     {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG, lossless for WebP",
      "The quality of JPEG and WebP files, 1 to 100.",
      "A lower number gives a smaller file of lower quality. At 90 and above, JPEG files store a colour for every "
      "pixel; below 90, they store one colour for every four pixels. WebP is lossless at 100 and by default. Other "
      "formats ignore the option. The bytes depend on the version of libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
-     .max = 100},
+     .max = 100, .not_in = IN_PAGE},
     {"term", 0, GROUP_PICTURE, "METHOD", "auto",
      "The method that shows the picture in the terminal; off shows no picture there.",
      "If the terminal can show pictures and `-o` is missing, Lambent shows a single picture above the line that names "
@@ -338,7 +340,8 @@ struct option option_table[OPTIONS_MAX] = {
      "After a power failure, the disk contains either the complete old picture or the complete new one. Without this "
      "option, the operating system writes pictures to disk within seconds, and most file systems give the same "
      "guarantee.",
-     .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable)},
+     .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable),
+     .not_in = IN_JOB | IN_KEY | IN_PAGE},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
      "The exposure in stops: 1 doubles the light, -1 halves the light; or auto.",
      "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. The "
@@ -364,14 +367,15 @@ struct option option_table[OPTIONS_MAX] = {
      "layers of one `.exr` file. `.pfm` and `.exr` files store surface quantities unchanged; `docs/show.md` lists "
      "their codes in 8-bit pictures.",
      show_words, .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
-     .others = "unlit pass aov channel layer debug term only", FIELD(picture.show)},
+     .others = "unlit pass aov channel layer debug term only", FIELD(picture.show), .also_in = IN_SHEET,
+     .not_in = IN_LOOK},
 
     {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that reproduces this picture.",
      "The file stores every setting of the picture: the model's path relative to FILE, the camera, all lights "
      "(including the lights of a rig), materials, transforms and picture options. `lambent FILE` then draws an "
      "identical picture. Lambent overwrites FILE if it exists. `docs/scene-file.md` describes the format.",
      .kind = VALUE_FILE, .of_file = true, .store = store_text, .others = "export-scene write-scene",
-     FIELD(picture.save_scene)},
+     FIELD(picture.save_scene), .not_in = IN_LOOK | IN_JOB | IN_KEY | IN_PAGE},
 
     {"scene", 0, GROUP_MODEL, "NAME|N", "the file's default",
      "The scene to draw from a glTF file with several scenes: its name or number (the first scene is 0).", NULL,
@@ -403,7 +407,7 @@ struct option option_table[OPTIONS_MAX] = {
      "pattern in `-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
      view_words, .several = "views", .brief = "front, left, top, iso ...; or a list: front,left", .store = store_word,
      .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
-     FIELD(view.side)},
+     FIELD(view.side), .not_in = IN_KEY},
     {"azimuth", 0, GROUP_VIEW, "DEGREES", "30",
      "The camera's angle around the model: 0 is the front, 90 is the right side.", NULL, .store = store_number,
      .others = "yaw heading orbit", FIELD(view.azimuth_deg), .has_field = offsetof(struct options, view.has_azimuth),
@@ -429,7 +433,7 @@ struct option option_table[OPTIONS_MAX] = {
      "reads OBJ and PLY files as Z up if they contain a terrain in the xy plane. Lambent also accepts capital letters "
      "and a plus sign (`+Z`).",
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up,
-     .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP},
+     .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP, .not_in = KEEPS_MODEL},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
      "The axis is x, y or z of the scene. Lambent applies rotations in the given order. Lights do not move, except "
      "lights that are fixed to the model. Lengths with the unit r refer to the model before the rotation. Lambent also "
@@ -480,7 +484,8 @@ struct option option_table[OPTIONS_MAX] = {
      "A look is a file with one option per line. Options on the command line override options of the look. A rig or "
      "lights on the command line replace the look's lights. `lambent looks` lists the built-in looks. `lambent looks "
      "catalog` prints a look's file, which you can copy and edit.",
-     look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look)},
+     look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look),
+     .not_in = IN_LOOK | IN_KEY | IN_PAGE | KEEPS_MODEL},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, default, file, none or auto.",
      "Every rig except `auto` and `file` replaces the model's own lights. `docs/lighting/lights.md` lists the lights "
@@ -502,7 +507,7 @@ struct option option_table[OPTIONS_MAX] = {
      "channel "
      "(0.5/255), so no byte changes by more than 1. Lambent always skips lights that contribute nothing, because they "
      "are behind the surface or out of range, or because the surface is outside their cone.",
-     .words = NULL},
+     .words = NULL, .not_in = IN_LOOK},
     {"ao", 0, GROUP_LIGHTS, "METHOD", NULL, NULL,
      "A recess receives less light from its surroundings than an open face. Occlusion dims ambient, hemisphere and "
      "environment light. Occlusion also dims lights whose key `occluded` is above 0, such as the studio's lights. "
@@ -644,15 +649,16 @@ struct option option_table[OPTIONS_MAX] = {
      "distance, and limits this colour to the light's cone.",
      .words = NULL},
     {"back-faces", 0, GROUP_SHADING, "KIND", "the model's", "The lighting of back faces: two-sided or one-sided.",
-     "`--cull back` omits back faces.", back_face_words, .store = store_back_faces, .others = "backfaces double-sided"},
+     "`--cull back` omits back faces.", back_face_words, .store = store_back_faces, .others = "backfaces double-sided",
+     .also_in = KEEPS_MODEL},
     {"two-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces with the reversed normal, for every material.", NULL,
      .store = store_switch, .now = "back-faces", FIELD(shading.two_sided)},
     {"one-sided", 0, GROUP_SHADING, NULL, NULL, "Light back faces like front faces, with the unchanged normal.", NULL,
      .store = store_switch, .now = "back-faces", FIELD(shading.one_sided)},
     {"cull", 0, GROUP_SHADING, "SIDE", "the model's",
      "Omit the back or front faces of all objects: none, back or front.", NULL, cull_words, .store = store_word,
-     .others = "culling backface-culling", FIELD(shading.cull),
-     .has_field = offsetof(struct options, shading.has_cull)},
+     .others = "culling backface-culling", FIELD(shading.cull), .has_field = offsetof(struct options, shading.has_cull),
+     .also_in = KEEPS_MODEL},
     {"normals", 0, GROUP_SHADING, "SOURCE", "file",
      "The source of normals: the file, or computed smooth or facet normals.", NULL, normals_words, .store = store_word,
      .others = "recompute-normals smooth-normals facet-normals", FIELD(shading.normals)},
@@ -682,7 +688,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"reflectivity", 0, GROUP_SHADING, "SHARE", "the materials' own",
      "The share of the environment that every material reflects: 0.5 or r/g/b.", NULL, .now = "material",
      .key = "reflectivity", .store = store_reflectivity, .others = "mirror reflective", FIELD(material.reflectivity),
-     .has_field = offsetof(struct options, material.has_reflectivity), .max = 1000},
+     .has_field = offsetof(struct options, material.has_reflectivity), .max = 1000, .also_in = KEEPS_MODEL},
 
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
      "The model rotates about its up axis in equal steps, counter-clockwise as seen from above. Frame k is identical "
@@ -731,18 +737,19 @@ struct option option_table[OPTIONS_MAX] = {
     {"device", 0, GROUP_WORK, "NAME", "auto", "The device that draws: cpu, gl, gles or auto.",
      "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If OpenGL is unavailable, the error message "
      "states the reason (exit 3). Lambent does not switch to another device. `lambent devices` lists the devices.",
-     device_words, .store = store_word, .others = "d gpu cpu backend renderer engine opengl gl", FIELD(work.device)},
+     device_words, .store = store_word, .others = "d gpu cpu backend renderer engine opengl gl", FIELD(work.device),
+     .also_in = IN_KEY},
     {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable",
      "The OpenGL device, given by its number or by a part of its name.",
      "`lambent devices` lists the devices with their numbers, hardware before software.", .store = store_text,
-     FIELD(work.gl_device)},
+     FIELD(work.gl_device), .also_in = IN_KEY},
     {"texture-filter", 0, GROUP_WORK, "NAME", "exact",
      "How OpenGL filters textures: exact (in the shader) or hardware.",
      "Graphics cards round the weights of their filters, mostly to 1/256, and approximate the level of detail. "
      "`hardware` is therefore faster and less exact (`docs/opengl.md`). The CPU device is always exact and rejects "
      "`hardware`. In the `shader` command, the option selects how the printed shaders read textures.",
-     texture_filter_words, .store = store_word, .others = "texture-filtering texturefilter",
-     FIELD(work.texture_filter)},
+     texture_filter_words, .store = store_word, .others = "texture-filtering texturefilter", FIELD(work.texture_filter),
+     .also_in = IN_KEY},
     {"repeat", 0, GROUP_WORK, "N", "1", "Draw each picture N times and report the median time.", NULL,
      .store = store_integer, .others = "iterations benchmark bench", FIELD(work.repeat), .min = 1, .max = 100000},
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter of the available memory",
@@ -800,7 +807,7 @@ struct option option_table[OPTIONS_MAX] = {
      "Use this option for scene files from untrusted sources. All models and pictures must then be in the scene file's "
      "folder or below it, after Lambent resolves links and `..`. Files that a model refers to, such as MTL files, must "
      "always be in the model's folder. Files given on the command line may be anywhere.",
-     .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES},
+     .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES, .also_in = IN_KEY},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
      "Drop all privileges that reading files does not need: auto, require or off.",
      "In the sandbox, a file that exploits a decoder cannot run programs, open sockets or read other files. The "
@@ -827,9 +834,9 @@ struct option option_table[OPTIONS_MAX] = {
      .single = TAKES_PICTURE_LIMITS},
 
     {"views", 0, GROUP_BATCH, "SIDES", NULL, "Several sides.", NULL, view_words, .store = store_views, .now = "view",
-     FIELD(batch.views)},
+     FIELD(batch.views), .also_in = IN_JOB},
     {"sizes", 0, GROUP_BATCH, "SIZES", NULL, "Several sizes.", NULL, .store = store_sizes, .now = "size",
-     FIELD(batch.sizes), .max = 65535},
+     FIELD(batch.sizes), .max = 65535, .also_in = IN_JOB},
     {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE lists, one per line; repeatable.",
      "`-` is standard input. Names are relative to the current folder, as on the command line. Lambent ignores empty "
      "lines. In `batch`, `@FILE` has the same effect.",

@@ -77,6 +77,22 @@ bool option_is_taken(const struct option *option, uint64_t groups)
     return groups & (1ull << option->group | option->single) && !(option->of_file && groups & WRITES_NO_FILE);
 }
 
+bool option_is_in(const struct option *option, enum option_use use)
+{
+    uint64_t groups = PICTURE_GROUPS;
+    if (use == IN_LOOK)
+        groups &= ~(1ull << GROUP_MODEL);
+    else if (use == IN_JOB)
+        groups |= 1ull << GROUP_ANIMATION;
+    else if (use == IN_PAGE)
+        groups |= 1ull << GROUP_SHAPE;
+    else if (use == IN_SHEET)
+        groups ^= 1ull << GROUP_PICTURE | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION;
+    else if (use == KEEPS_MODEL)
+        groups &= ~(1ull << GROUP_MODEL | 1ull << GROUP_SHADING);
+    return option->also_in & use || (groups >> option->group & 1 && !(option->not_in & use));
+}
+
 static bool is_name(const char *argument, const char *name, size_t length)
 {
     return strlen(argument) == length && memcmp(argument, name, length) == 0;
@@ -307,17 +323,6 @@ static bool own_lights(const struct options *options)
     return own;
 }
 
-// A look may contain only options about the picture, and none that names an output file or another look.
-static bool fits(const struct option *option)
-{
-    static const char *const others[] = {"look", "output", "save-scene", "size", "show", "light-cutoff"};
-    bool group = option->group == GROUP_PICTURE || option->group == GROUP_VIEW || option->group == GROUP_LIGHTS ||
-                 option->group == GROUP_MATERIALS || option->group == GROUP_SHADING;
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        group &= strcmp(option->name, others[i]) != 0;
-    return group;
-}
-
 struct look_lines {
     struct options *options;
     const struct options *before; // the options of the command line
@@ -329,7 +334,7 @@ static bool take_look_line(void *user, int line, char *name, char *value, lam_er
     struct look_lines *lines = user;
     struct options *options = lines->options;
     const struct option *option = option_find(name);
-    if (!option || !fits(option))
+    if (!option || !option_is_in(option, IN_LOOK))
         return complain(error, LAM_BAD_ARGUMENT,
                         "%.100s:%d: found '%.60s', expected an option of the picture, such as --ao",
                         options->lighting.look, line, name);

@@ -92,6 +92,21 @@ enum option_group {
     GROUP_COUNT,
 };
 
+// The groups of the options that determine the picture of a model.
+#define PICTURE_GROUPS                                                                                                 \
+    (1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |                         \
+     1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING)
+
+// Uses of options. Each use includes the options of some groups; `also_in` and `not_in` of a row are the exceptions.
+enum option_use {
+    IN_LOOK = 1,      // a look may set it
+    IN_JOB = 2,       // a worker's job may set it
+    IN_KEY = 4,       // part of the key by which a journal recognises unchanged pictures
+    IN_PAGE = 8,      // the page shows a control
+    IN_SHEET = 16,    // `compare --across` can vary it
+    KEEPS_MODEL = 32, // changes only the drawing, so that a loaded model can be used again
+};
+
 // A named value that an option accepts. A list ends with a NULL name.
 struct choice {
     const char *name;
@@ -139,6 +154,7 @@ struct option {
     const char *alone;          // the value if none follows; NULL requires a value
     bool of_file;               // concerns the output file: see WRITES_NO_FILE
     bool loads;                 // requires reading the model again if it changes
+    uint8_t also_in, not_in;    // bits of option_use that the group does not imply, or implies wrongly
     const lam_setting *setting; // the library's setting that it stores, or NULL
     // The option that takes several values separated by commas, suggested if a value contains a comma. May be NULL.
     const char *several;
@@ -182,6 +198,9 @@ bool option_given(const struct options *options, const char *name);
 
 // Returns true if a command accepts an option. `groups` has bit g set for each complete group, and TAKES_… bits.
 bool option_is_taken(const struct option *option, uint64_t groups);
+
+// Returns whether a use includes an option.
+bool option_is_in(const struct option *option, enum option_use use);
 
 // Parses a command line without the names of the program and the command. `groups` is as for option_is_taken. Moves the
 // operands to the front of `words` and returns their number, or −1 with LAM_BAD_ARGUMENT.

@@ -19,9 +19,7 @@ bool sweep_takes_option(const struct option *o)
     bool number = o->store == store_number || o->store == store_float || o->store == store_cutoff ||
                   o->store == store_integer || o->store == store_exposure || o->store == store_segments ||
                   o->store == store_color || o->store == store_opaque_color || o->store == store_reflectivity;
-    bool picture = o->group == GROUP_PICTURE || o->group == GROUP_MODEL || o->group == GROUP_VIEW ||
-                   o->group == GROUP_LIGHTS || o->group == GROUP_MATERIALS || o->group == GROUP_SHADING;
-    return number && picture && o->field != offsetof(struct options, picture.quality);
+    return number && option_is_in(o, IN_PAGE);
 }
 
 static bool is_material_key(const char *key)

@@ -5,7 +5,6 @@
 #include "terminal.h"
 
 #include <dlfcn.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "console.h"

@@ -168,19 +168,6 @@ const char *page_model_lacks(const struct page_model *model, const lam_file_info
 
 // --- words
 
-// Returns whether an option concerns the picture and has a control in the page. Returns false for --look, because the
-// page writes the options that a look sets instead of --look.
-bool page_model_has_option(const struct option *option)
-{
-    static const char *const without[] = {"output", "save-scene", "durable", "compress", "quality", "look"};
-    for (size_t i = 0; i < sizeof without / sizeof *without; i++)
-        if (strcmp(option->name, without[i]) == 0)
-            return false;
-    return option->group == GROUP_PICTURE || option->group == GROUP_MODEL || option->group == GROUP_VIEW ||
-           option->group == GROUP_LIGHTS || option->group == GROUP_MATERIALS || option->group == GROUP_SHADING ||
-           option->group == GROUP_SHAPE;
-}
-
 struct words {
     struct json json;
     const struct page_model *model;
@@ -191,7 +178,7 @@ static void put_option(void *user, const char *name, const char *value)
 {
     struct words *words = user;
     char *argument = NULL;
-    if (!page_model_has_option(option_find(name)))
+    if (!option_is_in(option_find(name), IN_PAGE))
         return;
     if (strcmp(name, "environment") == 0 && words->model->environment)
         value = words->model->environment;

@@ -29,10 +29,6 @@ void page_model_free(struct page_model *model);
 // ends the list.
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
-// Returns whether an option concerns the picture and has a control in the page. Returns false for --look, because the
-// page writes the options that a look sets instead of --look.
-bool page_model_has_option(const struct option *option);
-
 // Prints the words of the picture's command line as a JSON list without '<': the model, and each option with its value
 // in one word. `given` contains the options of the command line. Options about the machine (threads, device, limits)
 // and about output files are omitted. Fails with LAM_LIMIT.

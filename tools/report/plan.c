@@ -1,7 +1,6 @@
 // plan.c: implements --dry-run: lists the pictures and files without drawing.
 #include "plan.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -9,7 +9,6 @@
 
 #include <lambent/shader.h>
 
-#include "command_table.h"
 #include "console.h"
 #include "sheet_defaults.h"
 #include "suggest.h"
@@ -106,14 +105,7 @@ static const struct sheet sheets[] = {
 
 // --- a row of variants
 
-bool sheet_varies(const struct option *o)
-{
-    bool of_model = o->value && find_groups("render") & 1ull << o->group && o->group != GROUP_PICTURE &&
-                    o->group != GROUP_REPORT && o->group != GROUP_ABOUT && o->group != GROUP_SETTINGS &&
-                    o->group != GROUP_WORK && o->group != GROUP_LIMITS;
-    return of_model || strcmp(o->name, "samples") == 0 || strcmp(o->name, "color-mode") == 0 ||
-           strcmp(o->name, "background") == 0 || strcmp(o->name, "show") == 0;
-}
+bool sheet_varies(const struct option *o) { return o->value && option_is_in(o, IN_SHEET); }
 
 static const struct option *find_option(const char *name, size_t length, lam_error *error)
 {

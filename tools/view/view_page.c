@@ -1,7 +1,6 @@
 // view_page.c: makes the page of the viewer.
 #include "view_page.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,7 +41,7 @@ static void put_option(void *user, const char *name, const char *value)
 {
     const struct words *w = user;
     char *argument = NULL;
-    if (!page_model_has_option(option_find(name)))
+    if (!option_is_in(option_find(name), IN_PAGE))
         return;
     if (strcmp(name, "environment") == 0 && w->environment)
         value = w->environment;

@@ -359,9 +359,7 @@ void web_options(void)
     json_close(&json, ']');
     json_open(&json, "options", '[');
     for (const struct option *o = option_table; o->name; o++)
-        if (o->group == GROUP_PICTURE || o->group == GROUP_MODEL || o->group == GROUP_VIEW ||
-            o->group == GROUP_LIGHTS || o->group == GROUP_MATERIALS || o->group == GROUP_SHADING ||
-            o->group == GROUP_SHAPE)
+        if ((PICTURE_GROUPS | 1ull << GROUP_SHAPE) >> o->group & 1)
             option_json(&json, o);
     json_close(&json, ']');
     json_close(&json, '}');

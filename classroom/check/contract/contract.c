@@ -2,7 +2,6 @@
 #include "contract.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "contract_texts.inc"

@@ -197,14 +197,14 @@ static double seconds(clockid_t clock)
 #ifdef __wasi__ // WASI has no processor time, so the caller stops endless loops
 static double time_limit_s(int size) { return size > 0 ? DBL_MAX : 0; }
 #else
-enum { PIECES = 16, TERMS = 1 << 16, TERMS_PER_PIXEL = 2000, MIN_PIXELS = 128 * 128 };
+enum { RUNS = 16, TERMS = 1 << 16, TERMS_PER_PIXEL = 2000, MIN_PIXELS = 128 * 128 };
 static const double min_time_limit_s = 0.05; // the clock's resolution may be as coarse as 10 ms
 
 static double time_limit_s(int size)
 {
     volatile float seed = 0.5f;
     double shortest = 1;
-    for (int piece = 0; piece < PIECES; piece++) {
+    for (int run = 0; run < RUNS; run++) {
         double start = seconds(CLOCK_MONOTONIC);
         float x = seed, a = seed;
         for (int i = 0; i < TERMS; i++)

@@ -1,7 +1,6 @@
 // check_sheet.c: draws the sheet with the shader's picture, the reference and the difference for each scene.
 #include "check.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "drawing.h"

@@ -104,8 +104,8 @@ static bool path_refine(struct path *path, const struct plot *plot, const struct
 static bool draw_path(const struct plot *plot, const struct layout *at, const struct curve *curve,
                       const struct path *path, struct drawing *d, lam_error *error)
 {
-    struct point *piece = calloc((size_t)path->count + 2, sizeof *piece);
-    if (!piece)
+    struct point *stroke = calloc((size_t)path->count + 2, sizeof *stroke);
+    if (!stroke)
         return complain(error, LAM_LIMIT, "out of memory");
     bool ok = true;
     int count = 0;
@@ -115,15 +115,15 @@ static bool draw_path(const struct plot *plot, const struct layout *at, const st
         double share = in != was_in ? (plot->y_max - before.y) / (p.y - before.y) : 0;
         struct point edge = {before.x + (p.x - before.x) * share, plot->y_max};
         if (in != was_in)
-            piece[count++] = place(plot, at, edge.x, edge.y);
+            stroke[count++] = place(plot, at, edge.x, edge.y);
         if (in)
-            piece[count++] = place(plot, at, p.x, p.y);
+            stroke[count++] = place(plot, at, p.x, p.y);
         if ((!in && was_in) || i + 1 == path->count) {
-            ok = draw_line(d, piece, count, 2.4 * at->unit, curve->color, style_dash(curve, at->unit), error);
+            ok = draw_line(d, stroke, count, 2.4 * at->unit, curve->color, style_dash(curve, at->unit), error);
             count = 0;
         }
     }
-    free(piece);
+    free(stroke);
     return ok;
 }
 

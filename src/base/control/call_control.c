@@ -148,11 +148,6 @@ uint64_t call_pixel_limit(const struct call_control *call)
     return or_default(call ? call->control.pixel_limit : 0, LAM_PIXEL_LIMIT);
 }
 
-uint64_t call_file_limit(const struct call_control *call)
-{
-    return or_default(call ? call->control.file_limit_bytes : 0, LAM_FILE_LIMIT_BYTES);
-}
-
 unsigned call_json_depth_limit(const struct call_control *call)
 {
     uint64_t limit = or_default(call ? call->control.json_depth_limit : 0, LAM_JSON_DEPTH_LIMIT);
@@ -207,7 +202,7 @@ bool call_check_expanded(const struct call_control *call, const char *name, uint
 
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error)
 {
-    uint64_t limit = call_file_limit(call);
+    uint64_t limit = or_default(call ? call->control.file_limit_bytes : 0, LAM_FILE_LIMIT_BYTES);
     return bytes <= limit ||
            fail(error, LAM_LIMIT, "%s: %llu bytes, expected at most %llu (lam_control.file_limit_bytes)", name,
                 (unsigned long long)bytes, (unsigned long long)limit);

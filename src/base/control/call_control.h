@@ -53,7 +53,6 @@ uint64_t call_input_bytes(const struct call_control *call);
 uint64_t call_triangle_limit(const struct call_control *call);
 uint64_t call_expansion_limit(const struct call_control *call);
 uint64_t call_pixel_limit(const struct call_control *call);
-uint64_t call_file_limit(const struct call_control *call);
 unsigned call_json_depth_limit(const struct call_control *call);
 uint64_t call_layer_limit(const struct call_control *call);
 

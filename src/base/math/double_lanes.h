@@ -1,10 +1,10 @@
 // double_lanes.h: vectors of doubles that correspond to the floats of lanes.h.
 //
-//  dnum   DLANES doubles in one register, half as many as a num has floats; DPARTS dnums have LANES doubles
+//  dnum   DLANES doubles in one register, half as many as a num has floats
 //  dmask  DLANES truth values, the results of comparisons
 //
 // As in lanes.h, only + − × ÷ and comparisons are used. Each operation is correctly rounded, so the results are
-// bit-identical for every width. One vector twice as wide as a register could replace the DPARTS vectors, but compilers
+// bit-identical for every width. One vector twice as wide as a register could replace the two vectors, but compilers
 // would then use scalar instructions for its comparisons.
 #ifndef DOUBLE_LANES_H
 #define DOUBLE_LANES_H
@@ -21,7 +21,6 @@ typedef double dnum __attribute__((vector_size(DLANES * 8)));
 typedef int64_t dmask __attribute__((vector_size(DLANES * 8))); // each lane is 0 or −1
 typedef double dnum_memory __attribute__((vector_size(DLANES * 8), aligned(8), may_alias));
 #endif
-#define DPARTS (LANES / DLANES)
 
 #if LANES == 1
 LANE_FN dnum dabsolute(dnum x) { return __builtin_fabs(x); }

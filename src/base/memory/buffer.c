@@ -3,8 +3,6 @@
 
 #include "pages.h"
 
-#include <stdint.h>
-
 bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *call, lam_error *error)
 {
     if (bytes <= buffer->capacity)

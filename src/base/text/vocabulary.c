@@ -83,7 +83,7 @@ static const struct {
     {"normals", "normal n"},
     {"tangents", "tangent t"},
     {"depth", "z zbuffer z-buffer distance"},
-    {"reflection", "environment env mirror"},
+    {"reflection", "mirror"},
     {"facing", "backface backfaces back-faces winding sides culling"},
     {"ids", "id triangles primitives faces"},
     {"coverage", "mask alpha silhouette matte"},

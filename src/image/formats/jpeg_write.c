@@ -7,7 +7,6 @@
 #include <setjmp.h>
 #include <stdio.h> // required by jpeglib.h
 #include <stdlib.h>
-#include <string.h>
 
 #include <jerror.h>
 #include <jpeglib.h>

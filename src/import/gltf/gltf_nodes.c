@@ -5,8 +5,6 @@
 
 #include "linear.h"
 
-#include <string.h>
-
 lam_mat4 gltf_transform(const double translation[3], const double rotation[4], const double scale[3])
 {
     double x = rotation[0], y = rotation[1], z = rotation[2], w = rotation[3];

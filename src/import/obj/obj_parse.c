@@ -158,7 +158,7 @@ bool obj_find_origin(struct obj *obj, lam_error *error)
 
 // --- colours
 
-static bool convert_piece(void *user, size_t index, lam_error *error)
+static bool convert_rows(void *user, size_t index, lam_error *error)
 {
     (void)error;
     struct obj *obj = user;
@@ -187,5 +187,5 @@ bool obj_convert_colors(struct obj *obj, lam_error *error)
     if (brightest > 1)
         scene_warn(obj->scene, "%s: vertex colours reach %g, so their range is taken as 0 to 255, not 0 to 1",
                    obj->source->name, (double)brightest);
-    return parallel_rows_run(obj->source, parallel_rows_count(obj->total.positions), convert_piece, obj, error);
+    return parallel_rows_run(obj->source, parallel_rows_count(obj->total.positions), convert_rows, obj, error);
 }

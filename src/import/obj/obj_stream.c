@@ -15,7 +15,6 @@
 #include <string.h>
 
 enum {
-    PIECE = 256 << 10,          // bytes
     TAIL = 16 << 10,            // bytes read after a chunk, for its last line
     STATEMENTS = 4096,          // the maximum number of statements per chunk
     COUNT_MAX = UINT32_MAX - 1, // the maximum number of elements of a kind
@@ -87,8 +86,8 @@ static size_t rows_max(enum array kind, size_t bytes) { return bytes / array_kin
 // Reads the complete lines that begin in the chunk.
 static bool read_text(const struct stream *stream, struct chunk_scratch *scratch, size_t index, struct obj_chunk *chunk)
 {
-    size_t size = stream->file->size, nominal = index * PIECE, from = index ? nominal - 1 : 0;
-    size_t to = size - nominal < PIECE + TAIL ? size : nominal + PIECE + TAIL;
+    size_t size = stream->file->size, nominal = index * OBJ_CHUNK, from = index ? nominal - 1 : 0;
+    size_t to = size - nominal < OBJ_CHUNK + TAIL ? size : nominal + OBJ_CHUNK + TAIL;
     uint8_t *text = scratch->text, *end = text + (to - from);
     if (!file_read_part(stream->file, stream->obj->source->name, from, text, to - from, NULL))
         return false;
@@ -100,8 +99,8 @@ static bool read_text(const struct stream *stream, struct chunk_scratch *scratch
     } else if (memcmp(text, "\xef\xbb\xbf", 3) == 0) { // a byte order mark
         first += 3;
     }
-    if (size - nominal > PIECE) {
-        const uint8_t *edge = text + (nominal + PIECE - 1 - from);
+    if (size - nominal > OBJ_CHUNK) {
+        const uint8_t *edge = text + (nominal + OBJ_CHUNK - 1 - from);
         last = memchr(edge, '\n', (size_t)(end - edge));
         if (!last && to < size)
             return false;
@@ -125,11 +124,11 @@ static bool parse(struct chunk_scratch *scratch, struct obj_chunk *chunk)
     for (;;) {
         *chunk = unread;
         chunk->counts = (struct obj_counts){
-            .positions = rows_max(POSITIONS, PIECE),
-            .texcoords = rows_max(TEXCOORDS, PIECE),
-            .normals = rows_max(NORMALS, PIECE),
-            .triangles = rows_max(CORNERS, PIECE),
-            .polygons = rows_max(POLYGONS, PIECE),
+            .positions = rows_max(POSITIONS, OBJ_CHUNK),
+            .texcoords = rows_max(TEXCOORDS, OBJ_CHUNK),
+            .normals = rows_max(NORMALS, OBJ_CHUNK),
+            .triangles = rows_max(CORNERS, OBJ_CHUNK),
+            .polygons = rows_max(POLYGONS, OBJ_CHUNK),
             .others = STATEMENTS,
         };
         obj->texcoord_indices = scratch->texcoords ? scratch->arrays[CORNER_TEXCOORDS] : NULL;
@@ -281,9 +280,9 @@ static bool alloc_scratch(struct stream *stream)
     struct obj *obj = stream->obj;
     size_t threads = (size_t)pool_threads(obj->source->pool);
     stream->scratch = arena_alloc_zeroed(&obj->memory, threads * sizeof *stream->scratch);
-    size_t text = PIECE + TAIL + FILE_PADDING, bytes = text;
+    size_t text = OBJ_CHUNK + TAIL + FILE_PADDING, bytes = text;
     for (enum array kind = 0; kind < ARRAYS; kind++)
-        bytes += (rows_max(kind, PIECE) + 1) * array_kinds[kind].row / 64 * 64 + 64;
+        bytes += (rows_max(kind, OBJ_CHUNK) + 1) * array_kinds[kind].row / 64 * 64 + 64;
     uint8_t *memory = arena_array(&obj->memory, threads, bytes);
     if (!stream->scratch || !memory)
         return false;
@@ -293,7 +292,7 @@ static bool alloc_scratch(struct stream *stream)
         memory += text;
         for (enum array kind = 0; kind < ARRAYS; kind++) {
             scratch->arrays[kind] = memory;
-            memory += (rows_max(kind, PIECE) + 1) * array_kinds[kind].row / 64 * 64 + 64;
+            memory += (rows_max(kind, OBJ_CHUNK) + 1) * array_kinds[kind].row / 64 * 64 + 64;
         }
         scratch->obj = (struct obj){
             .source = obj->source,
@@ -409,7 +408,7 @@ static bool load(struct stream *stream)
         stream->low[i] = __FLT_MAX__;
         stream->high[i] = -__FLT_MAX__;
     }
-    pool_run(obj->source->pool, (stream->file->size + PIECE - 1) / PIECE, load_chunk, stream);
+    pool_run(obj->source->pool, (stream->file->size + OBJ_CHUNK - 1) / OBJ_CHUNK, load_chunk, stream);
     if (!stream_continues(stream) || !indices_valid(stream) || !fits_floats(stream) || !pass_arrays(stream))
         return false;
     struct obj_chunk whole = {

@@ -9,7 +9,6 @@
 
 #include "number.h"
 
-#include <stdio.h>
 #include <string.h>
 
 // --- the part

@@ -3,8 +3,6 @@
 
 #include <lambent/material.h>
 
-#include <string.h>
-
 struct info_counts info_count(const lam_scene *scene)
 {
     struct info_counts counts = {0};

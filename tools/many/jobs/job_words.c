@@ -123,24 +123,11 @@ void job_words_free(char **words, int count)
 
 // --- from words to options
 
-// Returns whether a job may set the option. Jobs may set only options of the picture, because the worker's command line
-// sets limits, processors and output files.
-static bool fits(const struct option *option)
-{
-    static const char *const others[] = {"output", "save-scene", "durable"};
-    bool fits = option->group == GROUP_PICTURE || option->group == GROUP_MODEL || option->group == GROUP_VIEW ||
-                option->group == GROUP_LIGHTS || option->group == GROUP_MATERIALS || option->group == GROUP_SHADING ||
-                option->group == GROUP_ANIMATION || strcmp(option->name, "views") == 0 ||
-                strcmp(option->name, "sizes") == 0;
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        fits &= strcmp(option->name, others[i]) != 0;
-    return fits;
-}
-
+// Jobs may set only options of the picture, because the worker's command line sets limits, processors and output files.
 static bool check(const struct options *given, lam_error *error)
 {
     for (const struct option *option = option_table; option->name; option++) {
-        if (!given->given[option - option_table] || fits(option))
+        if (!given->given[option - option_table] || option_is_in(option, IN_JOB))
             continue;
         bool output = strcmp(option->name, "output") == 0;
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is not allowed in a job: %s", option->name,

@@ -12,25 +12,11 @@
 #include "json.h"
 #include "xxh64.h"
 
-// Options that affect the picture, but are in other groups.
-static const char *const also[] = {"files-inside", "device", "gl-device", "texture-filter", NULL};
-
-// Options of the picture's groups that the text omits. Sides and sizes are stored for each picture, and a look is
-// stored as the options that it sets.
-static const char *const without[] = {"output", "save-scene", "size", "view", "durable", "look", NULL};
-
 static bool is_in(const char *const *names, const char *name)
 {
     while (*names && strcmp(*names, name) != 0)
         names++;
     return *names;
-}
-
-static bool changes_picture(const struct option *option)
-{
-    bool group = option->group == GROUP_PICTURE || option->group == GROUP_MODEL || option->group == GROUP_VIEW ||
-                 option->group == GROUP_LIGHTS || option->group == GROUP_MATERIALS || option->group == GROUP_SHADING;
-    return is_in(also, option->name) || (group && !is_in(without, option->name));
 }
 
 static bool is_texts(const struct option *option)
@@ -124,8 +110,8 @@ char *batch_options_text(const struct options *o, lam_error *error)
     FILE *out = open_memstream(&text, &size);
     bool ok = out || complain(error, LAM_LIMIT, "out of memory");
     for (const struct option *option = option_table; ok && option->name; option++) {
-        if (!changes_picture(option) || (option->has_field && option->store != store_switch &&
-                                         !*(const bool *)((const char *)o + option->has_field)))
+        if (!option_is_in(option, IN_KEY) || (option->has_field && option->store != store_switch &&
+                                              !*(const bool *)((const char *)o + option->has_field)))
             continue;
         fprintf(out, "%s=", option->name);
         if (strcmp(option->name, "environment") == 0)
@@ -182,7 +168,7 @@ char *batch_options_given(const struct options *o)
     FILE *out = open_memstream(&text, &size);
     for (const struct option *option = option_table; out && option->name; option++)
         if (o->given[option - option_table] && !o->by_look[option - option_table] &&
-            (changes_picture(option) || is_in(own, option->name)))
+            (option_is_in(option, IN_KEY) || is_in(own, option->name)))
             put_given(out, option, o);
     if (out && fclose(out) == 0)
         return text;
@@ -222,7 +208,7 @@ uint64_t batch_key(const struct batch_key_parts *p)
     // A setting of a scene file applies only if the command line lacks this option, so the key includes the names of
     // the typed options.
     for (int i = 0; strcmp(p->format, "scene") == 0 && option_table[i].name; i++)
-        if ((p->parsed->given[i] || p->parsed->by_key[i]) && changes_picture(&option_table[i]))
+        if ((p->parsed->given[i] || p->parsed->by_key[i]) && option_is_in(&option_table[i], IN_KEY))
             xxh64_add_text(&hash, option_table[i].name);
     xxh64_add_text(&hash, p->file_count ? NULL : p->model);
     xxh64_add_text(&hash, p->picture);

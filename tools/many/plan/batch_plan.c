@@ -134,6 +134,16 @@ char *batch_plan_folder(const struct batch_plan *plan)
     return strndup(name, length);
 }
 
+bool batch_same_output(const char *a, const char *b, const char *output, lam_error *error)
+{
+    if (strcmp(a, b) == 0)
+        return complain(error, LAM_BAD_ARGUMENT, "'%.120s' is listed twice", a);
+    return complain(
+        error, LAM_BAD_ARGUMENT,
+        "'%.120s' and '%.120s' would both be written to '%.120s'; name a pattern: -o '{dir}/{stem}-{ext}.png'", a, b,
+        output);
+}
+
 // The name of a picture. Sorting these structs finds duplicate names.
 struct named_output {
     size_t model;
@@ -159,10 +169,7 @@ static bool find_doubles(const struct batch_plan *plan, const struct named_outpu
                 error, LAM_BAD_ARGUMENT,
                 "several pictures of '%.150s' would be written to '%.200s'; the name needs {view} or {size}", a,
                 named[i].output);
-        return complain(
-            error, LAM_BAD_ARGUMENT,
-            "'%.120s' and '%.120s' would both be written to '%.120s'; name a pattern: -o '{dir}/{stem}-{ext}.png'", a,
-            b, named[i].output);
+        return batch_same_output(a, b, named[i].output, error);
     }
     return true;
 }

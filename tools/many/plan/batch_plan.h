@@ -36,6 +36,10 @@ bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root,
 // Removes the last model.
 void batch_plan_drop_last(struct batch_plan *plan);
 
+// Reports that the pictures of models `a` and `b` have the same name. If a and b are equal, says that the model is
+// listed twice. Returns false.
+bool batch_same_output(const char *a, const char *b, const char *output, lam_error *error);
+
 // Completes the plan. Rejects equal names of pictures in all shards, and names that cannot be written. Then keeps only
 // the models of this shard. Fails with LAM_BAD_ARGUMENT or LAM_UNSUPPORTED.
 bool batch_plan_check(struct batch_plan *plan, lam_error *error);

@@ -116,8 +116,7 @@ static bool check_order(const struct batch_plan *plan, const char *path, lam_err
     int order = before && now ? strcmp(before, now) : -1;
     bool ok = before && now ? true : complain(error, LAM_LIMIT, "out of memory");
     if (order == 0)
-        ok = complain(error, LAM_BAD_ARGUMENT, "'%.120s' and '%.120s' would both be written to '%.120s'",
-                      plan->models[plan->count - 2].path, model, now);
+        ok = batch_same_output(plan->models[plan->count - 2].path, model, now, error);
     else if (order > 0)
         ok = complain(error, LAM_BAD_ARGUMENT,
                       "option '--shard-by list': %.100s is not in the order of the pictures (LC_ALL=C sort): '%.120s' "

@@ -61,7 +61,7 @@ static bool fits(const struct option *option, const struct options *given)
 {
     if (strcmp(option->name, "look") == 0)
         return look_find(given->lighting.look) != NULL;
-    return page_model_has_option(option) || strcmp(option->name, "compress") == 0 ||
+    return option_is_in(option, IN_PAGE) || strcmp(option->name, "compress") == 0 ||
            strcmp(option->name, "quality") == 0;
 }
 

@@ -8,7 +8,8 @@ enum { IDLE_SCENES = 4 };
 // the smallest gain, in at least one scene, of a set over the set without its last fault
 static const double min_idle_gain = 0.001;
 
-bool candidate_is_spoilt(const struct state *t, int index, const struct difference *d)
+// Returns whether faults cause a difference in a scene that passes without faults.
+static bool candidate_is_spoilt(const struct state *t, int index, const struct difference *d)
 {
     const struct difference *without = &t->without[index];
     return !d->fits && (without->fits || d->mean > 1.5 * without->mean);

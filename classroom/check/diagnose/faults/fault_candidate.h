@@ -47,9 +47,6 @@ struct state {
     struct difference without[MAX_SCENES];
 };
 
-// Returns whether faults cause a difference in a scene that passes without faults.
-bool candidate_is_spoilt(const struct state *t, int index, const struct difference *d);
-
 // Returns whether the search has reached its limit of pictures.
 bool search_is_spent(struct state *t);
 

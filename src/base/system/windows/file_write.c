@@ -12,13 +12,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PIECE = 1 << 20 };
+enum { BLOCK = 1 << 20 };
 
 // Returns false and sets errno on failure; ECANCELED means that the call must stop.
 static bool write_all(int file, const uint8_t *at, size_t left, struct call_control *call)
 {
     while (left) {
-        ssize_t wrote = write(file, at, left < PIECE ? (unsigned)left : PIECE);
+        ssize_t wrote = write(file, at, left < BLOCK ? (unsigned)left : BLOCK);
         if (wrote < 0)
             return false;
         at += wrote;

@@ -140,7 +140,9 @@ static bool take_sparse(struct gltf *gltf, const struct place *place, const json
     return accessor->sparse_values != NULL;
 }
 
-struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index)
+// Returns the accessor with a checked index, after checking that its elements lie within the buffer. Returns NULL on
+// error.
+static struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index)
 {
     struct gltf_accessor *accessor = &gltf->accessors[index];
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "accessors"), (size_t)index);

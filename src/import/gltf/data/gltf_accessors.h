@@ -6,10 +6,6 @@
 
 bool gltf_accessors_start(struct gltf *gltf);
 
-// Returns the accessor with a checked index, after checking that its elements lie within the buffer. Returns NULL on
-// error.
-struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index);
-
 // Gets the accessor that a key of `object` refers to. *out is NULL if the key is missing. Returns false on error.
 bool gltf_take_accessor(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                         struct gltf_accessor **out);

@@ -35,7 +35,8 @@ struct compressed {
     size_t offset, length, stride, count;
 };
 
-bool gltf_meshopt_is_fallback(const json_t *buffer)
+// Returns whether a buffer is only a placeholder, because all its views are compressed in other buffers.
+static bool gltf_meshopt_is_fallback(const json_t *buffer)
 {
     return json_is_true(json_object_get(gltf_extension(buffer, "EXT_meshopt_compression"), "fallback"));
 }

@@ -10,7 +10,4 @@
 bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
                          bool *done);
 
-// Returns whether a buffer is only a placeholder, because all its views are compressed in other buffers.
-bool gltf_meshopt_is_fallback(const json_t *buffer);
-
 #endif

@@ -5,7 +5,6 @@
 #include "gltf_buffers.h"
 #include "parallel_rows.h"
 
-#include <float.h>
 #include <string.h>
 
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__

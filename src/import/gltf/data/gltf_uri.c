@@ -24,7 +24,8 @@ static int escaped(const char *at)
     return low < 0 ? -1 : high * 16 + low;
 }
 
-void gltf_uri_unescape(const char *uri, char *out)
+// Replaces each %XX with the byte that it encodes, and copies all other characters. `out` must be as large as `uri`.
+static void gltf_uri_unescape(const char *uri, char *out)
 {
     while (*uri) {
         int byte = escaped(uri);

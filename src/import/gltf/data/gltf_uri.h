@@ -10,7 +10,4 @@ bool gltf_is_data_uri(const char *uri);
 // Reads the target of a URI: a file in the model's folder, or the bytes of a data URI. The caller releases `out`.
 bool gltf_uri_read(struct gltf *gltf, const struct place *place, const char *uri, struct file_bytes *out);
 
-// Replaces each %XX with the byte that it encodes, and copies all other characters. `out` must be as large as `uri`.
-void gltf_uri_unescape(const char *uri, char *out);
-
 #endif

@@ -13,7 +13,6 @@
 #include "fail.h"
 #include "remedy.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #define NAME "KHR_draco_mesh_compression"

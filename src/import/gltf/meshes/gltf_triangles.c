@@ -23,8 +23,9 @@ static bool fail_index(struct gltf *gltf, const struct place *place, const struc
     return true;
 }
 
-bool gltf_corners(struct gltf *gltf, const struct place *place, const json_t *primitive, uint32_t vertex_count,
-                  const uint32_t **indices, size_t *count)
+// Gets the primitive's indices. Sets *indices to NULL if the primitive has none and uses all vertices in order.
+static bool gltf_corners(struct gltf *gltf, const struct place *place, const json_t *primitive, uint32_t vertex_count,
+                         const uint32_t **indices, size_t *count)
 {
     struct gltf_accessor *accessor;
     const struct place *here = KEY_OF(place, "indices");

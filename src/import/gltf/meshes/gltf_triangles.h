@@ -24,8 +24,4 @@ bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *
 // Like gltf_triangles, for lines and points: sets line_count or point_count.
 bool gltf_strokes(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh);
 
-// Gets the primitive's indices. Sets *indices to NULL if the primitive has none and uses all vertices in order.
-bool gltf_corners(struct gltf *gltf, const struct place *place, const json_t *primitive, uint32_t vertex_count,
-                  const uint32_t **indices, size_t *count);
-
 #endif

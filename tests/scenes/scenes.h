@@ -1,4 +1,4 @@
-// scenes.h: a table of demonstration scenes. The image tests, the benchmarks, the viewer and the web page use it.
+// scenes.h: a table of demonstration scenes. The tests of images, of OpenGL and of the web module draw them.
 #ifndef SCENES_H
 #define SCENES_H
 

@@ -246,7 +246,7 @@ bool interpretations_are_plain(const struct run *r)
             char padded[70];
             double x = 0;
             snprintf(padded, sizeof padded, " %s ", w->text);
-            bool call = strcmp(next, "(") == 0 && (isalpha((unsigned char)w->text[0]) || w->text[0] == '_');
+            bool call = strcmp(next, "(") == 0 && word_is_name(w->text);
             bool own = false; // whether the text defines this function: its name then follows a type
             for (int k = 1; call && k < sides[s]->word_count && !own; k++)
                 own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&

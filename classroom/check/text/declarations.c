@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "fail.h"
+#include "number.h"
 #include "preprocess.h"
 
 // A struct type of the source.
@@ -33,8 +34,6 @@ static const char *word_at(const struct reader *r, int ahead)
 }
 
 static bool next_is(const struct reader *r, const char *text) { return strcmp(word_at(r, 0), text) == 0; }
-
-static bool is_identifier(const char *text) { return isalpha((unsigned char)text[0]) || text[0] == '_'; }
 
 static bool take(struct reader *r, const char *text)
 {
@@ -118,7 +117,7 @@ static bool add_expanded(struct reader *r, const struct declaration *item)
 // Parses name [count] {, name [count]} ;
 static bool read_names(struct reader *r, struct declaration item, bool as_members)
 {
-    while (is_identifier(word_at(r, 0))) {
+    while (word_is_name(word_at(r, 0))) {
         item.line = r->d->words[r->at].line;
         snprintf(item.name, sizeof item.name, "%s", word_at(r, 0));
         r->at++;
@@ -310,4 +309,22 @@ const struct declaration *declarations_find(const struct declarations *d, enum d
         if (d->items[i].kind == kind && strcmp(d->items[i].name, name) == 0)
             return &d->items[i];
     return NULL;
+}
+
+bool word_is(const struct declarations *d, int i, const char *text)
+{
+    return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
+}
+
+bool word_take_number(const struct declarations *d, int *at, double *out)
+{
+    bool minus = word_is(d, *at, "-");
+    const char *text = *at + minus < d->word_count ? d->words[*at + minus].text : "";
+    size_t length = strcspn(text, "fF");
+    const uint8_t *end = (const uint8_t *)text + length;
+    if (!length || !strchr("0123456789.", text[0]) || number_double((const uint8_t *)text, end, out) != end)
+        return false;
+    *out = minus ? -*out : *out;
+    *at += minus + 1;
+    return true;
 }

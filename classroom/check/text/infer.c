@@ -8,8 +8,6 @@
 
 #include <jansson.h>
 
-#include "number.h"
-
 enum { MAX_CHAIN = 8, MAX_DEPTH = 8, MAX_SPACES = 4 };
 // The time grows with the product of these numbers. Real shaders stay far below these limits.
 enum { MAX_WORDS = 30000, MAX_DECLARED = 500, MAX_STEPS = 100000 };
@@ -31,11 +29,6 @@ struct inference {
 };
 
 // --- words
-
-static bool is(const struct declarations *d, int i, const char *text)
-{
-    return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
-}
 
 // Returns whether a name contains one of the words, ignoring case and underscores. Blanks separate `words`.
 static bool has(const char *name, const char *words)
@@ -89,8 +82,8 @@ static const struct declaration *uniform_of(const struct declarations *d, const 
 static int assignment_of(const struct declarations *d, const char *name, int before)
 {
     for (int i = before - 2; i >= 0; i--)
-        if (is(d, i, name) && !d->words[i].is_member && d->words[i].depth > 0 && is(d, i + 1, "=") &&
-            !is(d, i + 2, "="))
+        if (word_is(d, i, name) && !d->words[i].is_member && d->words[i].depth > 0 && word_is(d, i + 1, "=") &&
+            !word_is(d, i + 2, "="))
             return i + 2;
     return -1;
 }
@@ -99,9 +92,9 @@ static int assignment_of(const struct declarations *d, const char *name, int bef
 static void follow(struct inference *f, int at, int depth)
 {
     const struct declarations *d = f->vertex;
-    for (int i = at; i < d->word_count && !is(d, i, ";") && f->steps++ < MAX_STEPS; i++) {
+    for (int i = at; i < d->word_count && !word_is(d, i, ";") && f->steps++ < MAX_STEPS; i++) {
         const char *word = d->words[i].text;
-        if (d->words[i].is_member || !(isalpha((unsigned char)word[0]) || word[0] == '_'))
+        if (d->words[i].is_member || !word_is_name(word))
             continue;
         const struct declaration *uniform = uniform_of(d, word);
         if (uniform && strncmp(uniform->type, "mat4", 4) == 0 && f->chain_count < MAX_CHAIN)
@@ -201,30 +194,31 @@ static unsigned uses_of(const struct declarations *d, const char *name)
     const char *last = last_part(name);
     unsigned uses = 0;
     for (int i = 0; i < d->word_count; i++) {
-        if (!is(d, i, last) || d->words[i].is_member != (last != name))
+        if (!word_is(d, i, last) || d->words[i].is_member != (last != name))
             continue;
         int first = i, after = i + 1;
-        while (first > 1 && (d->words[first].is_member || is(d, first, ".") || is(d, first, "]"))) {
-            if (is(d, first, "]"))
-                while (first > 1 && !is(d, first, "["))
+        while (first > 1 && (d->words[first].is_member || word_is(d, first, ".") || word_is(d, first, "]"))) {
+            if (word_is(d, first, "]"))
+                while (first > 1 && !word_is(d, first, "["))
                     first--;
             first--;
         }
-        if (is(d, after, "["))
-            while (after < d->word_count && !is(d, after++, "]"))
+        if (word_is(d, after, "["))
+            while (after < d->word_count && !word_is(d, after++, "]"))
                 continue;
-        if (is(d, after, ".") && has(d->words[after + 1].text, "xyz"))
+        if (word_is(d, after, ".") && has(d->words[after + 1].text, "xyz"))
             after += 2;
-        while (is(d, first - 1, "(") && is(d, after, ")") && (is(d, first - 2, "vec3") || is(d, first - 2, "vec4"))) {
+        while (word_is(d, first - 1, "(") && word_is(d, after, ")") &&
+               (word_is(d, first - 2, "vec3") || word_is(d, first - 2, "vec4"))) {
             first -= 2;
             after++;
         }
-        bool binary =
-            !(is(d, first - 2, "(") || is(d, first - 2, "=") || is(d, first - 2, ",") || is(d, first - 2, "return"));
-        if ((is(d, first - 1, "-") && binary) || is(d, after, "-"))
+        bool binary = !(word_is(d, first - 2, "(") || word_is(d, first - 2, "=") || word_is(d, first - 2, ",") ||
+                        word_is(d, first - 2, "return"));
+        if ((word_is(d, first - 1, "-") && binary) || word_is(d, after, "-"))
             uses |= USED_IN_DIFFERENCE;
-        first -= is(d, first - 1, "-");
-        if (is(d, first - 1, "(") && is(d, after, ")") && is(d, first - 2, "normalize"))
+        first -= word_is(d, first - 1, "-");
+        if (word_is(d, first - 1, "(") && word_is(d, after, ")") && word_is(d, first - 2, "normalize"))
             uses |= USED_ALONE;
     }
     return uses;
@@ -236,8 +230,8 @@ static bool reads_w(const struct inference *f, const char *name)
     const char *last = last_part(name);
     for (int s = 0; s < 2; s++)
         for (int i = 0; i + 3 < sides[s]->word_count; i++)
-            if (is(sides[s], i, last) && is(sides[s], i + 1, ".") && is(sides[s], i + 2, "w") &&
-                (is(sides[s], i + 3, "=") || is(sides[s], i + 3, ">") || is(sides[s], i + 3, "<")))
+            if (word_is(sides[s], i, last) && word_is(sides[s], i + 1, ".") && word_is(sides[s], i + 2, "w") &&
+                (word_is(sides[s], i + 3, "=") || word_is(sides[s], i + 3, ">") || word_is(sides[s], i + 3, "<")))
                 return true;
     return false;
 }
@@ -250,15 +244,16 @@ static bool is_negated(const struct inference *f, const char *name)
     for (int s = 0; s < 2; s++)
         for (int i = 1; i < sides[s]->word_count; i++) {
             int first = i;
-            while (first > 1 &&
-                   (sides[s]->words[first].is_member || is(sides[s], first, ".") || is(sides[s], first, "]"))) {
-                if (is(sides[s], first, "]"))
-                    while (first > 1 && !is(sides[s], first, "["))
+            while (first > 1 && (sides[s]->words[first].is_member || word_is(sides[s], first, ".") ||
+                                 word_is(sides[s], first, "]"))) {
+                if (word_is(sides[s], first, "]"))
+                    while (first > 1 && !word_is(sides[s], first, "["))
                         first--;
                 first--;
             }
-            if (is(sides[s], i, last) && is(sides[s], first - 1, "-") &&
-                (is(sides[s], first - 2, "(") || is(sides[s], first - 2, "=") || is(sides[s], first - 2, ",")))
+            if (word_is(sides[s], i, last) && word_is(sides[s], first - 1, "-") &&
+                (word_is(sides[s], first - 2, "(") || word_is(sides[s], first - 2, "=") ||
+                 word_is(sides[s], first - 2, ",")))
                 return true;
         }
     return false;
@@ -296,16 +291,16 @@ static bool find_vector(struct inference *f, const struct declaration *item)
 static bool is_exponent(const struct declarations *d, const char *name)
 {
     for (int i = 0; i + 1 < d->word_count; i++) {
-        if (!is(d, i, "pow") || !is(d, i + 1, "("))
+        if (!word_is(d, i, "pow") || !word_is(d, i + 1, "("))
             continue;
         int depth = 0;
         bool second = false;
         for (int k = i + 1; k < d->word_count; k++) {
-            depth += is(d, k, "(") - is(d, k, ")");
+            depth += word_is(d, k, "(") - word_is(d, k, ")");
             if (depth == 0)
                 break;
-            second = second || (depth == 1 && is(d, k, ","));
-            if (second && is(d, k, name))
+            second = second || (depth == 1 && word_is(d, k, ","));
+            if (second && word_is(d, k, name))
                 return true;
         }
     }
@@ -358,7 +353,7 @@ static bool find_role(struct inference *f, const struct declaration *item)
     for (int s = 0; s < 2; s++) {
         used = used || (last == item->name && declarations_uses(sides[s], last));
         for (int i = 0; !used && last != item->name && i < sides[s]->word_count; i++)
-            used = sides[s]->words[i].is_member && is(sides[s], i, last);
+            used = sides[s]->words[i].is_member && word_is(sides[s], i, last);
     }
     if (json_object_get(f->uniforms, item->name))
         return true;
@@ -416,33 +411,21 @@ static void find_attributes(struct inference *f)
 
 // --- numbers in the text
 
-static bool read_number(const struct declarations *d, int *at, double *out)
-{
-    bool minus = is(d, *at, "-");
-    const char *text = *at + minus < d->word_count ? d->words[*at + minus].text : "";
-    size_t length = strcspn(text, "fF");
-    const uint8_t *end = (const uint8_t *)text + length;
-    if (!length || !strchr("0123456789.", text[0]) || number_double((const uint8_t *)text, end, out) != end)
-        return false;
-    *out = minus ? -*out : *out;
-    *at += minus + 1;
-    return true;
-}
-
 // Finds the `number`-th variable for a light's position or direction that the text sets to three numbers. Returns false
 // if there is none.
 static bool find_vector_of_light(const struct declarations *d, int number, const char **name, double v[3])
 {
     for (int i = 0; i + 2 < d->word_count; i++) {
         if (!has(d->words[i].text, "light lamp sun") || has(d->words[i].text, "color colour amb dif spec intens") ||
-            !is(d, i + 1, "="))
+            !word_is(d, i + 1, "="))
             continue;
         int at = i + 2, count = 0;
-        while (at < i + 8 && (is(d, at, "normalize") || is(d, at, "vec3") || is(d, at, "vec4") || is(d, at, "(")))
+        while (at < i + 8 &&
+               (word_is(d, at, "normalize") || word_is(d, at, "vec3") || word_is(d, at, "vec4") || word_is(d, at, "(")))
             at++;
-        while (count < 3 && read_number(d, &at, &v[count])) {
+        while (count < 3 && word_take_number(d, &at, &v[count])) {
             count++;
-            at += is(d, at, ",");
+            at += word_is(d, at, ",");
         }
         if (count == 3 && number-- == 0) {
             *name = d->words[i].text;
@@ -527,7 +510,7 @@ static bool infer(struct inference *f, int guess)
         f->fragment->count > MAX_DECLARED)
         return cannot(f, "the %s are longer than the limit of the check%s", "texts", "");
     for (int i = 0; i + 1 < f->vertex->word_count; i++)
-        if (is(f->vertex, i, "gl_Position") && is(f->vertex, i + 1, "="))
+        if (word_is(f->vertex, i, "gl_Position") && word_is(f->vertex, i + 1, "="))
             follow(f, i + 2, MAX_DEPTH);
     if (!f->position && !fixed)
         return cannot(f, "the check finds no %s that reaches gl_Position%s", "attribute", "");

@@ -6,11 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is(const struct declarations *d, int at, const char *text)
-{
-    return at >= 0 && at < d->word_count && strcmp(d->words[at].text, text) == 0;
-}
-
 struct range {
     int first, end; // the lights that a condition on `i` selects: from `first` to before `end`
 };
@@ -20,12 +15,12 @@ struct range {
 static int read_condition(const struct declarations *d, int at, struct range *range)
 {
     *range = (struct range){0, MAX_SCENE_LIGHTS};
-    if (is(d, at, "i") && is(d, at + 1, ">") && is(d, at + 2, "=") && at + 3 < d->word_count) {
+    if (word_is(d, at, "i") && word_is(d, at + 1, ">") && word_is(d, at + 2, "=") && at + 3 < d->word_count) {
         range->first = atoi(d->words[at + 3].text);
         at += 4;
-        at += is(d, at, "&") && is(d, at + 1, "&") ? 2 : 0;
+        at += word_is(d, at, "&") && word_is(d, at + 1, "&") ? 2 : 0;
     }
-    if (is(d, at, "i") && is(d, at + 1, "<") && at + 2 < d->word_count) {
+    if (word_is(d, at, "i") && word_is(d, at + 1, "<") && at + 2 < d->word_count) {
         range->end = atoi(d->words[at + 2].text);
         at += 3;
     }
@@ -37,9 +32,9 @@ static struct range condition_before(const struct declarations *d, int at)
 {
     struct range range = {0, MAX_SCENE_LIGHTS};
     int open = at - 1;
-    while (is(d, at - 1, ")") && open > 0 && !is(d, open, "("))
+    while (word_is(d, at - 1, ")") && open > 0 && !word_is(d, open, "("))
         open--;
-    if (is(d, at - 1, ")") && is(d, open - 1, "if"))
+    if (word_is(d, at - 1, ")") && word_is(d, open - 1, "if"))
         read_condition(d, open + 1, &range);
     return range;
 }
@@ -47,8 +42,8 @@ static struct range condition_before(const struct declarations *d, int at)
 // Returns whether a statement contains one of two words.
 static bool names(const struct declarations *d, int at, const char *a, const char *b)
 {
-    for (; at < d->word_count && !is(d, at, ";"); at++)
-        if (is(d, at, a) || is(d, at, b))
+    for (; at < d->word_count && !word_is(d, at, ";"); at++)
+        if (word_is(d, at, a) || word_is(d, at, b))
             return true;
     return false;
 }
@@ -59,19 +54,19 @@ unsigned lecture_light_rules(const struct declarations *lit)
     bool attenuated = false, found = false, printed = false;
     for (int i = 0; i < lit->word_count; i++) {
         struct range range;
-        printed |= is(lit, i, "vec3") && is(lit, i + 1, "lit") && is(lit, i + 2, "(");
-        attenuated |= lit->words[i].is_member && is(lit, i, "attenuation");
-        if (printed && is(lit, i, "vec3") && is(lit, i + 1, "way") && is(lit, i + 2, "=")) {
+        printed |= word_is(lit, i, "vec3") && word_is(lit, i + 1, "lit") && word_is(lit, i + 2, "(");
+        attenuated |= lit->words[i].is_member && word_is(lit, i, "attenuation");
+        if (printed && word_is(lit, i, "vec3") && word_is(lit, i + 1, "way") && word_is(lit, i + 2, "=")) {
             int at = read_condition(lit, i + 3, &range);
-            bool chosen = is(lit, at, "?");
+            bool chosen = word_is(lit, at, "?");
             at += chosen;
-            at += is(lit, at, "-");
-            bool directional = is(lit, at, "lights") && is(lit, at + 5, "direction");
+            at += word_is(lit, at, "-");
+            bool directional = word_is(lit, at, "lights") && word_is(lit, at + 5, "direction");
             for (int k = 0; k < MAX_SCENE_LIGHTS; k++)
                 kinds[k] = directional && k >= range.first && k < range.end ? RULE_DIRECTIONAL : RULE_POINT;
             found = true;
         }
-        if (found && is(lit, i, "spot") && is(lit, i + 1, "=") && names(lit, i, "cutoff", "exponent")) {
+        if (found && word_is(lit, i, "spot") && word_is(lit, i + 1, "=") && names(lit, i, "cutoff", "exponent")) {
             range = condition_before(lit, i);
             for (int k = range.first; k < range.end && k < MAX_SCENE_LIGHTS; k++)
                 kinds[k] = RULE_SPOT;
@@ -87,16 +82,16 @@ lam_reflection lecture_model(const struct declarations *lit)
 {
     bool threads = false, gated = false;
     for (int i = 0; i < lit->word_count; i++) {
-        threads |= is(lit, i, "float") && is(lit, i + 1, "sin_TL");
-        gated |= is(lit, i, "float") && is(lit, i + 1, "faces");
+        threads |= word_is(lit, i, "float") && word_is(lit, i + 1, "sin_TL");
+        gated |= word_is(lit, i, "float") && word_is(lit, i + 1, "faces");
     }
     if (threads)
         return gated ? LAM_REFLECTION_KAJIYA_KAY : LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     for (int i = 0; i < lit->word_count; i++)
-        if (is(lit, i, "vec3") && is(lit, i + 2, "=")) {
-            if (is(lit, i + 1, "R"))
+        if (word_is(lit, i, "vec3") && word_is(lit, i + 2, "=")) {
+            if (word_is(lit, i + 1, "R"))
                 return LAM_REFLECTION_PHONG;
-            if (is(lit, i + 1, "H"))
+            if (word_is(lit, i + 1, "H"))
                 return LAM_REFLECTION_BLINN_PHONG;
         }
     return LAM_REFLECTION_AUTO;
@@ -105,7 +100,7 @@ lam_reflection lecture_model(const struct declarations *lit)
 bool lecture_viewer_is_infinite(const struct declarations *lit)
 {
     for (int i = 0; i < lit->word_count; i++)
-        if (is(lit, i, "const") && is(lit, i + 1, "vec3") && is(lit, i + 2, "V"))
+        if (word_is(lit, i, "const") && word_is(lit, i + 1, "vec3") && word_is(lit, i + 2, "V"))
             return true;
     return false;
 }

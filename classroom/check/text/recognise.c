@@ -1,7 +1,6 @@
 // recognise.c: compares the names of a program with the names of each contract.
 #include "recognise.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -128,24 +127,12 @@ static const struct contract_name *meant_by(const struct contract *contract, con
     return found;
 }
 
-static bool is_same_word(const char *a, const char *b)
-{
-    for (;; a++, b++) {
-        a += strspn(a, "_");
-        b += strspn(b, "_");
-        if (tolower((unsigned char)*a) != tolower((unsigned char)*b))
-            return false;
-        if (!*a)
-            return true;
-    }
-}
-
 bool contract_is_misspelt(const struct contract *contract, const struct declarations *vertex,
                           const struct declarations *fragment, const char *name)
 {
     const struct declaration *item = find_either(vertex, fragment, name);
     const struct contract_name *meant = meant_by(contract, vertex, fragment, item);
-    return meant && strcmp(meant->type, item->type) == 0 && !is_same_word(item->name, meant->name) &&
+    return meant && strcmp(meant->type, item->type) == 0 && !name_is_same(item->name, meant->name) &&
            name_similarity(item->name, meant->name) > 0.6;
 }
 

@@ -4,41 +4,20 @@
 #include <string.h>
 
 #include "linear.h"
-#include "number.h"
-
-static bool is(const struct declarations *d, int i, const char *text)
-{
-    return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
-}
-
-// Parses a number with its sign, and advances *at past the number. Returns false if there is none.
-static bool read_number(const struct declarations *d, int *at, double *out)
-{
-    bool minus = is(d, *at, "-");
-    int i = *at + minus;
-    const char *text = i < d->word_count ? d->words[i].text : "";
-    size_t length = strcspn(text, "fF");
-    const uint8_t *end = (const uint8_t *)text + length;
-    if (!strchr("0123456789.", text[0]) || !length || number_double((const uint8_t *)text, end, out) != end)
-        return false;
-    *out = minus ? -*out : *out;
-    *at = i + 1;
-    return true;
-}
 
 // Parses vec3(a) or vec3(a, b, c), and advances *at past it.
 static bool read_vector(const struct declarations *d, int *at, double out[3])
 {
-    if (!is(d, *at, "vec3") || !is(d, *at + 1, "("))
+    if (!word_is(d, *at, "vec3") || !word_is(d, *at + 1, "("))
         return false;
     int i = *at + 2, count = 0;
     do
-        if (!read_number(d, &i, &out[count]))
+        if (!word_take_number(d, &i, &out[count]))
             return false;
-    while (++count < 3 && is(d, i, ",") && i++);
+    while (++count < 3 && word_is(d, i, ",") && i++);
     if (count == 1)
         out[1] = out[2] = out[0];
-    if ((count != 1 && count != 3) || !is(d, i, ")"))
+    if ((count != 1 && count != 3) || !word_is(d, i, ")"))
         return false;
     *at = i + 1;
     return true;
@@ -47,17 +26,17 @@ static bool read_vector(const struct declarations *d, int *at, double out[3])
 // Parses a number, vec3(a), vec3(a, b, c), or normalize() of one of these. A `;` or the next name must follow.
 static bool read_value(const struct declarations *d, int at, double out[3])
 {
-    bool unit = is(d, at, "normalize") && is(d, at + 1, "(");
+    bool unit = word_is(d, at, "normalize") && word_is(d, at + 1, "(");
     at += unit ? 2 : 0;
     if (!read_vector(d, &at, out)) {
-        if (!read_number(d, &at, &out[0]))
+        if (!word_take_number(d, &at, &out[0]))
             return false;
         out[1] = out[2] = out[0];
     }
     lam_vec3 v = v3_unit(v3(out[0], out[1], out[2]));
     if (unit)
         memcpy(out, (const double[]){v.x, v.y, v.z}, 3 * sizeof *out);
-    return (is(d, at + unit, ";") || is(d, at + unit, ",")) && (!unit || is(d, at, ")"));
+    return (word_is(d, at + unit, ";") || word_is(d, at + unit, ",")) && (!unit || word_is(d, at, ")"));
 }
 
 // Parses the number in pow(x, number), if the second argument is only a number.
@@ -65,12 +44,12 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
 {
     int depth = 0;
     for (int i = at + 1; i < d->word_count; i++) {
-        depth += is(d, i, "(") - is(d, i, ")");
+        depth += word_is(d, i, "(") - word_is(d, i, ")");
         if (depth == 0)
             return false;
-        if (depth == 1 && is(d, i, ",")) {
+        if (depth == 1 && word_is(d, i, ",")) {
             i++;
-            return read_number(d, &i, out) && is(d, i, ")");
+            return word_take_number(d, &i, out) && word_is(d, i, ")");
         }
     }
     return false;
@@ -83,7 +62,8 @@ static bool find_exponent(const struct declarations *d, double *out)
     bool found = false;
     double number;
     for (int i = 0; i + 2 < d->word_count; i++)
-        if (is(d, i, "pow") && !d->words[i].is_member && read_exponent(d, i, &number) && (!found || number > *out)) {
+        if (word_is(d, i, "pow") && !d->words[i].is_member && read_exponent(d, i, &number) &&
+            (!found || number > *out)) {
             *out = number;
             found = true;
         }
@@ -95,7 +75,7 @@ static bool find_value(const struct declarations *d, const char *name, double ou
     if (strcmp(name, "pow") == 0)
         return find_exponent(d, &out[0]);
     for (int i = 0; i + 2 < d->word_count; i++)
-        if (is(d, i, name) && !d->words[i].is_member && is(d, i + 1, "=") && read_value(d, i + 2, out))
+        if (word_is(d, i, name) && !d->words[i].is_member && word_is(d, i + 1, "=") && read_value(d, i + 2, out))
             return true;
     return false;
 }
@@ -196,7 +176,7 @@ int shader_constants_values(const struct shader_interface *r, enum uniform_seman
         double v[3] = {0};
         int at = i;
         bool vector = is_vector(semantic);
-        if (vector ? !read_vector(d, &at, v) : !read_number(d, &at, &v[0]))
+        if (vector ? !read_vector(d, &at, v) : !word_take_number(d, &at, &v[0]))
             continue;
         if (vector ? v[0] == 0 && v[1] == 0 && v[2] == 0 : !(v[0] > 0 && v[0] < 1))
             continue;

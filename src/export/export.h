@@ -103,13 +103,6 @@ lam_vec3 export_turned(const struct exporting *e, lam_vec3 p);
 lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32_t vertex);
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index);
 
-// Returns the element of an attribute at a corner. `own` is the attribute's index array; if it is NULL, the mesh's
-// indices are used.
-static inline uint32_t export_element(const uint32_t *own, const lam_mesh *mesh, size_t corner)
-{
-    return own ? own[corner] : mesh->indices ? mesh->indices[corner] : (uint32_t)corner;
-}
-
 // export_vertices.c: merges corners with equal attributes into vertices.
 struct export_vertices {
     uint32_t count;          // number of vertices

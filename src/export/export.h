@@ -58,6 +58,9 @@ EXPORTERS(EXPORTER_DECLARED)
 // `path`.
 const struct exporter *exporter_find(const char *ending, const char *path, lam_error *error);
 
+// Appends a copy of an item of `size` bytes to a list in the arena. Returns false if memory runs out.
+bool export_append(struct exporting *e, struct scene_list *list, const void *item, size_t size);
+
 // Records a loss: something in the scene that the file cannot store. Each message is recorded once.
 void export_lose(struct exporting *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -98,7 +101,8 @@ void export_number(struct text *text,
 void export_word(struct text *text, uint32_t value); // little-endian
 void export_float(struct text *text, double x);      // little-endian
 void export_floats(struct text *text, lam_vec3 p);
-void export_line(struct text *text, const char *word, const double *numbers, int count);
+void export_list(struct text *text, const char *word, const double *numbers, int count);
+void export_line(struct text *text, const char *word, const double *numbers, int count); // the list and a line end
 lam_vec3 export_turned(const struct exporting *e, lam_vec3 p);
 lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32_t vertex);
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index);

@@ -46,11 +46,11 @@ bool export_text_is_whole(struct exporting *e, const struct text *text)
 
 // --- losses
 
-static bool append(struct lam_export *out, struct scene_list *list, const void *item, size_t size)
+bool export_append(struct exporting *e, struct scene_list *list, const void *item, size_t size)
 {
     if (list->count == list->capacity) {
         int capacity = list->capacity ? 2 * list->capacity : 8;
-        void *more = arena_array(&out->arena, (size_t)capacity, size);
+        void *more = arena_array(e->arena, (size_t)capacity, size);
         if (!more)
             return false;
         if (list->count)
@@ -74,7 +74,7 @@ void export_lose(struct exporting *e, const char *format, ...)
         if (strcmp(((const char *const *)e->out->losses.items)[i], text) == 0)
             return;
     if (text)
-        append(e->out, &e->out->losses, &text, sizeof text);
+        export_append(e, &e->out->losses, &text, sizeof text);
 }
 
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras)
@@ -144,7 +144,7 @@ const char *export_add_file(struct exporting *e, const char *ending, bool beside
         strcat(file.name, ending);
     // the model's own text has already been charged
     bool charged = !beside || !e->call || call_charge(e->call, bytes.size);
-    if (charged && file.name && append(e->out, &e->out->files, &file, sizeof file))
+    if (charged && file.name && export_append(e, &e->out->files, &file, sizeof file))
         return file.name;
     lam_bytes_free(&bytes);
     export_no_memory(e, length);

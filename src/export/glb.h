@@ -61,8 +61,6 @@ int glb_add_view(struct glb *glb, const void *bytes, size_t size, int target);
 // Fills the error with the reason why the file is incomplete, and returns false.
 bool glb_error(struct glb *glb);
 
-bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size_t size);
-
 // Returns the index of the file's mesh for a part of an object (−1: all parts), or −1 if memory runs out.
 int glb_mesh_of(struct glb *glb, const lam_object *object, int part);
 

@@ -185,7 +185,7 @@ int glb_mesh_of(struct glb *glb, const lam_object *object, int part)
             return i;
         i = other->before;
     }
-    if (!write_arrays(glb, object->mesh) || !glb_append(glb, &glb->own, &own, sizeof own))
+    if (!write_arrays(glb, object->mesh) || !export_append(glb->e, &glb->own, &own, sizeof own))
         return -1;
     json_t *mesh = json_object(), *primitives = json_array();
     for (uint32_t i = 0; i < (m->parts ? m->part_count : 1) && export_asks(glb->e); i++) {

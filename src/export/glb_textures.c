@@ -35,7 +35,7 @@ static int image_of(struct glb *glb, const lam_texture *texture)
     } else if (texture->bytes) {
         glb->failed = true;
     }
-    glb->failed |= !glb_append(glb, &glb->pictures, &image, sizeof image);
+    glb->failed |= !export_append(glb->e, &glb->pictures, &image, sizeof image);
     return image.index;
 }
 

@@ -70,19 +70,3 @@ bool glb_error(struct glb *glb)
     return export_is_whole(glb->e) && export_text_is_whole(glb->e, &glb->bytes) &&
            export_no_memory(glb->e, glb->bytes.length);
 }
-
-bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size_t size)
-{
-    if (list->count == list->capacity) {
-        int capacity = list->capacity ? 2 * list->capacity : 16;
-        void *more = arena_array(glb->e->arena, (size_t)capacity, size);
-        if (!more)
-            return export_no_memory(glb->e, (size_t)capacity * size);
-        if (list->count)
-            memcpy(more, list->items, (size_t)list->count * size);
-        list->items = more;
-        list->capacity = capacity;
-    }
-    memcpy((char *)list->items + (size_t)list->count++ * size, item, size);
-    return true;
-}

@@ -271,14 +271,6 @@ static void forget_scenes(struct run *r)
     r->drawn = (struct draw_result){0};
 }
 
-static int count_bits(unsigned bits)
-{
-    int count = 0;
-    for (; bits; bits &= bits - 1)
-        count++;
-    return count;
-}
-
 // Draws the shaders with an inferred contract, and compares them.
 static bool try_inferred(struct run *r, const struct contract *contract, enum fit_outcome *outcome, char *reason,
                          size_t capacity, lam_error *error)
@@ -288,7 +280,7 @@ static bool try_inferred(struct run *r, const struct contract *contract, enum fi
     forget_scenes(r);
     if (!prepare(r, contract, &scenes, error) || !draw(r, scenes, error))
         return false;
-    r->report->scenes_wanted = count_bits(scenes);
+    r->report->scenes_wanted = __builtin_popcount(scenes);
     if (r->report->verdict != LAM_CHECK_PASSES)
         *outcome = FIT_EXPLAINED; // the reason is that the shaders do not compile, or loop forever
     else if (r->drawn.unknown_count || r->drawn.types_count)
@@ -384,7 +376,7 @@ static bool run_contract(struct run *r, const struct contract *contract, unsigne
         if (!contract_is_misspelt(contract, &r->interface.vertex, &r->interface.fragment, r->drawn.unknown[i]))
             return fail_unknown(r, "an input has no value", error);
     diagnostics_add_names(&r->diagnostics, &r->drawn, &r->interface, p);
-    r->report->scenes_wanted = count_bits(scenes);
+    r->report->scenes_wanted = __builtin_popcount(scenes);
     if (r->report->verdict != LAM_CHECK_PASSES)
         return true;
     bool writes =

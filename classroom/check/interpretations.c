@@ -133,47 +133,46 @@ static bool has_direction(const struct shader_interface *interface)
 
 int interpretations_list(const struct run *r, struct interpretation out[MAX_INTERPRETATIONS])
 {
-    const struct fault *gate = row_of("no-gate"), *late = row_of("normal-unit-late"),
-                       *dim = row_of("ambient-attenuated");
+    enum { BARE, LONG_NORMAL, BLINN, DIMS, FALLOFF, REVERSED, VIEWER, DECODED, EXPONENT, CHOICES };
     const struct shader_interface *interface = &r->interface;
     float exponents[MAX_EXPONENTS];
-    int exponent_count = find_exponents(r, exponents), count = 0;
-    bool eye = shader_interface_uses(interface, SEMANTIC_EYE_POSITION);
-    bool attenuated = is_attenuated(r), direction = has_direction(interface);
-    bool gamma = declarations_uses(&interface->fragment, "2.2");
-    // The bits are: reversed, falloff, viewer, phong, exponent, gate, late, dim, gamma.
-    for (int k = 0; k < 2 * 3 * 2 * 2 * MAX_EXPONENTS * 2 * 2 * 2 * 2; k++) {
-        int n = k, choices[9];
-        const int sizes[9] = {2, 2, 2, 2, 3, 2, 2, 2, MAX_EXPONENTS};
-        for (int i = 0; i < 9; i++) {
-            choices[i] = n % sizes[i];
-            n /= sizes[i];
-        }
-        bool bare = choices[0], long_normal = choices[1], blinn = choices[2], dims = choices[3], reversed = choices[5];
-        int falloff = choices[4], viewer = choices[6], decoded = choices[7], exponent = choices[8];
-        bool highlight = exponent_count > 0;
-        if ((!highlight && (bare || blinn || exponent || viewer)) || (highlight && exponent >= exponent_count) ||
-            (long_normal && interface->vertex_lit) || (dims && !attenuated) || (falloff && !attenuated) ||
-            (reversed && !direction) || (viewer && eye) || (decoded && !gamma) || count == MAX_INTERPRETATIONS)
-            continue;
+    int exponent_count = find_exponents(r, exponents), count = 0, combinations = 1;
+    const bool highlight = exponent_count > 0, attenuated = is_attenuated(r);
+    const int sizes[CHOICES] = {
+        [BARE] = highlight ? 2 : 1,
+        [LONG_NORMAL] = interface->vertex_lit ? 1 : 2,
+        [BLINN] = highlight ? 2 : 1,
+        [DIMS] = attenuated ? 2 : 1,
+        [FALLOFF] = attenuated ? 3 : 1,
+        [REVERSED] = has_direction(interface) ? 2 : 1,
+        [VIEWER] = highlight && !shader_interface_uses(interface, SEMANTIC_EYE_POSITION) ? 2 : 1,
+        [DECODED] = declarations_uses(&interface->fragment, "2.2") ? 2 : 1,
+        [EXPONENT] = highlight ? exponent_count : 1,
+    };
+    for (int i = 0; i < CHOICES; i++)
+        combinations *= sizes[i];
+    for (int k = 0; k < combinations && count < MAX_INTERPRETATIONS; k++) {
+        int chosen[CHOICES];
+        for (int i = 0, n = k; i < CHOICES; n /= sizes[i++])
+            chosen[i] = n % sizes[i];
         struct interpretation *g = &out[count++];
-        *g = (struct interpretation){.reflection = blinn ? LAM_REFLECTION_BLINN_PHONG : LAM_REFLECTION_PHONG,
+        *g = (struct interpretation){.reflection = chosen[BLINN] ? LAM_REFLECTION_BLINN_PHONG : LAM_REFLECTION_PHONG,
                                      .has_highlight = highlight,
-                                     .decoded = decoded};
-        g->set.constant = highlight ? exponents[exponent] : 0;
-        if (highlight && exponents[exponent] == 0)
+                                     .decoded = chosen[DECODED]};
+        g->set.constant = highlight ? exponents[chosen[EXPONENT]] : 0;
+        if (highlight && g->set.constant == 0)
             g->set.factor = find_factor(interface->vertex_lit ? &interface->vertex : &interface->fragment);
-        if (bare)
-            add_form(r, g, gate);
-        if (long_normal)
-            add_form(r, g, late);
-        if (dims)
-            add_form(r, g, dim);
-        if (falloff)
-            add_bit(g, falloff == 1 ? BIT_INVERSE_SQUARE : BIT_INVERSE_DISTANCE);
-        if (reversed)
+        if (chosen[BARE])
+            add_form(r, g, row_of("no-gate"));
+        if (chosen[LONG_NORMAL])
+            add_form(r, g, row_of("normal-unit-late"));
+        if (chosen[DIMS])
+            add_form(r, g, row_of("ambient-attenuated"));
+        if (chosen[FALLOFF])
+            add_bit(g, chosen[FALLOFF] == 1 ? BIT_INVERSE_SQUARE : BIT_INVERSE_DISTANCE);
+        if (chosen[REVERSED])
             add_bit(g, BIT_DIRECTION_REVERSED);
-        if (viewer)
+        if (chosen[VIEWER])
             add_bit(g, BIT_VIEWER_INFINITE);
     }
     return count;
@@ -231,43 +230,55 @@ bool interpretations_allow_fault(const struct fault *row)
            !row->maps;
 }
 
-bool interpretations_are_plain(const struct run *r)
+// Returns whether word `i` calls a function that the text does not define and that the interpretations do not explain.
+static bool calls_other(const struct declarations *d, int i)
 {
     static const char *const known =
         " if for while return main normalize dot max min clamp pow reflect vec2 vec3 vec4 mat3 mat4 "
         "float int abs sqrt inversesqrt inverse transpose location layout binding defined ";
+    const char *name = d->words[i].text;
+    char padded[70];
+    snprintf(padded, sizeof padded, " %s ", name);
+    bool other = word_is_name(name) && word_is(d, i + 1, "(") && !strstr(known, padded);
+    for (int k = 1; k < d->word_count && other; k++) // where a function is defined, its name follows a type
+        other = !word_is(d, k, name) || d->words[k].depth > 0 || !isalpha((unsigned char)d->words[k - 1].text[0]);
+    return other;
+}
+
+// Returns whether word `i` compares with a number other than 0, outside of a loop's head.
+static bool compares(const struct declarations *d, int i)
+{
+    bool compared = word_is(d, i, "<") || word_is(d, i, ">");
+    double zero = 1;
+    for (int k = i; k > 0 && k > i - 10; k--)
+        compared = compared && !word_is(d, k, "for");
+    int after = i + 1 + word_is(d, i + 1, "=");
+    return compared && !(((after < d->word_count && read_literal(d->words[after].text, &zero)) ||
+                          read_literal(d->words[i - 1].text, &zero)) &&
+                         zero == 0);
+}
+
+// Returns whether word `i` divides. A division by w belongs to a projection; a division by a distance may be an
+// attenuation.
+static bool divides(const struct declarations *d, int i)
+{
+    double divisor;
+    return word_is(d, i, "/") && !read_literal(d->words[i + 1].text, &divisor) &&
+           !(word_is(d, i + 2, ".") && word_is(d, i + 3, "w"));
+}
+
+bool interpretations_are_plain(const struct run *r)
+{
     const struct declarations *sides[] = {&r->interface.vertex, &r->interface.fragment};
     if (strstr(r->interface.contract->title, "exclusion"))
         return false;
     for (int s = 0; s < 2; s++)
         for (int i = 1; i + 1 < sides[s]->word_count; i++) {
-            const struct word *w = &sides[s]->words[i];
-            const char *next = w[1].text, *before = w[-1].text;
-            char padded[70];
             double x = 0;
-            snprintf(padded, sizeof padded, " %s ", w->text);
-            bool call = strcmp(next, "(") == 0 && (isalpha((unsigned char)w->text[0]) || w->text[0] == '_');
-            bool own = false; // whether the text defines this function: its name then follows a type
-            for (int k = 1; call && k < sides[s]->word_count && !own; k++)
-                own = strcmp(sides[s]->words[k].text, w->text) == 0 && sides[s]->words[k].depth == 0 &&
-                      isalpha((unsigned char)sides[s]->words[k - 1].text[0]);
-            // a division by w belongs to a projection; a division by a distance may be an attenuation
-            double divisor = 0;
-            bool of_w = i + 3 < sides[s]->word_count && strcmp(w[2].text, ".") == 0 && strcmp(w[3].text, "w") == 0;
-            bool quotient = strcmp(w->text, "/") == 0 && !read_literal(next, &divisor) && !of_w;
-            bool number = read_literal(w->text, &x);
-            bool compared = false; // compared with a number other than 0, outside of a loop's head
-            if (w->text[0] == '<' || w->text[0] == '>') {
-                const char *after = next[0] == '=' ? w[2].text : next;
-                double zero = 1;
-                bool in_head = false;
-                for (int k = i; k > 0 && k > i - 10; k--)
-                    in_head = in_head || strcmp(sides[s]->words[k].text, "for") == 0;
-                compared = !in_head && !((read_literal(after, &zero) || read_literal(before, &zero)) && zero == 0);
-            }
-            bool rim = number && x == 1 && strcmp(next, "-") == 0;
-            if ((call && !own && !strstr(known, padded)) || compared || rim || strcmp(w->text, "discard") == 0 ||
-                quotient || strcmp(w->text, "flat") == 0 || strcmp(w->text, "gl_FrontFacing") == 0)
+            bool rim = read_literal(sides[s]->words[i].text, &x) && x == 1 && word_is(sides[s], i + 1, "-");
+            if (rim || calls_other(sides[s], i) || compares(sides[s], i) || divides(sides[s], i) ||
+                word_is(sides[s], i, "discard") || word_is(sides[s], i, "flat") ||
+                word_is(sides[s], i, "gl_FrontFacing"))
                 return false;
         }
     return true;

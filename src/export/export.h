@@ -94,17 +94,11 @@ void export_number(struct text *text,
 void export_word(struct text *text, uint32_t value); // little-endian
 void export_float(struct text *text, double x);      // little-endian
 void export_floats(struct text *text, lam_vec3 p);
-void export_line(struct text *text, const char *word, const double *numbers, int count);
+void export_list(struct text *text, const char *word, const double *numbers, int count);
+void export_line(struct text *text, const char *word, const double *numbers, int count); // the list and a line end
 lam_vec3 export_turned(const struct exporting *e, lam_vec3 p);
 lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32_t vertex);
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index);
-
-// Returns the element of an attribute at a corner. `own` is the attribute's index array; if it is NULL, the mesh's
-// indices are used.
-static inline uint32_t export_element(const uint32_t *own, const lam_mesh *mesh, size_t corner)
-{
-    return own ? own[corner] : mesh->indices ? mesh->indices[corner] : (uint32_t)corner;
-}
 
 // export_vertices.c: merges corners with equal attributes into vertices.
 struct export_vertices {

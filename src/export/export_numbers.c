@@ -62,13 +62,18 @@ void export_number(struct text *text, double x)
     text_add_part(text, plain, length);
 }
 
-void export_line(struct text *text, const char *word, const double *numbers, int count)
+void export_list(struct text *text, const char *word, const double *numbers, int count)
 {
     text_add(text, word);
     for (int i = 0; i < count; i++) {
         text_add(text, " ");
         export_number(text, numbers[i]);
     }
+}
+
+void export_line(struct text *text, const char *word, const double *numbers, int count)
+{
+    export_list(text, word, numbers, count);
     text_add(text, "\n");
 }
 

@@ -16,15 +16,15 @@ struct corner {
 
 uint32_t export_color_element(const lam_mesh *m, size_t corner)
 {
-    return m->colors_rate == LAM_PER_TRIANGLE ? (uint32_t)(corner / 3) : export_element(m->color_indices, m, corner);
+    return m->colors_rate == LAM_PER_TRIANGLE ? (uint32_t)(corner / 3) : mesh_element(m->color_indices, m, corner);
 }
 
 static struct corner corner_of(const lam_mesh *m, size_t c)
 {
-    return (struct corner){{export_element(NULL, m, c), m->normals ? export_element(m->normal_indices, m, c) : 0,
-                            m->texcoords ? export_element(m->texcoord_indices, m, c) : 0,
-                            m->second_texcoords ? export_element(m->second_texcoord_indices, m, c) : 0,
-                            m->tangents ? export_element(m->tangent_indices, m, c) : 0,
+    return (struct corner){{mesh_element(NULL, m, c), m->normals ? mesh_element(m->normal_indices, m, c) : 0,
+                            m->texcoords ? mesh_element(m->texcoord_indices, m, c) : 0,
+                            m->second_texcoords ? mesh_element(m->second_texcoord_indices, m, c) : 0,
+                            m->tangents ? mesh_element(m->tangent_indices, m, c) : 0,
                             m->colors ? export_color_element(m, c) : 0}};
 }
 

@@ -57,16 +57,10 @@ static bool make_arrays(struct flat *f)
            export_no_memory(f->e, f->vertices * 12 + f->corners * 28);
 }
 
-static bool is_identity(const lam_mat4 *m)
-{
-    lam_mat4 identity = lam_mat4_identity();
-    return memcmp(m, &identity, sizeof identity) == 0;
-}
-
 // Coordinates far from zero are stored relative to the origin of the first object's mesh.
 static void put_positions(struct flat *f, const lam_mesh *m, const lam_mat4 *transform, const double origin[3])
 {
-    bool same = is_identity(transform) && memcmp(origin, m->origin, 3 * sizeof *origin) == 0;
+    bool same = mat4_is_identity(transform) && memcmp(origin, m->origin, 3 * sizeof *origin) == 0;
     float *to = f->position + 3 * f->vertices;
     if (same) {
         memcpy(to, m->positions, 3 * (size_t)m->vertex_count * sizeof *to);
@@ -88,7 +82,7 @@ static void put_normals(struct flat *f, const lam_mesh *m, const lam_mat4 *trans
     double matrix[3][3];
     float *to = f->normal + 3 * f->normals;
     mat4_normal_matrix(transform, matrix);
-    if (is_identity(transform)) {
+    if (mat4_is_identity(transform)) {
         memcpy(to, m->normals, 3 * (size_t)m->normal_count * sizeof *to);
         return;
     }
@@ -115,11 +109,11 @@ static void put_corners(struct flat *f, const lam_mesh *m, bool mirrored)
 {
     for (size_t i = 0; i < mesh_corners(m) && export_continues(f->e, i); i++) {
         size_t c = source_corner(f, i, mirrored), to = f->corners + i;
-        f->index[to] = (uint32_t)f->vertices + export_element(NULL, m, c);
+        f->index[to] = (uint32_t)f->vertices + mesh_element(NULL, m, c);
         // UINT32_MAX marks a missing attribute; put_missing replaces this index.
-        f->normal_index[to] = m->normals ? (uint32_t)f->normals + export_element(m->normal_indices, m, c) : UINT32_MAX;
+        f->normal_index[to] = m->normals ? (uint32_t)f->normals + mesh_element(m->normal_indices, m, c) : UINT32_MAX;
         f->texcoord_index[to] =
-            m->texcoords ? (uint32_t)f->texcoords + export_element(m->texcoord_indices, m, c) : UINT32_MAX;
+            m->texcoords ? (uint32_t)f->texcoords + mesh_element(m->texcoord_indices, m, c) : UINT32_MAX;
         f->color_index[to] = m->colors ? (uint32_t)f->colors + export_color_element(m, c) : UINT32_MAX;
     }
 }

@@ -25,7 +25,7 @@ struct vertices {
 
 static uint32_t element(const struct vertices *v, const uint32_t *own, uint32_t vertex)
 {
-    return v->as_they_are ? vertex : export_element(own, v->mesh, v->shared.corners[vertex]);
+    return v->as_they_are ? vertex : mesh_element(own, v->mesh, v->shared.corners[vertex]);
 }
 
 static int add_accessor(struct glb *glb, int view, int component, const char *type, size_t count)
@@ -113,7 +113,7 @@ static void add_indices(struct glb *glb, const struct vertices *v, struct glb_ar
     uint32_t *numbers = export_memory(glb->e, (corners + 1) * sizeof *numbers);
     glb->failed |= !numbers;
     for (size_t c = 0; numbers && c < corners && export_continues(glb->e, c); c++)
-        numbers[c] = v->as_they_are ? export_element(NULL, m, c) : v->shared.numbers[c];
+        numbers[c] = v->as_they_are ? mesh_element(NULL, m, c) : v->shared.numbers[c];
     arrays->first_indices = (int)json_array_size(glb->accessors);
     for (uint32_t i = 0; numbers && i < (m->parts ? m->part_count : 1) && !glb->bytes.failed; i++) {
         size_t first = m->parts ? m->parts[i].first_triangle * size : 0,

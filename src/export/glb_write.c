@@ -101,13 +101,6 @@ static void add_chunk(struct text *text, const char *kind, const char *bytes, si
         text_add_part(text, &padding, 1);
 }
 
-static int put_json(const char *bytes, size_t size, void *user)
-{
-    struct text *text = user;
-    text_add_part(text, bytes, size);
-    return text->failed ? -1 : 0;
-}
-
 static bool finish(struct glb *glb)
 {
     struct exporting *e = glb->e;
@@ -116,7 +109,7 @@ static bool finish(struct glb *glb)
         text_add_part(&glb->bytes, "\0", 1);
     fill_root(glb);
     if (glb->failed || glb->bytes.failed ||
-        json_dump_callback(glb->root, put_json, &json, JSON_COMPACT | JSON_REAL_PRECISION(17)) != 0) {
+        json_dump_callback(glb->root, text_add_chunk, &json, JSON_COMPACT | JSON_REAL_PRECISION(17)) != 0) {
         free(json.bytes);
         return export_text_is_whole(e, &json) && glb_error(glb);
     }

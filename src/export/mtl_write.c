@@ -66,15 +66,6 @@ static bool is_plain(const lam_texture_map *map)
     return true;
 }
 
-static void put_option(struct text *text, const char *word, const double *numbers, int count)
-{
-    text_add(text, word);
-    for (int i = 0; i < count; i++) {
-        text_add(text, " ");
-        export_number(text, numbers[i]);
-    }
-}
-
 static void put_options(struct exporting *e, struct text *text, const lam_texture_map *map, int row, bool flips)
 {
     static const char letters[] = "rgbm";
@@ -88,9 +79,9 @@ static void put_options(struct exporting *e, struct text *text, const lam_textur
     if (map->texcoords)
         export_lose(e, "maps of the second texture coordinates use the first: OBJ has one set");
     if (scale[0] != 1 || scale[1] != 1)
-        put_option(text, " -s", scale, 2);
+        export_list(text, " -s", scale, 2);
     if (offset[0] != 0 || offset[1] != 0)
-        put_option(text, " -o", offset, 2);
+        export_list(text, " -o", offset, 2);
     if (map->wrap_s == LAM_WRAP_CLAMP && map->wrap_t == LAM_WRAP_CLAMP)
         text_add(text, " -clamp on");
     else if (map->wrap_s || map->wrap_t)
@@ -100,11 +91,11 @@ static void put_options(struct exporting *e, struct text *text, const lam_textur
     if (maps[row].one_channel)
         text_print(text, " -imfchan %c", letters[map->channel & 3]);
     if (maps[row].slot == LAM_MAP_BUMP)
-        put_option(text, " -bm", (double[1]){map->scale == 0 ? 1 : (double)map->scale}, 1);
+        export_list(text, " -bm", (double[1]){map->scale == 0 ? 1 : (double)map->scale}, 1);
     else if (maps[row].slot == LAM_MAP_NORMAL && map->scale != 0 && map->scale != 1)
         export_lose(e, "scales of normal maps are omitted: MTL does not support them");
     else if ((map->scale != 0 && map->scale != 1) || map->offset != 0)
-        put_option(text, " -mm", (double[2]){(double)map->offset, map->scale == 0 ? 1 : (double)map->scale}, 2);
+        export_list(text, " -mm", (double[2]){(double)map->offset, map->scale == 0 ? 1 : (double)map->scale}, 2);
 }
 
 static bool put_maps(struct exporting *e, struct text *text, const lam_material *m, struct pictures *pictures,

@@ -29,7 +29,7 @@ static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
         return export_no_memory(e, (size_t)m->vertex_count * sizeof *elements);
     memset(elements, 0xff, (size_t)m->vertex_count * sizeof *elements);
     for (size_t c = 0; c < mesh_corners(m) && export_continues(e, c); c++) {
-        uint32_t *own = &elements[export_element(NULL, m, c)], element = export_color_element(m, c);
+        uint32_t *own = &elements[mesh_element(NULL, m, c)], element = export_color_element(m, c);
         const float *colors = m->colors, *other = colors + 4 * (size_t)*own;
         if (*own == UINT32_MAX)
             *own = element;
@@ -69,11 +69,11 @@ static void put_arrays(struct exporting *e, const lam_mesh *m, const uint32_t *c
 
 static void put_corner(struct text *text, const lam_mesh *m, size_t c, struct firsts first)
 {
-    text_print(text, " %lu", export_element(NULL, m, c) + first.position);
+    text_print(text, " %lu", mesh_element(NULL, m, c) + first.position);
     if (m->texcoords)
-        text_print(text, "/%lu", export_element(m->texcoord_indices, m, c) + first.texcoord);
+        text_print(text, "/%lu", mesh_element(m->texcoord_indices, m, c) + first.texcoord);
     if (m->normals)
-        text_print(text, m->texcoords ? "/%lu" : "//%lu", export_element(m->normal_indices, m, c) + first.normal);
+        text_print(text, m->texcoords ? "/%lu" : "//%lu", mesh_element(m->normal_indices, m, c) + first.normal);
 }
 
 static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *part, int size, struct firsts first)
@@ -87,7 +87,7 @@ static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *pa
         if (size == 3)
             put_corner(&e->text, m, c, first);
         else
-            text_print(&e->text, " %lu", export_element(NULL, m, c) + first.position);
+            text_print(&e->text, " %lu", mesh_element(NULL, m, c) + first.position);
         if (c % (size_t)size == (size_t)size - 1)
             text_add(&e->text, "\n");
     }

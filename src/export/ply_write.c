@@ -6,11 +6,11 @@
 static void put_vertex(struct exporting *e, const lam_mesh *m, size_t c)
 {
     struct text *text = &e->text;
-    export_floats(text, export_position(e, m, export_element(NULL, m, c)));
+    export_floats(text, export_position(e, m, mesh_element(NULL, m, c)));
     if (m->normals)
-        export_floats(text, export_normal(e, m, export_element(m->normal_indices, m, c)));
+        export_floats(text, export_normal(e, m, mesh_element(m->normal_indices, m, c)));
     for (size_t k = 0; m->texcoords && k < 2; k++)
-        export_float(text, (double)m->texcoords[2 * (size_t)export_element(m->texcoord_indices, m, c) + k]);
+        export_float(text, (double)m->texcoords[2 * (size_t)mesh_element(m->texcoord_indices, m, c) + k]);
     if (m->colors) {
         uint8_t bytes[4];
         export_color_bytes(m, export_color_element(m, c), bytes);

@@ -23,7 +23,7 @@ static bool write(struct exporting *e)
     for (size_t t = 0; t < m->triangle_count && !text->failed; t++) {
         lam_vec3 p[3];
         for (size_t k = 0; k < 3; k++)
-            p[k] = export_position(e, m, export_element(NULL, m, 3 * t + k));
+            p[k] = export_position(e, m, mesh_element(NULL, m, 3 * t + k));
         export_floats(text, v3_unit(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]))));
         for (int k = 0; k < 3; k++)
             export_floats(text, p[k]);

@@ -127,8 +127,8 @@ static void add_mesh(struct exporting *e, struct text *text, const lam_mesh *m, 
         for (size_t t = part->first_triangle; t < (size_t)part->first_triangle + part->triangle_count && !text->failed;
              t++)
             text_print(text, "<triangle v1=\"%lu\" v2=\"%lu\" v3=\"%lu\" pid=\"1\" p1=\"%d\"/>\n",
-                       export_element(NULL, m, 3 * t) + 0UL, export_element(NULL, m, 3 * t + 1) + 0UL,
-                       export_element(NULL, m, 3 * t + 2) + 0UL, numbers[index]);
+                       mesh_element(NULL, m, 3 * t) + 0UL, mesh_element(NULL, m, 3 * t + 1) + 0UL,
+                       mesh_element(NULL, m, 3 * t + 2) + 0UL, numbers[index]);
     }
     text_add(text, "</triangles></mesh></object>\n");
 }

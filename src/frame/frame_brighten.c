@@ -33,18 +33,13 @@ static double decoded(uint8_t byte)
     return x * x * (0.3 + 0.7 * x);
 }
 
-static uint32_t element(const uint32_t *own, const uint32_t *shared, uint32_t corner)
-{
-    return own ? own[corner] : shared ? shared[corner] : corner;
-}
-
 // Multiplies a colour by the mesh's own colour at a triangle's first corner.
 static void tint(const lam_mesh *mesh, uint32_t triangle, double color[3])
 {
     if (!mesh->colors)
         return;
     uint32_t at =
-        mesh->colors_rate == LAM_PER_VERTEX ? element(mesh->color_indices, mesh->indices, 3 * triangle) : triangle;
+        mesh->colors_rate == LAM_PER_VERTEX ? mesh_element(mesh->color_indices, mesh, 3 * triangle) : triangle;
     for (int c = 0; c < 3; c++)
         color[c] *= mesh->colors_format == LAM_COLORS_LINEAR_F32
                         ? (double)((const float *)mesh->colors)[4 * (size_t)at + (size_t)c]
@@ -62,7 +57,7 @@ static double base_luminance(const lam_mesh *mesh, const lam_material *material,
     if (map && from) {
         float s = 0, t = 0;
         for (uint32_t k = 0; k < 3; k++) {
-            const float *at = from + 2 * (size_t)element(own, mesh->indices, 3 * triangle + k);
+            const float *at = from + 2 * (size_t)mesh_element(own, mesh, 3 * triangle + k);
             s += at[0] / 3;
             t += at[1] / 3;
         }
@@ -78,7 +73,7 @@ static double area_of(const struct frame_draw *draw, uint32_t triangle)
 {
     lam_vec3 p[3];
     for (uint32_t k = 0; k < 3; k++) {
-        const float *from = draw->mesh->positions + 3 * (size_t)element(NULL, draw->mesh->indices, 3 * triangle + k);
+        const float *from = draw->mesh->positions + 3 * (size_t)mesh_element(NULL, draw->mesh, 3 * triangle + k);
         double at[3];
         for (int i = 0; i < 3; i++)
             at[i] = (double)draw->eye[i][0] * (double)from[0] + (double)draw->eye[i][1] * (double)from[1] +

@@ -125,18 +125,13 @@ struct segment_point {
     double t;
 };
 
-static size_t element(const uint32_t *own, const uint32_t *shared, size_t corner)
-{
-    return own ? own[corner] : shared ? shared[corner] : corner;
-}
-
 static float mixed(float a, float b, double t) { return (float)((double)a + ((double)b - (double)a) * t); }
 
 static void interpolate(const float *from, const uint32_t *own, const lam_mesh *mesh, size_t width,
                         struct segment_point segment_point, float *out)
 {
-    const float *a = from + width * element(own, mesh->indices, segment_point.a);
-    const float *b = from + width * element(own, mesh->indices, segment_point.b);
+    const float *a = from + width * mesh_element(own, mesh, segment_point.a);
+    const float *b = from + width * mesh_element(own, mesh, segment_point.b);
     for (size_t i = 0; i < width; i++)
         out[i] = segment_point.t == 0 ? a[i] : segment_point.t == 1 ? b[i] : mixed(a[i], b[i], segment_point.t);
 }
@@ -144,8 +139,8 @@ static void interpolate(const float *from, const uint32_t *own, const lam_mesh *
 static void interpolate_color(const lam_mesh *mesh, size_t item, struct segment_point segment_point, void *out)
 {
     bool each = mesh->colors_rate == LAM_PER_TRIANGLE;
-    size_t a = each ? item : element(mesh->color_indices, mesh->indices, segment_point.a);
-    size_t b = each ? item : element(mesh->color_indices, mesh->indices, segment_point.b);
+    size_t a = each ? item : mesh_element(mesh->color_indices, mesh, segment_point.a);
+    size_t b = each ? item : mesh_element(mesh->color_indices, mesh, segment_point.b);
     if (mesh->colors_format == LAM_COLORS_LINEAR_F32) {
         const float *from = mesh->colors;
         float *to = out;
@@ -190,7 +185,7 @@ struct builder {
 
 static lam_vec3 eye_position(const struct builder *b, size_t corner)
 {
-    const float *p = b->from->positions + 3 * element(NULL, b->from->indices, corner);
+    const float *p = b->from->positions + 3 * (size_t)mesh_element(NULL, b->from, corner);
     return mat4_point(&b->eye, v3((double)p[0], (double)p[1], (double)p[2]));
 }
 

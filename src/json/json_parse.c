@@ -99,11 +99,7 @@ static int read_unit(const struct parser *p, const char *at)
 {
     int unit = 0;
     for (int i = 0; i < 4; i++, at++) {
-        int digit = at >= p->end               ? -1
-                    : *at >= '0' && *at <= '9' ? *at - '0'
-                    : *at >= 'a' && *at <= 'f' ? *at - 'a' + 10
-                    : *at >= 'A' && *at <= 'F' ? *at - 'A' + 10
-                                               : -1;
+        int digit = at < p->end ? number_hex_digit(*at) : -1;
         if (digit < 0)
             return -1;
         unit = unit * 16 + digit;

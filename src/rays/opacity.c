@@ -8,11 +8,6 @@
 
 #include <string.h>
 
-static uint32_t element_of(const uint32_t *own, const uint32_t *shared, uint32_t corner)
-{
-    return own ? own[corner] : shared ? shared[corner] : corner;
-}
-
 static float at_weights(const float v[3], float b1, float b2)
 {
     return v[0] + ((v[1] - v[0]) * b1 + (v[2] - v[0]) * b2);
@@ -23,7 +18,7 @@ static float saturated(float x) { return x > 0 ? x < 1 ? x : 1 : 0; }
 static float corner_channel(const lam_mesh *mesh, uint32_t corner, int channel)
 {
     uint32_t element =
-        mesh->colors_rate == LAM_PER_TRIANGLE ? corner / 3 : element_of(mesh->color_indices, mesh->indices, corner);
+        mesh->colors_rate == LAM_PER_TRIANGLE ? corner / 3 : mesh_element(mesh->color_indices, mesh, corner);
     size_t at = 4 * (size_t)element + (size_t)channel;
     if (mesh->colors_format == LAM_COLORS_LINEAR_F32)
         return ((const float *)mesh->colors)[at];
@@ -42,7 +37,7 @@ bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float o
     const float *from = set ? mesh->second_texcoords : mesh->texcoords;
     const uint32_t *own = set ? mesh->second_texcoord_indices : mesh->texcoord_indices;
     if (from)
-        memcpy(out, from + 2 * (size_t)element_of(own, mesh->indices, corner), 2 * sizeof *out);
+        memcpy(out, from + 2 * (size_t)mesh_element(own, mesh, corner), 2 * sizeof *out);
     return from != NULL;
 }
 

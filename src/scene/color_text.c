@@ -19,14 +19,6 @@ static const struct {
     {"blue", 0x0000ff},   {"teal", 0x008080},   {"aqua", 0x00ffff},   {"cyan", 0x00ffff},    {"orange", 0xffa500},
 };
 
-static int hex_digit(char c)
-{
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
 static lam_rgba from_bytes(uint32_t rgba, lam_color_mode mode)
 {
     double part[3];
@@ -45,7 +37,7 @@ static bool read_hex(const char *text, uint32_t *rgba)
         return false;
     *rgba = 0;
     for (size_t i = 0; i < length; i++) {
-        int digit = hex_digit(text[i]);
+        int digit = number_hex_digit(text[i]);
         if (digit < 0)
             return false;
         *rgba = *rgba << 4 | (uint32_t)digit;

@@ -216,6 +216,13 @@ static inline size_t mesh_corners(const lam_mesh *mesh)
                                : (size_t)mesh->triangle_count * 3;
 }
 
+// Returns the element of an attribute at a corner. `own` is the attribute's index array; if it is NULL, the mesh's
+// indices are used.
+static inline uint32_t mesh_element(const uint32_t *own, const lam_mesh *mesh, size_t corner)
+{
+    return own ? own[corner] : mesh->indices ? mesh->indices[corner] : (uint32_t)corner;
+}
+
 static inline const lam_mesh *scene_mesh(const struct lam_scene *scene, int i)
 {
     return (const lam_mesh *)scene->meshes.items + i;

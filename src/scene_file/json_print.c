@@ -7,13 +7,6 @@
 
 #include <stdlib.h>
 
-static int take_chunk(const char *bytes, size_t size, void *user)
-{
-    struct text *text = user;
-    text_add_part(text, bytes, size);
-    return text->failed ? -1 : 0;
-}
-
 static size_t flags(int digits) { return JSON_ENCODE_ANY | JSON_REAL_PRECISION(digits); }
 
 // Prints a value on one line. Numbers are printed with fifteen digits if these identify the double, otherwise with
@@ -34,7 +27,7 @@ static void add_line(struct text *text, const json_t *value)
         {
             json_t *quoted = json_string(key);
             text_add(text, count++ ? ", " : "{ ");
-            text->failed |= json_dump_callback(quoted, take_chunk, text, flags(17)) != 0;
+            text->failed |= json_dump_callback(quoted, text_add_chunk, text, flags(17)) != 0;
             json_decref(quoted);
             text_add(text, ": ");
             add_line(text, item);
@@ -43,7 +36,7 @@ static void add_line(struct text *text, const json_t *value)
     } else {
         for (int digits = 15; digits <= 17 && !text->failed; digits++) {
             size_t start = text->length;
-            text->failed |= json_dump_callback(value, take_chunk, text, flags(digits)) != 0;
+            text->failed |= json_dump_callback(value, text_add_chunk, text, flags(digits)) != 0;
             const uint8_t *begin = (const uint8_t *)text->bytes;
             double back = 0;
             if (digits == 17 || !json_is_real(value) || text->failed)

@@ -98,12 +98,6 @@ static bool read_sides(struct scene_reader *r, const struct place *place, const 
     return !back || read_material_value(r, KEY_OF(place, "back_material"), back, &front, &object->back_material);
 }
 
-static bool is_identity(const lam_mat4 *m)
-{
-    lam_mat4 identity = lam_mat4_identity();
-    return memcmp(m, &identity, sizeof identity) == 0;
-}
-
 // The indices of the first object, light and camera of an entry.
 struct entry {
     int object, light, camera;
@@ -144,7 +138,8 @@ static bool finish(struct scene_reader *r, const struct place *place, const json
         lam_object *object = (lam_object *)r->scene->objects.items + i;
         // The product with the identity is skipped, because it would lose the signs of zeros.
         if (steps)
-            object->transform = is_identity(&object->transform) ? transform : mat4_mul(&transform, &object->transform);
+            object->transform =
+                mat4_is_identity(&object->transform) ? transform : mat4_mul(&transform, &object->transform);
         if (front >= 0)
             object->material = front;
         if (name && (i == first || !object->name))

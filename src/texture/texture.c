@@ -223,6 +223,11 @@ struct lam_texture *texture_decode(const void *bytes, size_t size, const char *n
     return texture;
 }
 
+bool texture_is_optional(const lam_error *error)
+{
+    return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
+}
+
 // --- public functions
 
 static bool check_values(lam_texture_values values, lam_error *error)

@@ -77,6 +77,10 @@ struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values
 struct lam_texture *texture_decode(const void *bytes, size_t size, const char *name, lam_texture_values values,
                                    struct call_control *call, lam_error *error);
 
+// Returns whether a model is loaded without a texture whose texture_decode failed with this error. Otherwise the load
+// fails.
+bool texture_is_optional(const lam_error *error);
+
 // Adds a reference.
 struct lam_texture *texture_share(const struct lam_texture *texture);
 

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -60,4 +61,19 @@ bool is_in_folder(const char *real, const char *folder)
 {
     size_t length = strlen(folder);
     return strncmp(real, folder, length) == 0 && (real[length] == '/' || !real[length] || folder[length - 1] == '/');
+}
+
+bool path_is_below(const char *path, const char *folder, bool missing)
+{
+    char *real = realpath(path, NULL), *top = realpath(folder, NULL);
+    bool below = real && top ? is_in_folder(real, top) : missing;
+    free(real);
+    free(top);
+    return below;
+}
+
+bool path_is_folder(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
 }

@@ -23,4 +23,11 @@ bool read_up_to(int file, char *bytes, size_t size, size_t *length);
 // Returns whether a path is the folder itself or lies below the folder. Both must be real paths.
 bool is_in_folder(const char *real, const char *folder);
 
+// Returns whether a file is the folder or lies below it after links are resolved. Returns `missing` if the file or the
+// folder cannot be found, or memory runs out.
+bool path_is_below(const char *path, const char *folder, bool missing);
+
+// Returns whether a folder exists at `path`, or a link to one.
+bool path_is_folder(const char *path);
+
 #endif

@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "batch_page.h"
 #include "console.h"
 #include "exit_codes.h"
+#include "file_io.h"
 #include "journal.h"
 #include "journal_sum.h"
 #include "json.h"
@@ -265,12 +265,9 @@ static bool enter_sandbox(const struct options *o, lam_error *error)
 
 static bool add_all(struct journal_sum *sum, int count, char **operands, lam_error *error)
 {
-    struct stat found;
-    for (int i = 0; i < count; i++) {
-        bool folder = stat(operands[i], &found) == 0 && S_ISDIR(found.st_mode);
-        if (!(folder ? journal_sum_add_folder(sum, operands[i], error) : journal_sum_add(sum, operands[i], error)))
+    for (int i = 0; i < count; i++)
+        if (!(path_is_folder(operands[i]) ? journal_sum_add_folder : journal_sum_add)(sum, operands[i], error))
             return false;
-    }
     return true;
 }
 

@@ -16,6 +16,7 @@
 #include "output.h"
 #include "report.h"
 #include "terminal.h"
+#include "vectors.h"
 
 // The distance from a teapot's centre down to the baseline of its caption, in model units.
 #define CAPTION_BELOW 0.83
@@ -145,8 +146,6 @@ static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error
 }
 
 // --- captions
-
-static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // Draws each material's name below its teapot in grey, which is legible on any background.
 static bool draw_captions(const lam_scene *scene, const struct options *o, const lam_camera *camera, lam_image *image,

@@ -28,14 +28,8 @@ static bool check_ending(const char *output, lam_error *error)
     if (!output_is_named(output) || is_model_file(output) || page_is_named(output) ||
         output_format(output, &format, error))
         return true;
-    for (int i = 0; lam_mesh_format(i); i++) {
-        size_t used = strlen(error->text);
-        snprintf(error->text + used, sizeof error->text - used, "%s.%s%s", i == 0 ? "; a model file is " : "",
-                 lam_mesh_format(i),
-                 !lam_mesh_format(i + 1)  ? ""
-                 : lam_mesh_format(i + 2) ? ", "
-                                          : " or ");
-    }
+    size_t used = strlen(error->text);
+    snprintf(error->text + used, sizeof error->text - used, "; a model file is .obj, .stl or .ply");
     return false;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "light_place.h"
+#include "vectors.h"
 
 bool animation_wanted(const struct options *o) { return o->animation.turntable || o->animation.sweeps.count; }
 
@@ -42,8 +43,6 @@ bool animation_camera(const struct job *job, lam_camera *camera)
     *camera = a->camera;
     return true;
 }
-
-static lam_vec3 minus(lam_vec3 a, lam_vec3 b) { return (lam_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 static void turn_camera(lam_camera *camera, lam_vec3 centre, lam_vec3 axis, double degrees)
 {

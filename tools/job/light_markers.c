@@ -10,6 +10,7 @@
 
 #include "console.h"
 #include "light_place.h"
+#include "vectors.h"
 
 static lam_vec3 unit(lam_vec3 v)
 {
@@ -22,9 +23,7 @@ static lam_vec3 unit(lam_vec3 v)
 static lam_mat4 placement(lam_vec3 p, lam_vec3 d, double size, double along)
 {
     lam_vec3 other = fabs(d.y) < 0.9 ? (lam_vec3){0, 1, 0} : (lam_vec3){1, 0, 0};
-    lam_vec3 x =
-        unit((lam_vec3){d.y * other.z - d.z * other.y, d.z * other.x - d.x * other.z, d.x * other.y - d.y * other.x});
-    lam_vec3 z = {x.y * d.z - x.z * d.y, x.z * d.x - x.x * d.z, x.x * d.y - x.y * d.x};
+    lam_vec3 x = unit(cross(d, other)), z = cross(x, d);
     return (lam_mat4){{{x.x * size, d.x * along, z.x * size, p.x},
                        {x.y * size, d.y * along, z.y * size, p.y},
                        {x.z * size, d.z * along, z.z * size, p.z},

@@ -9,6 +9,7 @@
 #include <lambent/fields.h>
 
 #include "console.h"
+#include "vectors.h"
 
 // --- vectors
 
@@ -19,14 +20,8 @@ lam_vec3 matrix_apply(const lam_mat4 *m, lam_vec3 v, double w)
                       m->m[2][0] * v.x + m->m[2][1] * v.y + m->m[2][2] * v.z + w * m->m[2][3]};
 }
 
-static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static lam_vec3 add(lam_vec3 a, lam_vec3 b) { return (lam_vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
-static lam_vec3 subtract(lam_vec3 a, lam_vec3 b) { return (lam_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static lam_vec3 times(lam_vec3 v, double s) { return (lam_vec3){v.x * s, v.y * s, v.z * s}; }
-static lam_vec3 cross(lam_vec3 a, lam_vec3 b)
-{
-    return (lam_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 static lam_vec3 turned(lam_vec3 v, lam_vec3 axis, double degrees)
 {
@@ -124,7 +119,7 @@ static struct surroundings surroundings_of(const struct job *job, const lam_ligh
 static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth, double degrees)
 {
     double height = dot(way, s->up), length = sqrt(dot(way, way));
-    lam_vec3 level = subtract(way, times(s->up, height));
+    lam_vec3 level = minus(way, times(s->up, height));
     double across = sqrt(dot(level, level));
     lam_vec3 ahead = across > 1e-9 * length ? times(level, 1 / across) : s->front;
     if (azimuth)
@@ -159,7 +154,7 @@ static bool set_angle(const struct job *job, lam_light *light, bool azimuth, dou
     }
     if (light->type != LAM_LIGHT_POINT && light->type != LAM_LIGHT_SPOT)
         return false;
-    lam_vec3 from = subtract(light->position, s.centre);
+    lam_vec3 from = minus(light->position, s.centre);
     if (dot(from, from) == 0)
         return false;
     lam_vec3 to = placed(from, &s, azimuth, degrees);

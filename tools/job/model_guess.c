@@ -5,10 +5,10 @@
 #include <dirent.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "command_table.h"
+#include "file_io.h"
 #include "output.h"
 #include "sandbox_start.h"
 #include "suggest.h"
@@ -61,12 +61,11 @@ static void guess_word(const char *model, char *advice)
 void model_guess(const char *model, const struct options *options, lam_error *error)
 {
     char advice[ADVICE_SIZE] = "", nearest[FILE_NAME_SIZE];
-    struct stat found;
     lam_pixel_format format;
     size_t used = strlen(error->text);
     if (!options->picture.output && lam_image_format_for(model, &format, NULL))
         snprintf(advice, sizeof advice, "; the name of the picture to write follows -o");
-    else if (error->code == LAM_CANNOT_READ && stat(model, &found) == 0 && S_ISDIR(found.st_mode))
+    else if (error->code == LAM_CANNOT_READ && path_is_folder(model))
         snprintf(advice, sizeof advice, "; lambent batch %.200s draws all models in it, lambent view %.200s shows them",
                  model, model);
     else if (error->code != LAM_CANNOT_READ || access(model, F_OK) == 0)

@@ -96,15 +96,6 @@ static bool take_environment(const struct options *o, lam_picture_settings *s, c
            (*names = environment_option_faces(text, s->environment_faces, error)) != NULL;
 }
 
-// Returns whether a file is in the folder (a real path) or below it. Returns true if the file cannot be found.
-static bool is_below(const char *path, const char *folder)
-{
-    char *real = realpath(path, NULL);
-    bool below = !real || is_in_folder(real, folder);
-    free(real);
-    return below;
-}
-
 bool scene_settings_are_beside(const struct job *job)
 {
     const struct options *o = job->options;
@@ -115,11 +106,11 @@ bool scene_settings_are_beside(const struct job *job)
     lam_picture_settings s = {0};
     lam_error error;
     bool beside = !folder || lam_shape_find(job->model) >= 0 || strcmp(lam_scene_format(job->scene), "scene") == 0 ||
-                  is_below(job->model, folder);
+                  path_is_below(job->model, folder, true);
     if (folder && take_environment(o, &s, &names, &error)) {
         for (int i = 0; i < LAM_FACE_COUNT && s.environment_faces[i]; i++)
-            beside &= is_below(s.environment_faces[i], folder);
-        beside &= !s.environment_picture || is_below(s.environment_picture, folder);
+            beside &= path_is_below(s.environment_faces[i], folder, true);
+        beside &= !s.environment_picture || path_is_below(s.environment_picture, folder, true);
     }
     free(names);
     free(folder);

@@ -242,19 +242,13 @@ static bool run_passes(struct batch *b, lam_error *error)
 
 // --- the batch
 
-static bool draws_with_gl(const struct options *o)
-{
-    return o->work.device == DEVICE_GL || o->work.device == DEVICE_GLES ||
-           (o->work.device == DEVICE_AUTO && o->work.gl_device);
-}
-
 // Chooses one worker per processor or, if there are fewer models than processors, one worker per model with several
 // threads.
 static void share_threads(struct batch *b)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     int threads = b->options->work.threads ? b->options->work.threads : processors > 0 ? (int)processors : 1;
-    int most = draws_with_gl(b->options) ? 1 : threads < WORKERS_MAX ? threads : WORKERS_MAX;
+    int most = device_option_is_gl(b->options) ? 1 : threads < WORKERS_MAX ? threads : WORKERS_MAX;
     size_t models = b->options->batch.jobs ? (size_t)most : b->plan->count;
     b->workers = (size_t)most < models ? most : models ? (int)models : 1;
     b->threads = b->workers == 1 ? b->options->work.threads : threads / b->workers;

@@ -33,3 +33,9 @@ lam_device *device_option_make(const struct options *o, lam_error *error)
     lam_cpu_params params = {.threads = o->work.threads, .isa = (lam_isa)o->work.isa};
     return lam_device_cpu(&params, error);
 }
+
+bool device_option_is_gl(const struct options *o)
+{
+    return o->work.device == DEVICE_GL || o->work.device == DEVICE_GLES ||
+           (o->work.device == DEVICE_AUTO && o->work.gl_device);
+}

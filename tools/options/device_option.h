@@ -7,4 +7,7 @@
 // Returns NULL on failure. The caller frees the device.
 lam_device *device_option_make(const struct options *options, lam_error *error);
 
+// Returns whether the options name OpenGL or one of its devices.
+bool device_option_is_gl(const struct options *options);
+
 #endif

@@ -12,15 +12,13 @@
 #include <lambent/scene.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "writer.h"
 
-static bool is_folder(const char *path)
+bool output_is_named(const char *output)
 {
-    struct stat found;
-    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+    return output && output[strlen(output) - 1] != '/' && !path_is_folder(output);
 }
-
-bool output_is_named(const char *output) { return output && output[strlen(output) - 1] != '/' && !is_folder(output); }
 
 char *output_path_of(const char *output, const struct output_words *words)
 {

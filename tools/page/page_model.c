@@ -51,15 +51,6 @@ static bool is_file(const char *path)
     return stat(path, &about) == 0 && S_ISREG(about.st_mode);
 }
 
-// Returns whether a file is in the folder or its subfolders after links are resolved. `folder` must be a real path.
-static bool is_below(const char *folder, const char *path)
-{
-    char *real = realpath(path, NULL);
-    bool below = real && is_in_folder(real, folder);
-    free(real);
-    return below;
-}
-
 // Adds the model and the files that the model names. In the page, the model's folder is "/".
 static bool add_files(const struct job *job, struct page_model *model, lam_error *error)
 {
@@ -75,7 +66,7 @@ static bool add_files(const struct job *job, struct page_model *model, lam_error
         bool beside = strncmp(path, job->model, (size_t)length) == 0 && *name != '/' && !climbs_out(name);
         if (beside && !is_file(path)) // the page will also report the missing file
             continue;
-        if (!beside || (i && !is_below(folder, path))) { // the user may name the model by a link
+        if (!beside || (i && !path_is_below(path, folder, false))) { // the user may name the model by a link
             ok = complain(
                 error, LAM_UNSUPPORTED,
                 "%s: is outside the folder of %s, and a page cannot contain files of other folders; copy it there",

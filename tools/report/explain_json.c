@@ -4,6 +4,7 @@
 #include "explain_words.h"
 #include "json.h"
 #include "settings_json.h"
+#include "vectors.h"
 
 #include <lambent/fields.h>
 
@@ -41,8 +42,6 @@ static void matrix(struct json *json, const char *key, lam_rgb ambient, lam_rgb 
     color(json, NULL, specular);
     json_close(json, ']');
 }
-
-static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 // Writes the cone of a spot light, or null.
 static void write_cone(struct json *json, const lam_light *light)

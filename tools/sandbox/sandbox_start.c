@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "device_option.h"
 #include "limit_options.h"
 
 static struct sandbox_state active = {.reason = "not entered"};
@@ -134,12 +135,6 @@ void sandbox_add_options(struct sandbox_paths *paths, const struct options *o)
         sandbox_add_output(paths, o->picture.save_scene, false);
 }
 
-static bool uses_opengl(const struct options *o)
-{
-    return o->work.device == DEVICE_GL || o->work.device == DEVICE_GLES ||
-           (o->work.device == DEVICE_AUTO && o->work.gl_device);
-}
-
 static bool check_required(const struct options *o, lam_error *error)
 {
     if (o->limits.sandbox != SANDBOX_REQUIRE || (active.landlock && active.filter))
@@ -151,7 +146,7 @@ static bool check_required(const struct options *o, lam_error *error)
 bool sandbox_is_wanted(const struct options *o)
 {
     struct sandbox_state offered = sandbox_offered();
-    return o->limits.sandbox != SANDBOX_OFF && !uses_opengl(o) && (offered.landlock || offered.filter);
+    return o->limits.sandbox != SANDBOX_OFF && !device_option_is_gl(o) && (offered.landlock || offered.filter);
 }
 
 static enum writer_right right_of(void *user, const char *path)
@@ -184,7 +179,7 @@ bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_err
     bool ok = true, everything = paths->scene_files && !o->limits.files_inside && !o->limits.allow_paths.count;
     if (o->limits.sandbox == SANDBOX_OFF) {
         active.reason = "--sandbox off";
-    } else if (uses_opengl(o)) {
+    } else if (device_option_is_gl(o)) {
         active.reason = "OpenGL's driver needs privileges that a sandbox removes";
         ok = check_required(o, error);
     } else if (o->limits.sandbox == SANDBOX_REQUIRE && sandbox_offered().reason) {

@@ -3,7 +3,6 @@
 #include "name_similarity.h"
 
 #include <ctype.h>
-#include <stdbool.h>
 #include <string.h>
 
 #include <lambent/base.h>
@@ -135,7 +134,7 @@ static void sound_of(const char *name, char out[WORD_LENGTH])
     out[length] = 0;
 }
 
-bool same_letters(const char *a, const char *b)
+bool name_is_same(const char *a, const char *b)
 {
     for (;; a++, b++) {
         a += strspn(a, "_");
@@ -157,7 +156,7 @@ static void lower(const char *name, char out[64])
 
 double name_similarity(const char *a, const char *b)
 {
-    if (same_letters(a, b))
+    if (name_is_same(a, b))
         return 1;
     struct name_words words_a, words_b;
     split(a, &words_a);

@@ -5,13 +5,13 @@
 
 #include <stdbool.h>
 
-// Returns whether the names are equal except for case and underscores.
-bool same_letters(const char *a, const char *b);
-
 // Returns 1 for names that are equal except for case and underscores, and 0 for unrelated names. Names whose words have
 // different roles (light and eye, ambient and diffuse, position and direction) are unrelated, even if they look
 // similar. Words with the same role are treated as equal (position and point, eye and camera, normal and N).
 double name_similarity(const char *a, const char *b);
+
+// Returns whether two names are equal except for case and underscores.
+bool name_is_same(const char *a, const char *b);
 
 // Returns the candidate most similar to `name`. If several are equally similar, returns the first of them. Returns NULL
 // if no candidate is similar enough to be suggested. Skips NULL candidates.

@@ -104,113 +104,68 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         .type = LAM_LIGHT_POINT, .position = {1, 1, 1}, .to_light = {0, 0, 1}, .attenuation = {1, 0, 0}};
     const struct reference_light *light = index >= 0 && index < s->light_count ? &s->lights[index] : &none;
     const float *a = light->attenuation;
-    lam_mat4 to = matrix_to(space, m);
-    lam_rgb one = {1, 1, 1};
     if (is_map(semantic))
         return map_texel(semantic, s);
-    bool product_of_light = semantic >= SEMANTIC_AMBIENT_PRODUCT && semantic <= SEMANTIC_SPECULAR_PRODUCT;
-    switch (semantic) {
-    case SEMANTIC_MODEL_VIEW:
-        return matrix_value(&m->model_view);
-    case SEMANTIC_PROJECTION:
-        return matrix_value(&m->projection);
-    case SEMANTIC_MODEL_VIEW_PROJECTION:
-        return matrix_value(&m->model_view_projection);
-    case SEMANTIC_MODEL:
-        return matrix_value(&m->model);
-    case SEMANTIC_VIEW:
-        return matrix_value(&m->view);
-    case SEMANTIC_VIEW_PROJECTION: {
-        lam_mat4 both = mat4_mul(&m->projection, &m->view);
-        return matrix_value(&both);
-    }
-    case SEMANTIC_NORMAL_MATRIX:
-        return normal_matrix(space, m);
-    case SEMANTIC_AMBIENT:
-    case SEMANTIC_AMBIENT_PRODUCT:
-        return without_texel(s, color(product(s->ambient, product_of_light ? total_ambient(s) : one), s->ka, 1));
-    case SEMANTIC_DIFFUSE:
-        if (s->physical)
-            return color_factor(s, NUMBER_BASE_COLOR, s->diffuse, s->alpha);
-        return color(s->diffuse, s->kd, s->alpha);
-    case SEMANTIC_DIFFUSE_PRODUCT:
+    const lam_mat4 to = matrix_to(space, m), view_projection = mat4_mul(&m->projection, &m->view);
+    const lam_vec3 to_light = v3_unit(mat4_vector(&to, light->to_light));
+    const struct uniform_value position = light_position(light, &to), edge = cone(light);
+    const float kind = light->type == LAM_LIGHT_DIRECTIONAL ? 0 : light->type == LAM_LIGHT_POINT ? 1 : 2;
+    const struct uniform_value base = color_factor(s, NUMBER_BASE_COLOR, s->diffuse, s->alpha);
+    // The values of all roles. The values of attributes and of SEMANTIC_ZERO are 0.
+    const struct uniform_value values[SEMANTIC_COUNT] = {
+        [SEMANTIC_MODEL_VIEW] = matrix_value(&m->model_view),
+        [SEMANTIC_PROJECTION] = matrix_value(&m->projection),
+        [SEMANTIC_MODEL_VIEW_PROJECTION] = matrix_value(&m->model_view_projection),
+        [SEMANTIC_MODEL] = matrix_value(&m->model),
+        [SEMANTIC_VIEW] = matrix_value(&m->view),
+        [SEMANTIC_VIEW_PROJECTION] = matrix_value(&view_projection),
+        [SEMANTIC_NORMAL_MATRIX] = normal_matrix(space, m),
+        [SEMANTIC_AMBIENT] = without_texel(s, color(s->ambient, s->ka, 1)),
+        [SEMANTIC_AMBIENT_PRODUCT] = without_texel(s, color(product(s->ambient, total_ambient(s)), s->ka, 1)),
+        [SEMANTIC_DIFFUSE] = s->physical ? base : color(s->diffuse, s->kd, s->alpha),
         // A metal does not scatter light, so this product is 0 for it. `metallic` is 0 if the shader has no name for
         // it.
-        return color(product(s->diffuse, light->color), s->kd * (1 - s->metallic), s->alpha);
-    case SEMANTIC_SPECULAR:
-    case SEMANTIC_SPECULAR_PRODUCT:
-        return color(product(s->specular, product_of_light ? light->specular : one), s->ks, 1);
-    case SEMANTIC_LIGHT_AMBIENT_PRODUCT:
-        return color(product(s->ambient, light->ambient), s->ka, 1);
-    case SEMANTIC_KA:
-        return number(map_factor(s, NUMBER_OCCLUSION, s->ka));
-    case SEMANTIC_KD:
-        return number(s->kd);
-    case SEMANTIC_KS:
-        return number(s->ks);
-    case SEMANTIC_COLOR:
-        return s->physical ? color_factor(s, NUMBER_BASE_COLOR, s->diffuse, s->alpha) : color(s->diffuse, 1, s->alpha);
-    case SEMANTIC_SPECULAR_COLOR:
-        return color(s->specular, 1, 1);
-    case SEMANTIC_SHININESS:
-        return number(s->shininess);
-    case SEMANTIC_LIGHT_POSITION:
-        return light_position(light, &to);
-    case SEMANTIC_LIGHT_X:
-    case SEMANTIC_LIGHT_Y:
-    case SEMANTIC_LIGHT_Z:
-        return number(light_position(light, &to).v[semantic - SEMANTIC_LIGHT_X]);
-    case SEMANTIC_LIGHT_DIRECTION:
-        return vector(v3_unit(mat4_vector(&to, light->to_light)), 0);
-    case SEMANTIC_LIGHT_TRAVEL:
-        return vector(v3_scale(v3_unit(mat4_vector(&to, light->to_light)), -1), 0);
-    case SEMANTIC_METALLIC:
-        return number(map_factor(s, NUMBER_METALLIC, s->metallic));
-    case SEMANTIC_ROUGHNESS:
-        return number(map_factor(s, NUMBER_ROUGHNESS, s->roughness));
-    case SEMANTIC_ROUGHNESS_ANGLE:
-        return number(s->roughness_angle_rad);
-    case SEMANTIC_LIGHT_KIND:
-        return number(light->type == LAM_LIGHT_DIRECTIONAL ? 0 : light->type == LAM_LIGHT_POINT ? 1 : 2);
-    case SEMANTIC_LIGHT_COLOR:
-        return color(light->color, light_scale(s), 1);
-    case SEMANTIC_LIGHT_SPECULAR:
-        return color(light->specular, light_scale(s), 1);
-    case SEMANTIC_LIGHT_AMBIENT:
-        return color(light->ambient, 1, 1);
-    case SEMANTIC_AMBIENT_LIGHT:
-        return color(total_ambient(s), 1, 1);
-    case SEMANTIC_ATTENUATION_CONSTANT:
-    case SEMANTIC_ATTENUATION_LINEAR:
-    case SEMANTIC_ATTENUATION_QUADRATIC:
-        return number(a[semantic - SEMANTIC_ATTENUATION_CONSTANT]);
-    case SEMANTIC_ATTENUATION:
-        return (struct uniform_value){{a[0], a[1], a[2]}};
-    case SEMANTIC_CONE:
-        return cone(light);
-    case SEMANTIC_CUTOFF:
-        return number(cone(light).v[0]);
-    case SEMANTIC_OUTER_CUTOFF: // almost equal to the cutoff, so that edges are hard
-        return number(cone(light).v[0] - (light->cutoff_deg > 0 ? 1e-6f : 0.1f));
-    case SEMANTIC_SPOT_EXPONENT:
-        return number(light->exponent);
-    case SEMANTIC_EMISSION:
-        return color_factor(s, NUMBER_EMISSION, s->emission, 1);
-    case SEMANTIC_ONE:
-        return (struct uniform_value){{1, 1, 1, 1}};
-    case SEMANTIC_FACTOR:
-        return (struct uniform_value){{0.4f, 0.35f, 0.3f, 1}};
-    case SEMANTIC_MAP_ROW_U:
-        return (struct uniform_value){{1, 0, 0, 1}};
-    case SEMANTIC_MAP_ROW_V:
-        return (struct uniform_value){{0, 1, 0, 0}};
-    case SEMANTIC_LIGHT_COUNT:
-        return number((float)s->light_count);
-    case SEMANTIC_FLAT:
-        return number(s->flat);
-    case SEMANTIC_EYE_POSITION:
-        return vector(mat4_point(&to, s->eye), 1);
-    default: // SEMANTIC_ZERO, and attributes
-        return (struct uniform_value){{0}};
-    }
+        [SEMANTIC_DIFFUSE_PRODUCT] = color(product(s->diffuse, light->color), s->kd * (1 - s->metallic), s->alpha),
+        [SEMANTIC_SPECULAR] = color(s->specular, s->ks, 1),
+        [SEMANTIC_SPECULAR_PRODUCT] = color(product(s->specular, light->specular), s->ks, 1),
+        [SEMANTIC_LIGHT_AMBIENT_PRODUCT] = color(product(s->ambient, light->ambient), s->ka, 1),
+        [SEMANTIC_KA] = number(map_factor(s, NUMBER_OCCLUSION, s->ka)),
+        [SEMANTIC_KD] = number(s->kd),
+        [SEMANTIC_KS] = number(s->ks),
+        [SEMANTIC_COLOR] = s->physical ? base : color(s->diffuse, 1, s->alpha),
+        [SEMANTIC_SPECULAR_COLOR] = color(s->specular, 1, 1),
+        [SEMANTIC_SHININESS] = number(s->shininess),
+        [SEMANTIC_LIGHT_POSITION] = position,
+        [SEMANTIC_LIGHT_X] = number(position.v[0]),
+        [SEMANTIC_LIGHT_Y] = number(position.v[1]),
+        [SEMANTIC_LIGHT_Z] = number(position.v[2]),
+        [SEMANTIC_LIGHT_DIRECTION] = vector(to_light, 0),
+        [SEMANTIC_LIGHT_TRAVEL] = vector(v3_scale(to_light, -1), 0),
+        [SEMANTIC_METALLIC] = number(map_factor(s, NUMBER_METALLIC, s->metallic)),
+        [SEMANTIC_ROUGHNESS] = number(map_factor(s, NUMBER_ROUGHNESS, s->roughness)),
+        [SEMANTIC_ROUGHNESS_ANGLE] = number(s->roughness_angle_rad),
+        [SEMANTIC_LIGHT_KIND] = number(kind),
+        [SEMANTIC_LIGHT_COLOR] = color(light->color, light_scale(s), 1),
+        [SEMANTIC_LIGHT_SPECULAR] = color(light->specular, light_scale(s), 1),
+        [SEMANTIC_LIGHT_AMBIENT] = color(light->ambient, 1, 1),
+        [SEMANTIC_AMBIENT_LIGHT] = color(total_ambient(s), 1, 1),
+        [SEMANTIC_ATTENUATION_CONSTANT] = number(a[0]),
+        [SEMANTIC_ATTENUATION_LINEAR] = number(a[1]),
+        [SEMANTIC_ATTENUATION_QUADRATIC] = number(a[2]),
+        [SEMANTIC_ATTENUATION] = {{a[0], a[1], a[2]}},
+        [SEMANTIC_CONE] = edge,
+        [SEMANTIC_CUTOFF] = number(edge.v[0]),
+        // almost equal to the cutoff, so that edges are hard
+        [SEMANTIC_OUTER_CUTOFF] = number(edge.v[0] - (light->cutoff_deg > 0 ? 1e-6f : 0.1f)),
+        [SEMANTIC_SPOT_EXPONENT] = number(light->exponent),
+        [SEMANTIC_EMISSION] = color_factor(s, NUMBER_EMISSION, s->emission, 1),
+        [SEMANTIC_ONE] = {{1, 1, 1, 1}},
+        [SEMANTIC_FACTOR] = {{0.4f, 0.35f, 0.3f, 1}},
+        [SEMANTIC_MAP_ROW_U] = {{1, 0, 0, 1}},
+        [SEMANTIC_MAP_ROW_V] = {{0, 1, 0, 0}},
+        [SEMANTIC_LIGHT_COUNT] = number((float)s->light_count),
+        [SEMANTIC_FLAT] = number(s->flat),
+        [SEMANTIC_EYE_POSITION] = vector(mat4_point(&to, s->eye), 1),
+    };
+    return values[semantic];
 }

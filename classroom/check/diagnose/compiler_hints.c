@@ -68,8 +68,6 @@ static bool in_list(const char *word, const char *const *list, int count)
     return false;
 }
 
-static bool is_name(const char *w) { return isalpha((unsigned char)w[0]) || w[0] == '_'; }
-
 // Functions that were added after GLSL 1.10 and GLSL ES 1.00.
 static const struct {
     const char *name;
@@ -218,7 +216,7 @@ void compiler_hints_for_message(struct diagnostics *diagnostics, const struct de
         if (at > 0 && at < d->word_count) {
             const char *before = d->words[at - 1].text;
             if (d->words[at - 1].line < line &&
-                (is_name(before) || isdigit((unsigned char)before[0]) || strchr(")]", before[0])))
+                (word_is_name(before) || isdigit((unsigned char)before[0]) || strchr(")]", before[0])))
                 diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, d->words[at - 1].line,
                                 "is a ';' missing in line %d after '%s'?", d->words[at - 1].line, before);
         }

@@ -1,18 +1,11 @@
 // visible_names.c: follows the braces of a shader and keeps the declarations of open blocks.
 #include "visible_names.h"
 
-#include <ctype.h>
 #include <string.h>
-
-static bool is(const struct declarations *d, int i, const char *text)
-{
-    return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
-}
 
 static bool is_identifier(const struct declarations *d, int i)
 {
-    char first = i >= 0 && i < d->word_count ? d->words[i].text[0] : 0;
-    return isalpha((unsigned char)first) || first == '_';
+    return i >= 0 && i < d->word_count && word_is_name(d->words[i].text);
 }
 
 // Returns whether a word may precede a name without being its type.
@@ -22,7 +15,7 @@ static bool is_keyword(const struct declarations *d, int i)
                                         "attribute", "const",     "varying", "flat",      "highp",  "lowp",  "mediump",
                                         "struct",    "precision", "smooth",  "invariant", "layout", "case",  "buffer"};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (is(d, i, words[k]))
+        if (word_is(d, i, words[k]))
             return true;
     return false;
 }
@@ -52,27 +45,27 @@ static void leave(struct visible_names *out, int depth)
 void visible_names_at(const struct declarations *d, int at, bool functions, struct visible_names *out)
 {
     int end = at < d->word_count ? at : d->word_count; // becomes the end of the last complete statement before `at`
-    while (end > 0 && !is(d, end - 1, ";") && !is(d, end - 1, "{") && !is(d, end - 1, "}"))
+    while (end > 0 && !word_is(d, end - 1, ";") && !word_is(d, end - 1, "{") && !word_is(d, end - 1, "}"))
         end--;
     int parentheses = 0;
     bool declares = false; // in the list of names of a declaration: float a, b;
     *out = (struct visible_names){.count = 0};
     for (int i = 0; i < end; i++) {
         const struct word *w = &d->words[i];
-        parentheses += is(d, i, "(") - is(d, i, ")");
+        parentheses += word_is(d, i, "(") - word_is(d, i, ")");
         bool parameter = w->depth == 0 && parentheses > 0;
         int depth = parameter ? 1 : w->depth; // parameters belong to the function's body
-        if (is(d, i, "}") || (is(d, i, ";") && w->depth == 0))
+        if (word_is(d, i, "}") || (word_is(d, i, ";") && w->depth == 0))
             leave(out, w->depth);
-        if (is(d, i, ";") || is(d, i, "{") || is(d, i, "}"))
+        if (word_is(d, i, ";") || word_is(d, i, "{") || word_is(d, i, "}"))
             declares = false;
-        if (!is_identifier(d, i) || is_keyword(d, i) || is(d, i, "main"))
+        if (!is_identifier(d, i) || is_keyword(d, i) || word_is(d, i, "main"))
             continue;
         // the instance name of a struct or a block
-        bool instance = is(d, i - 1, "}") && (is(d, i + 1, ";") || is(d, i + 1, "["));
-        bool typed = instance || (is_identifier(d, i - 1) && !is_keyword(d, i - 1) && !is(d, i - 2, "struct"));
-        bool function = typed && is(d, i + 1, "(") && w->depth == 0;
-        bool listed = declares && parentheses == 0 && is(d, i - 1, ",");
+        bool instance = word_is(d, i - 1, "}") && (word_is(d, i + 1, ";") || word_is(d, i + 1, "["));
+        bool typed = instance || (is_identifier(d, i - 1) && !is_keyword(d, i - 1) && !word_is(d, i - 2, "struct"));
+        bool function = typed && word_is(d, i + 1, "(") && w->depth == 0;
+        bool listed = declares && parentheses == 0 && word_is(d, i - 1, ",");
         declares = declares || (typed && !function && !parameter);
         if (functions ? function : (typed && !function) || listed)
             add(out, w->text, depth);

@@ -35,8 +35,6 @@ static const char *word_at(const struct reader *r, int ahead)
 
 static bool next_is(const struct reader *r, const char *text) { return strcmp(word_at(r, 0), text) == 0; }
 
-static bool is_identifier(const char *text) { return isalpha((unsigned char)text[0]) || text[0] == '_'; }
-
 static bool take(struct reader *r, const char *text)
 {
     bool there = next_is(r, text);
@@ -119,7 +117,7 @@ static bool add_expanded(struct reader *r, const struct declaration *item)
 // Parses name [count] {, name [count]} ;
 static bool read_names(struct reader *r, struct declaration item, bool as_members)
 {
-    while (is_identifier(word_at(r, 0))) {
+    while (word_is_name(word_at(r, 0))) {
         item.line = r->d->words[r->at].line;
         snprintf(item.name, sizeof item.name, "%s", word_at(r, 0));
         r->at++;
@@ -318,7 +316,7 @@ bool word_is(const struct declarations *d, int i, const char *text)
     return i >= 0 && i < d->word_count && strcmp(d->words[i].text, text) == 0;
 }
 
-bool number_at_word(const struct declarations *d, int *at, double *out)
+bool word_take_number(const struct declarations *d, int *at, double *out)
 {
     bool minus = word_is(d, *at, "-");
     const char *text = *at + minus < d->word_count ? d->words[*at + minus].text : "";

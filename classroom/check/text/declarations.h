@@ -6,6 +6,8 @@
 #ifndef DECLARATIONS_H
 #define DECLARATIONS_H
 
+#include <ctype.h>
+
 #include <lambent/base.h>
 
 enum declared { DECLARED_UNIFORM, DECLARED_INPUT, DECLARED_OUTPUT };
@@ -50,11 +52,16 @@ void declarations_free(struct declarations *d);
 // Returns whether an identifier occurs outside its own declaration.
 bool declarations_uses(const struct declarations *d, const char *name);
 
-// Returns whether word i exists and is this text.
-bool word_is(const struct declarations *d, int i, const char *text);
-// Parses a number with its sign at word *at, and advances *at past the number. Returns false if there is none.
-bool number_at_word(const struct declarations *d, int *at, double *out);
-
 const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name);
+
+// Returns whether word `i` exists and is equal to `text`.
+bool word_is(const struct declarations *d, int i, const char *text);
+
+// Parses the number at word *at, which may have a minus sign, and advances *at past the number. Returns false if there
+// is none.
+bool word_take_number(const struct declarations *d, int *at, double *out);
+
+// Returns whether a word is an identifier or a keyword.
+static inline bool word_is_name(const char *text) { return isalpha((unsigned char)text[0]) || text[0] == '_'; }
 
 #endif

@@ -93,7 +93,7 @@ static void follow(struct inference *f, int at, int depth)
     const struct declarations *d = f->vertex;
     for (int i = at; i < d->word_count && !word_is(d, i, ";") && f->steps++ < MAX_STEPS; i++) {
         const char *word = d->words[i].text;
-        if (d->words[i].is_member || !(isalpha((unsigned char)word[0]) || word[0] == '_'))
+        if (d->words[i].is_member || !word_is_name(word))
             continue;
         const struct declaration *uniform = uniform_of(d, word);
         if (uniform && strncmp(uniform->type, "mat4", 4) == 0 && f->chain_count < MAX_CHAIN)
@@ -422,7 +422,7 @@ static bool find_vector_of_light(const struct declarations *d, int number, const
         while (at < i + 8 &&
                (word_is(d, at, "normalize") || word_is(d, at, "vec3") || word_is(d, at, "vec4") || word_is(d, at, "(")))
             at++;
-        while (count < 3 && number_at_word(d, &at, &v[count])) {
+        while (count < 3 && word_take_number(d, &at, &v[count])) {
             count++;
             at += word_is(d, at, ",");
         }

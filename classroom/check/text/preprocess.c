@@ -45,8 +45,6 @@ struct preprocessor {
 
 static bool is_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-static bool starts_name(const char *text) { return isalpha((unsigned char)text[0]) || text[0] == '_'; }
-
 static bool is(const struct token *t, const char *text) { return strcmp(t->text, text) == 0; }
 
 // Makes space for one more element. The capacity doubles at each power of two. Returns NULL if memory runs out.
@@ -236,7 +234,7 @@ static void expand(struct preprocessor *p, const struct token *t, int count, int
 {
     for (int i = 0; i < count && !p->failed; i++) {
         int at = line ? line : t[i].line;
-        struct macro *m = starts_name(t[i].text) ? find_macro(p, t[i].text) : NULL;
+        struct macro *m = word_is_name(t[i].text) ? find_macro(p, t[i].text) : NULL;
         struct argument arguments[MAX_PARAMETERS];
         int argument_count = 0, taken = 0;
         if (m && m->function)
@@ -258,7 +256,7 @@ static void expand(struct preprocessor *p, const struct token *t, int count, int
 
 static void define(struct preprocessor *p, const struct token *t, int count)
 {
-    if (count < 1 || !starts_name(t[0].text))
+    if (count < 1 || !word_is_name(t[0].text))
         return;
     struct macro *m = find_macro(p, t[0].text);
     if (!m) {
@@ -274,7 +272,7 @@ static void define(struct preprocessor *p, const struct token *t, int count)
     int at = 1;
     if (m->function) {
         for (at = 2; at < count && !is(&t[at], ")"); at++)
-            if (starts_name(t[at].text) && m->parameter_count < MAX_PARAMETERS)
+            if (word_is_name(t[at].text) && m->parameter_count < MAX_PARAMETERS)
                 memcpy(m->parameters[m->parameter_count++], t[at].text, sizeof t[at].text);
         at++;
     }
@@ -352,7 +350,7 @@ static long primary(struct condition *c)
             next(c, ")");
         return value;
     }
-    return starts_name(text) ? value_of_name(c, text) : strtol(text, NULL, 0);
+    return word_is_name(text) ? value_of_name(c, text) : strtol(text, NULL, 0);
 }
 
 // Binary operators in ascending precedence. A longer operator precedes an operator that is its prefix.
@@ -462,7 +460,7 @@ static void run_directive(struct preprocessor *p, const struct token *t, int cou
         undefine(p, name->text);
     else if (is(t, "version")) {
         p->d->version = atoi(name->text);
-        if (count > 2 && starts_name(t[2].text))
+        if (count > 2 && word_is_name(t[2].text))
             snprintf(p->d->profile, sizeof p->d->profile, "%.15s", t[2].text);
     }
 }

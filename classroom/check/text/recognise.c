@@ -132,7 +132,7 @@ bool contract_is_misspelt(const struct contract *contract, const struct declarat
 {
     const struct declaration *item = find_either(vertex, fragment, name);
     const struct contract_name *meant = meant_by(contract, vertex, fragment, item);
-    return meant && strcmp(meant->type, item->type) == 0 && !same_letters(item->name, meant->name) &&
+    return meant && strcmp(meant->type, item->type) == 0 && !name_is_same(item->name, meant->name) &&
            name_similarity(item->name, meant->name) > 0.6;
 }
 

@@ -12,7 +12,7 @@ static bool read_vector(const struct declarations *d, int *at, double out[3])
         return false;
     int i = *at + 2, count = 0;
     do
-        if (!number_at_word(d, &i, &out[count]))
+        if (!word_take_number(d, &i, &out[count]))
             return false;
     while (++count < 3 && word_is(d, i, ",") && i++);
     if (count == 1)
@@ -29,7 +29,7 @@ static bool read_value(const struct declarations *d, int at, double out[3])
     bool unit = word_is(d, at, "normalize") && word_is(d, at + 1, "(");
     at += unit ? 2 : 0;
     if (!read_vector(d, &at, out)) {
-        if (!number_at_word(d, &at, &out[0]))
+        if (!word_take_number(d, &at, &out[0]))
             return false;
         out[1] = out[2] = out[0];
     }
@@ -49,7 +49,7 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
             return false;
         if (depth == 1 && word_is(d, i, ",")) {
             i++;
-            return number_at_word(d, &i, out) && word_is(d, i, ")");
+            return word_take_number(d, &i, out) && word_is(d, i, ")");
         }
     }
     return false;
@@ -176,7 +176,7 @@ int shader_constants_values(const struct shader_interface *r, enum uniform_seman
         double v[3] = {0};
         int at = i;
         bool vector = is_vector(semantic);
-        if (vector ? !read_vector(d, &at, v) : !number_at_word(d, &at, &v[0]))
+        if (vector ? !read_vector(d, &at, v) : !word_take_number(d, &at, &v[0]))
             continue;
         if (vector ? v[0] == 0 && v[1] == 0 && v[2] == 0 : !(v[0] > 0 && v[0] < 1))
             continue;

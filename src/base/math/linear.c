@@ -3,6 +3,8 @@
 
 #include "float_state.h"
 
+#include <string.h>
+
 bool math_finite(double x) { return x - x == 0; }
 
 double math_sqrt(double x) { return x > 0 ? __builtin_sqrt(x) : 0; }
@@ -164,6 +166,12 @@ lam_vec3 v3_unit(lam_vec3 a)
 }
 
 lam_mat4 lam_mat4_identity(void) { return (lam_mat4){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}; }
+
+bool mat4_is_identity(const lam_mat4 *m)
+{
+    lam_mat4 identity = lam_mat4_identity();
+    return memcmp(m, &identity, sizeof identity) == 0;
+}
 
 lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b)
 {

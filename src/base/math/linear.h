@@ -34,6 +34,7 @@ double math_radians(double degrees);
 double math_degrees(double radians);
 bool math_finite(double x);
 
+bool mat4_is_identity(const lam_mat4 *m);                   // compares bits, so −0 is not 0
 lam_mat4 mat4_mul(const lam_mat4 *a, const lam_mat4 *b);    // a·b, which applies b first
 lam_vec3 mat4_point(const lam_mat4 *m, lam_vec3 p);         // affine: w = 1, last row ignored
 lam_vec3 mat4_vector(const lam_mat4 *m, lam_vec3 v);        // upper 3×3 only

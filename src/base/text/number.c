@@ -483,3 +483,11 @@ const uint8_t *number_int(const uint8_t *at, const uint8_t *end, int64_t *out)
     *out = (int64_t)(negative ? 0 - value : value);
     return at;
 }
+
+int number_hex_digit(char c)
+{
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}

@@ -17,4 +17,7 @@ const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out);
 // bits.
 const uint8_t *number_int(const uint8_t *at, const uint8_t *end, int64_t *out);
 
+// Returns the value of a hexadecimal digit, or −1 for another character.
+int number_hex_digit(char c);
+
 #endif

@@ -62,3 +62,9 @@ void text_print(struct text *text, const char *format, ...)
              sizeof line - 1, line);
     }
 }
+
+int text_add_chunk(const char *more, size_t length, void *text)
+{
+    text_add_part(text, more, length);
+    return ((const struct text *)text)->failed ? -1 : 0;
+}

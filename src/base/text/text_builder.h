@@ -17,6 +17,7 @@ struct text {
 
 void text_add(struct text *text, const char *more);
 void text_add_part(struct text *text, const char *more, size_t length);
+int text_add_chunk(const char *more, size_t length, void *text); // for json_dump_callback; returns −1 after a failure
 __attribute__((format(printf, 2, 3))) void text_print(struct text *text, const char *format, ...); // up to 511 bytes
 
 #endif

@@ -9,6 +9,7 @@
 #include "fail.h"
 #include "pixels.h"
 #include "png_encoding.h"
+#include "png_whole.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -205,18 +206,13 @@ static void put_frame_control(struct writer *writer, const struct apng *apng, co
     close_chunk(writer, "fcTL", CONTROL_BYTES);
 }
 
-static uint32_t u32_of(const uint8_t *at)
-{
-    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
-}
-
 // Returns the maximum number of bytes that put_frame appends for a frame. The number includes the frame's chunks, each
 // with a sequence number, one chunk that is not closed yet, and the chunks of the animation.
 static size_t frame_bytes(const struct apng_frame *frame)
 {
     const uint8_t *at = frame->png.data, *end = at + frame->png.size;
     size_t bytes = frame->png.size + (size_t)3 * CHUNK_BYTES + CONTROL_BYTES + 8;
-    for (at += SIGNATURE; at < end; at += u32_of(at) + CHUNK_BYTES)
+    for (at += SIGNATURE; at < end; at += png_u32_at(at) + CHUNK_BYTES)
         bytes += SEQUENCE_BYTES;
     return bytes;
 }
@@ -230,7 +226,7 @@ static void put_frame(struct writer *writer, const struct apng *apng, int index)
         append(writer, at, SIGNATURE);
     bool pictured = false;
     for (at += SIGNATURE; at < end;) {
-        const size_t size = u32_of(at), whole = size + CHUNK_BYTES;
+        const size_t size = png_u32_at(at), whole = size + CHUNK_BYTES;
         const bool is_data = memcmp(at + 4, "IDAT", 4) == 0, is_end = memcmp(at + 4, "IEND", 4) == 0;
         if (is_data && !pictured) {
             if (index == 0)

@@ -177,11 +177,6 @@ static void decode_picture(void *user, size_t index, int thread)
                                           picture->values, pictures->source->call, &picture->error);
 }
 
-static bool can_do_without(const lam_error *error)
-{
-    return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
-}
-
 // --- materials
 
 // Returns whether the opacity map is the alpha of the diffuse map's picture.
@@ -257,7 +252,7 @@ static bool open_pictures(struct pictures *pictures, struct arena *memory, lam_e
         struct picture *picture = &pictures->items[i];
         picture->opened =
             pictures->source->open(pictures->source, picture->name, memory, &picture->file, &picture->error);
-        if (!picture->opened && !can_do_without(&picture->error)) {
+        if (!picture->opened && !texture_is_optional(&picture->error)) {
             if (error)
                 *error = picture->error;
             return false;
@@ -272,7 +267,7 @@ static bool check_pictures(const struct pictures *pictures, struct lam_scene *sc
         const struct picture *picture = &pictures->items[i];
         if (picture->texture)
             continue;
-        if (!can_do_without(&picture->error)) {
+        if (!texture_is_optional(&picture->error)) {
             if (error)
                 *error = picture->error;
             return false;

@@ -128,12 +128,6 @@ static lam_wrap wrap_of(const char *const *attributes, const char *name)
                                                 : LAM_WRAP_CLAMP;
 }
 
-// Returns whether a load continues without a picture that could not be read.
-static bool can_do_without(const lam_error *error)
-{
-    return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
-}
-
 // Decodes a picture of the package; the scene owns the texture. If the picture cannot be read, warns and sets *out to
 // NULL.
 static bool decode_picture(struct threemf *file, const char *path, lam_texture **out)
@@ -152,7 +146,7 @@ static bool decode_picture(struct threemf *file, const char *path, lam_texture *
     file->error = error;
     if (*out)
         return scene_adopt_texture(file->scene, *out, error);
-    if (!can_do_without(&reason)) {
+    if (!texture_is_optional(&reason)) {
         if (error)
             *error = reason;
         return false;

@@ -3,19 +3,13 @@
 
 #include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "console.h"
 #include "diff.h"
+#include "file_io.h"
 #include "output.h"
 #include "report.h"
-
-static bool is_folder(const char *path)
-{
-    struct stat found;
-    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
-}
 
 // Treats a scene file as a model, because no picture format has its extension.
 static bool is_model(const char *path)
@@ -46,11 +40,11 @@ int run_diff(int operand_count, char **operands, const struct options *options)
 {
     (void)operand_count;
     lam_error error = {0};
-    bool folders = is_folder(operands[0]) && is_folder(operands[1]);
+    bool folders = path_is_folder(operands[0]) && path_is_folder(operands[1]);
     if (folders || (is_model(operands[0]) && is_model(operands[1])))
         return diff_models(operands, folders, options);
-    if (is_folder(operands[0]) || is_folder(operands[1])) {
-        const char *folder = operands[!is_folder(operands[0])], *other = operands[is_folder(operands[0])];
+    if (path_is_folder(operands[0]) || path_is_folder(operands[1])) {
+        const char *folder = operands[!path_is_folder(operands[0])], *other = operands[path_is_folder(operands[0])];
         if (access(other, F_OK) != 0 && lam_shape_find(other) < 0)
             complain(&error, LAM_CANNOT_READ, "%.200s: cannot open: %s; the other side, %.200s, is a folder", other,
                      strerror(errno), folder);

@@ -3,8 +3,6 @@
 
 #include <stdio.h>
 
-static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
-
 void explain_layers_over(char text[60], const lam_explained_layers *layers, float sheen_left)
 {
     snprintf(text, 60, "%s%s", layers->coat > 0 ? "(1 − share) · " : "", sheen_left < 1 ? "left · " : "");

@@ -4,13 +4,6 @@
 
 #include <stdio.h>
 
-static lam_vec3 minus(lam_vec3 a, lam_vec3 b) { return (lam_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
-
-static lam_vec3 cross(lam_vec3 a, lam_vec3 b)
-{
-    return (lam_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 static lam_vec3 unit(lam_vec3 v)
 {
     double length = __builtin_sqrt(v.x * v.x + v.y * v.y + v.z * v.z);

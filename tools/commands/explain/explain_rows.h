@@ -4,6 +4,8 @@
 
 #include <lambent/explain.h>
 
+#include "vectors.h"
+
 void row_label(int indent, const char *text); // pads the label with blanks
 void row_three(int indent, const char *name, double x, double y, double z, const char *remark);
 void row_heading(int indent, const char *name, const char *alpha); // prints the names of the columns
@@ -11,8 +13,6 @@ void row_vector(int indent, const char *name, lam_vec3 v, const char *remark);
 void row_color(int indent, const char *name, lam_rgb c, const char *remark);
 void row_number(int indent, const char *name, double x, const char *remark);
 void row_angle(const char *name, double radians, const char *remark); // prints degrees; NaN means no angle
-
-static inline bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 // Prints the matrices, and the corners and the point of a triangle in each space (explain_places.c). Prints nothing for
 // lines and points.

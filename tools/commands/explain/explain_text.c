@@ -19,10 +19,6 @@ static void named(const char *name)
         printf(" '%s'", name);
 }
 
-static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
-
 // --- a light
 
 static void print_attenuation(const lam_explained_light *l)

@@ -12,6 +12,7 @@
 #include <lambent/lambent.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "output_folder.h"
 #include "xxh64.h"
 
@@ -253,24 +254,14 @@ char *hash_file_model(const char *path, const char *name)
     return asprintf(&model, "%.*s%s", slash ? (int)(slash - path) + 1 : 0, path, name) < 0 ? NULL : model;
 }
 
-static bool is_below(const char *real, const char *folder)
-{
-    char *top = realpath(folder, NULL);
-    size_t length = top ? strlen(top) : 0;
-    bool below =
-        top && strncmp(real, top, length) == 0 && (!real[length] || real[length] == '/' || top[length - 1] == '/');
-    free(top);
-    return below;
-}
-
 bool hash_file_may_name(const char *path, const char *file, const struct options *options, lam_error *error)
 {
     if (lam_shape_find(file) >= 0)
         return true;
     char *folder = output_folder_of(path), *real = realpath(file, NULL);
-    bool may = folder && (real ? is_below(real, folder) : errno == ENOENT); // a missing file does no harm
+    bool may = folder && (real ? path_is_below(real, folder, false) : errno == ENOENT); // a missing file does no harm
     for (int i = 0; real && !may && i < options->limits.allow_paths.count; i++)
-        may = is_below(real, options->limits.allow_paths.items[i]);
+        may = path_is_below(real, options->limits.allow_paths.items[i], false);
     free(folder);
     free(real);
     return may || complain(error, LAM_CANNOT_READ,

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "vectors.h"
+
 static lam_vec3 corner_of(const lam_mesh *mesh, const lam_mat4 *transform, lam_vec3 center, uint32_t vertex)
 {
     const float *at = mesh->positions + 3 * (size_t)vertex;
@@ -13,11 +15,6 @@ static lam_vec3 corner_of(const lam_mesh *mesh, const lam_mat4 *transform, lam_v
     for (int i = 0; i < 3; i++)
         out[i] = transform->m[i][0] * p[0] + transform->m[i][1] * p[1] + transform->m[i][2] * p[2] + transform->m[i][3];
     return (lam_vec3){out[0] - center.x, out[1] - center.y, out[2] - center.z};
-}
-
-static lam_vec3 cross(lam_vec3 a, lam_vec3 b)
-{
-    return (lam_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 static uint64_t mix(uint64_t x)

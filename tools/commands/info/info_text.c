@@ -7,6 +7,7 @@
 #include <lambent/material.h>
 
 #include "option_names.h"
+#include "vectors.h"
 
 enum { ROWS = 8, NAME_BYTES = 40, LINE_BYTES = 120 };
 
@@ -60,8 +61,6 @@ static void print_color(lam_rgb c)
     else
         printf("%.3g/%.3g/%.3g", (double)c.r, (double)c.g, (double)c.b);
 }
-
-static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
 // --- the sections
 

@@ -20,8 +20,7 @@ bool job_roots_start(struct job_roots *roots, const struct options *options, lam
     if (!roots->paths)
         return complain(error, LAM_LIMIT, "out of memory");
     for (int i = 0; i < given->count; i++) {
-        struct stat about;
-        if (stat(given->items[i], &about) != 0 || !S_ISDIR(about.st_mode))
+        if (!path_is_folder(given->items[i]))
             return complain(error, LAM_BAD_ARGUMENT,
                             "option '--allow-path': found '%.200s', with --jobs expected a folder", given->items[i]);
         char *real = realpath(given->items[i], NULL);

@@ -17,23 +17,15 @@ static int by_name(const struct dirent **a, const struct dirent **b) { return st
 // Names that begin with a dot are hidden.
 static int is_visible(const struct dirent *entry) { return entry->d_name[0] != '.'; }
 
-static bool is_below(const char *real, const char *folder)
-{
-    char *top = realpath(folder, NULL);
-    bool below = top && is_in_folder(real, top);
-    free(top);
-    return below;
-}
-
 // Returns whether a link leads outside the given folder and outside all folders of --allow-path. Returns false for a
 // broken link.
 static bool leads_out(const struct batch_plan *plan, const char *path, const char *root)
 {
     const struct texts *allowed = &plan->options->limits.allow_paths;
     char *real = realpath(path, NULL);
-    bool out = real && !is_below(real, root);
+    bool out = real && !path_is_below(real, root, false);
     for (int i = 0; i < allowed->count && out; i++)
-        out = !is_below(real, allowed->items[i]);
+        out = !path_is_below(real, allowed->items[i], false);
     free(real);
     return out;
 }
@@ -41,8 +33,7 @@ static bool leads_out(const struct batch_plan *plan, const char *path, const cha
 // Adds a file without opening it. Pipes and broken links are reported when they are read.
 static bool add_file(struct batch_plan *plan, const char *path, const char *root, bool is_link, lam_error *error)
 {
-    struct stat target;
-    if (!is_model_name(path) || (is_link && stat(path, &target) == 0 && S_ISDIR(target.st_mode)))
+    if (!is_model_name(path) || (is_link && path_is_folder(path)))
         return true;
     if (!batch_plan_add(plan, path, root, error))
         return false;
@@ -179,12 +170,11 @@ bool batch_add_folder_if_any(struct batch_plan *plan, const char *folder, lam_er
 
 bool batch_add_operand(struct batch_plan *plan, const char *operand, lam_error *error)
 {
-    struct stat found;
     if (!*operand)
         return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");
     if (strcmp(operand, "-") == 0 || operand[0] == '@')
         return batch_add_list(plan, operand + (operand[0] == '@'), error);
-    if (lam_shape_find(operand) < 0 && stat(operand, &found) == 0 && S_ISDIR(found.st_mode))
+    if (lam_shape_find(operand) < 0 && path_is_folder(operand))
         return batch_add_folder(plan, operand, error);
     return batch_plan_add(plan, operand, NULL, error);
 }

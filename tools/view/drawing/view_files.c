@@ -75,15 +75,6 @@ static bool is_served(const char *path)
            has_ending("json mtl bin png jpg jpeg webp bmp tga ppm pgm pbm pnm pfm hdr pic exr", dot + 1);
 }
 
-static bool is_below(const struct view_files *files, const char *path)
-{
-    char *top = realpath(*files->prefix ? files->prefix : "/", NULL), *real = realpath(path, NULL);
-    bool below = top && real && is_in_folder(real, top);
-    free(top);
-    free(real);
-    return below;
-}
-
 static int open_below(const struct view_files *files, const char *path, int flags)
 {
 #ifdef SYS_openat2
@@ -97,7 +88,7 @@ static int open_below(const struct view_files *files, const char *path, int flag
     // Before Linux 5.6, a link that leads outside may replace the file between the check and open(); then only an
     // active sandbox prevents access.
     char *whole = view_files_path(files, path);
-    int found = whole && is_below(files, whole) ? open(whole, flags) : -1;
+    int found = whole && path_is_below(whole, *files->prefix ? files->prefix : "/", false) ? open(whole, flags) : -1;
     free(whole);
     return found;
 }

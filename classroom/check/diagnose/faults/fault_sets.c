@@ -17,14 +17,6 @@ static const double max_rival = 1.25;
 static const double max_exact =
     2e-4; // the rounding error of an exact explanation, as a mean difference over all scenes
 
-static int count_bits(uint32_t bits)
-{
-    int count = 0;
-    for (; bits; bits &= bits - 1)
-        count++;
-    return count;
-}
-
 // --- several faults
 
 // Removes unnecessary faults, and checks the others: each fault must explain some scene alone, or the whole explanation
@@ -85,7 +77,8 @@ bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_erro
         struct outcome *next = NULL;
         for (int m = 0; ok && m < fault_count; m++) {
             struct outcome *o = &t->outcomes[m];
-            int mine = count_bits(o->explained & ~covered), most = next ? count_bits(next->explained & ~covered) : 0;
+            int mine = __builtin_popcount(o->explained & ~covered),
+                most = next ? __builtin_popcount(next->explained & ~covered) : 0;
             if (used[m] || !mine || fault_is_style(&faults[m], t->s->interface) || mine < most ||
                 (mine == most && o->mean >= next->mean))
                 continue;

@@ -3,24 +3,17 @@
 
 #include "companion.h"
 #include "fail.h"
+#include "number.h"
 
 #include <string.h>
 #include <strings.h>
 
 bool gltf_is_data_uri(const char *uri) { return strncasecmp(uri, "data:", 5) == 0; }
 
-static int hexadecimal(char c)
-{
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
 // Returns the byte encoded by '%' and two hexadecimal digits, or −1 if the digits are invalid.
 static int escaped(const char *at)
 {
-    int high = at[0] == '%' ? hexadecimal(at[1]) : -1, low = high < 0 ? -1 : hexadecimal(at[2]);
+    int high = at[0] == '%' ? number_hex_digit(at[1]) : -1, low = high < 0 ? -1 : number_hex_digit(at[2]);
     return low < 0 ? -1 : high * 16 + low;
 }
 

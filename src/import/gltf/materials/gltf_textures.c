@@ -272,12 +272,6 @@ static void decode_picture(void *user, size_t index, int thread)
         texture_decode(picture->data, picture->size, picture->name, picture->values, decoding->call, &picture->error);
 }
 
-// Returns whether a load continues without a picture that could not be read.
-static bool can_do_without(const lam_error *error)
-{
-    return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
-}
-
 // Finds the bytes of the requested pictures. Stores the *count pictures to decode in `list`.
 static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t *count)
 {
@@ -293,7 +287,7 @@ static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t 
         gltf->json.error = error;
         if (found) {
             list[(*count)++] = picture;
-        } else if (can_do_without(&reason)) {
+        } else if (texture_is_optional(&reason)) {
             picture->error = reason;
         } else {
             *error = reason;
@@ -323,7 +317,7 @@ static bool add_maps(struct gltf *gltf)
 {
     for (size_t i = 0; i < VALUES * gltf_list_size(gltf, "images"); i++) {
         struct gltf_picture *picture = &gltf->pictures[i];
-        if (picture->wanted && !picture->texture && !can_do_without(&picture->error)) {
+        if (picture->wanted && !picture->texture && !texture_is_optional(&picture->error)) {
             *gltf->json.error = picture->error;
             return false;
         }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 enum {
-    PART = 1 << 11, // approximate number of vertices per section
+    PART = 1 << 14, // approximate number of vertices per section
     PART_BITS_MAX = 12,
 };
 

@@ -11,6 +11,7 @@
 
 #include "command_table.h"
 #include "console.h"
+#include "environment_option.h"
 #include "job_inputs.h"
 #include "job_steps.h"
 #include "output.h"
@@ -196,7 +197,7 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
         words[count++] = turn->value;
     }
     o->animation.place_lights |= o->animation.turntable != 0;
-    if (a->environment && !a->loads)
+    if (a->environment && !a->loads && !environment_option_is_none(o->shading.environment))
         o->shading.environment = NULL; // the scene already has it
     return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
 }

@@ -32,6 +32,12 @@ void picture_json(struct json *json, const struct job *job, double read_ms)
     json_number(json, "read_ms", read_ms);
     json_number(json, "frame_ms", job->times.frame.total_ms);
     answer_camera(json, job);
+    bool from_file = job->file_lights || (job->settings.present & LAM_SETTING_LIGHTS);
+    json_flag(json, "own_lights",
+              from_file && lam_scene_light_count(job->scene) > 0 && !job->options->lighting.lights.count);
+    const lam_material *first = lam_scene_material_count(job->scene) ? lam_scene_material(job->scene, 0)
+                                                                     : lam_scene_default_material(job->scene);
+    json_vector(json, "color", (lam_vec3){first->diffuse.r, first->diffuse.g, first->diffuse.b});
     json_open(json, "warnings", '[');
     for (int i = 0; lam_scene_warning(job->scene, i); i++)
         json_message(json, NULL, lam_scene_warning(job->scene, i));

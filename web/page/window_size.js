@@ -3,7 +3,8 @@ import { on, stageSize, state } from './app.js';
 
 let filled = stageSize(), timer = 0;
 
-export const isFollowing = () => state.values('size').at(-1) === filled;
+export const windowSize = () => `--size=${filled}`;
+export const isFollowing = () => state.words.includes(windowSize());
 
 // From now on, the picture fills the window.
 export function followWindow() {

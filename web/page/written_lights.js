@@ -1,15 +1,45 @@
-// written_lights.js: writes the lights of the picture as options, so that lights chosen by the program can be changed.
-import { call, state } from './app.js';
+// written_lights.js: the picture's lights as options, so that the page can change lights that the program has chosen or read from a file.
+import { call, emit, on, state, view } from './app.js';
 import { lightWords } from './lights.js';
-import { State } from './state.js';
+import { State, appearance } from './state.js';
 
-// Returns the words with the picture's lights, and their number. Null: the picture would change, which is checked.
-export async function writtenLights() {
-  const before = state.words, { lights, ambient } = await call('lights', { words: before });
-  let words = state.withValues('rig', []);
+const MOST = 16; // a file with more lights keeps them for itself
+const SMALL = ['96x96'];
+let own = null; // the lights of the model's file, and the words that they were read for
+
+// `lights`: { texts, ambient } of readLights.
+export function withLights(words, { texts, ambient }) {
   const change = (name, values) => (words = new State(words).withValues(name, values));
-  change('light', lights.map(lightWords));
-  change('ambient', ambient.some((x) => x > 0) ? [ambient.join('/')] : []);
-  const [old, now] = [await call('draw', { words: before }), await call('draw', { words })];
-  return old.pixels.some((byte, i) => byte !== now.pixels[i]) ? null : { words, count: lights.length };
+  change('rig', []);
+  change('light', texts);
+  return change('ambient', ambient);
 }
+
+// Returns the lights of the picture. Null: the picture would change, which is checked.
+export async function readLights(words) {
+  const { lights, ambient } = await call('lights', { words });
+  const made = { texts: lights.map(lightWords), ambient: ambient.some((x) => x > 0) ? [ambient.join('/')] : [] };
+  const [old, now] = [await call('draw', { words }), await call('draw', { words: withLights(words, made) })];
+  return old.pixels.some((byte, i) => byte !== now.pixels[i]) ? null : made;
+}
+
+const isOwn = () => view.picture?.own_lights && !state.values('light').length && own?.texts && own.model === state.model;
+
+// The lights that the page can change: those of --light, or else of the model's file.
+export const lightsNow = () => (isOwn() ? own.texts : state.values('light'));
+
+// The words in which --light sets these lights.
+export const wordsOfLights = () => (isOwn() ? withLights(state.words, own) : state.words);
+
+export const setLights = (texts, key = null) => state.set(new State(wordsOfLights()).withValues('light', texts), key);
+
+// Reads the lights of a file when its picture is shown, and again when an option may have changed them.
+async function readOwn() {
+  const { words, model } = state, key = appearance(words);
+  if (!view.picture.own_lights || own?.key === key) return;
+  const small = new State(words).withValues('size', SMALL), made = await readLights(small).catch(() => null);
+  own = { key, model, ...(made?.texts.length <= MOST ? made : {}) };
+  emit('lights');
+}
+on('still', readOwn);
+if (view.picture) readOwn();

@@ -37,7 +37,8 @@ const OF_MODEL = /^--(camera|hide|animation|time|variant|scene)=|^--(back-)?mate
 function takeModel(name) {
   const set = setOf(name), own = set ? START : [];
   if (set && isScene(name)) return state.set([name, ...(setsSize(name, set.files) ? [] : [windowSize()])]);
-  state.set(withModel(state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word))), name));
+  const kept = state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word)));
+  state.set(withModel(isScene(state.model) && !state.values('size').length ? [...kept, windowSize()] : kept, name));
 }
 
 async function read(list) {
@@ -73,7 +74,7 @@ async function takeFiles(list) {
   rest = new Map();
   const [first] = models, wanted = again && (awaited || view.missing.length) ? again : first;
   if (!wanted || wanted === state.model) emit('words'); // new contents under the same name
-  else if (awaited || wanted === again) state.set([wanted, ...state.words.slice(1)]); // keeps the options of a link, or of the same model
+  else if ((awaited && !isScene(awaited)) || wanted === again) state.set([wanted, ...state.words.slice(1)]); // keeps the options of a link, or of the same model
   else takeModel(wanted);
 }
 

@@ -25,7 +25,7 @@ const STRINGS = {
   addDirectional: 'Add a directional light',
   removeLight: 'Remove',
   removeNamed: 'Remove {light}',
-  lightsHint: 'Each light of the command line has handles in the picture. Drag a handle, or move it with the arrow keys. Shift-drag, or Page Up and Page Down, moves it away from you or closer. Delete removes the light.',
+  lightsHint: 'Each light of the command line or of the model’s file has handles in the picture. Drag a handle, or move it with the arrow keys. Shift-drag, or Page Up and Page Down, moves it away from you or closer. Delete removes the light.',
   handlePosition: '{light}: position',
   handleAim: '{light}: aim',
   handleCone: '{light}: edge of its cone',

@@ -7,20 +7,24 @@ const MOST = 16; // a file with more lights keeps them for itself
 const SMALL = ['96x96'];
 let own = null; // the lights of the model's file, and the words that they were read for
 
-// `lights`: { texts, ambient } of readLights.
-export function withLights(words, { texts, ambient }) {
+// `lights`: { texts, ambient, exposure } of readLights.
+export function withLights(words, { texts, ambient, exposure }) {
   const change = (name, values) => (words = new State(words).withValues(name, values));
   change('rig', []);
   change('light', texts);
+  change('exposure', exposure);
   return change('ambient', ambient);
 }
 
-// Returns the lights of the picture. Null: the picture would change, which is checked.
+// Returns the lights of the picture. The lights of a glTF file need an automatic exposure. Null: the picture would change, which is checked.
 export async function readLights(words) {
-  const { lights, ambient } = await call('lights', { words });
-  const made = { texts: lights.map(lightWords), ambient: ambient.some((x) => x > 0) ? [ambient.join('/')] : [] };
-  const [old, now] = [await call('draw', { words }), await call('draw', { words: withLights(words, made) })];
-  return old.pixels.some((byte, i) => byte !== now.pixels[i]) ? null : made;
+  const { lights, ambient } = await call('lights', { words }), old = await call('draw', { words });
+  for (const exposure of [new State(words).values('exposure'), ['auto']]) {
+    const made = { texts: lights.map(lightWords), ambient: ambient.some((x) => x > 0) ? [ambient.join('/')] : [], exposure };
+    const now = await call('draw', { words: withLights(words, made) });
+    if (now.pixels.every((byte, i) => byte === old.pixels[i])) return made;
+  }
+  return null;
 }
 
 const isOwn = () => view.picture?.own_lights && !state.values('light').length && own?.texts && own.model === state.model;

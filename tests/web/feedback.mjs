@@ -95,6 +95,14 @@ async function places({ open, origin }) {
   ok(JSON.stringify(canvas) === JSON.stringify(now), 'a longer command line leaves the picture in place', JSON.stringify([canvas, now]));
   await page.getByRole('button', { name: 'gold', exact: true }).click();
   await settled(page, 'gold');
+  const grown = await page.evaluate(() => {
+    const working = document.getElementById('working'), height = () => document.getElementById('view').clientHeight, idle = height();
+    working.hidden = false;
+    const busy = height();
+    working.hidden = true;
+    return busy - idle;
+  });
+  ok(grown === 0, 'progress and Stop leave the picture in place', `${grown} pixels`);
   const save = await boxOf(page, '#save');
   await saved(page, () => page.locator('#save').click());
   await until(page, () => /^Saved/.test(document.getElementById('status').textContent));

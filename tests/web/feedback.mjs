@@ -167,9 +167,14 @@ async function metals({ open, origin, models }) {
   await settled(other, 'a file');
   await other.reload();
   await until(other, () => !document.getElementById('message').hidden);
-  ok(/cube\.ply is no longer open, because the page was loaded again/.test(await other.locator('#message-text').textContent()), 'a reloaded page asks for its file', await other.locator('#message-text').textContent());
+  ok(/needs cube\.ply\. .* a page forgets them when it is loaded again/.test(await other.locator('#message-text').textContent()), 'a reloaded page asks for its file', await other.locator('#message-text').textContent());
   await until(other, () => document.querySelectorAll('.swatch canvas').length > 20 && [...document.querySelectorAll('.swatch canvas')].every((one) => one.width > 8));
   ok(true, 'a reloaded page draws the pictures of its materials');
+  await other.evaluate((hash) => (location.hash = hash), fragment(['/cube.ply', '--size=96x96', '--light=point:position=1/2/3']));
+  await until(other, () => document.getElementById('command').textContent.includes('--light'));
+  await other.getByRole('button', { name: 'gold', exact: true }).click();
+  await until(other, () => document.getElementById('command').textContent.endsWith(' --environment=studio'));
+  ok(true, 'a metal can be chosen before there is a picture');
   await other.context().close();
 }
 

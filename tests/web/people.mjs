@@ -180,7 +180,7 @@ async function compressed() {
 async function links() {
   const camera = '--camera=eye=0/0/5,target=0/0/0,up=0/1/0,fovy=30', page = await open(origin + fragment(['/cube.ply', '--size=96x96', '--background=white', camera]));
   await until(page, () => !document.getElementById('message').hidden);
-  ok(/link to cube\.ply\. Links contain no files/.test(await messageOf(page)) && (await page.locator('#missing').isHidden()), 'a link to a model of one\'s own says that it holds no files', await messageOf(page));
+  ok(/needs cube\.ply\. Links contain no files/.test(await messageOf(page)) && (await page.locator('#missing').isHidden()), 'a link to a model of one\'s own says that it holds no files', await messageOf(page));
   await choose(page, () => page.getByRole('button', { name: 'Open it…' }).click(), join(models, 'cube.ply'));
   await drawn(page, 'of a link');
   ok((await commandOf(page)) === `lambent cube.ply --size=96x96 --background=white ${camera}`, 'and has its options once the file is opened', await commandOf(page));

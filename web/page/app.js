@@ -26,8 +26,8 @@ export function stageSize() {
   return `${Math.floor((k * width) / 8) * 8}x${Math.floor((k * height) / 8) * 8}`;
 }
 
-const size = `--size=${stageSize()}`;
-export const state = new State(fromFragment(location.hash) ?? insideWords(size) ?? [START[0], size, ...START.slice(1)]);
+const filling = `--size=${stageSize()}`;
+export const state = new State(fromFragment(location.hash) ?? insideWords(filling) ?? [START[0], filling, ...START.slice(1)]);
 export const worker = openWorker();
 export const { fetchRest } = worker;
 // In the page of `lambent view`, served.js first fetches the files of the model.

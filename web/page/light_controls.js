@@ -53,7 +53,7 @@ const BRIGHT = { studio: -90, sky: -47 };
 
 // Metals show the light of their surroundings more than any other light. So a built-in environment turns with the light.
 export function withTurned(words) {
-  const made = new State(words), texts = made.values('light'), i = chosenIn(texts), bright = BRIGHT[made.values('environment').at(-1)];
+  const made = new State(words), texts = made.values('light'), i = view.camera ? chosenIn(texts) : -1, bright = BRIGHT[made.values('environment').at(-1)];
   if (i < 0 || bright === undefined || !made.values('material').some(isMetal)) return words;
   const { pole } = axes(), east = Math.abs(pole[0]) > 0.5 ? [0, 1, 0] : [1, 0, 0], way = sub(placeOf(parseLight(texts[i]), view.camera, view.sphere).position, view.sphere.centre);
   const angle = Math.round(Math.atan2(dot(way, cross(pole, east)), dot(way, east)) * DEGREES - bright);

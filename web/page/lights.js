@@ -125,8 +125,9 @@ export const plainName = (name) => (PLAIN[name] ? text(PLAIN[name]) : name);
 
 export const nameOf = (light, i) => plainName(light.keys.get('name') ?? `${light.type} ${i + 1}`);
 
-// Converts a light of a scene file to a value of --light, without the keys that have their defaults.
 const STANDARD = ['ambient=0/0/0', 'diffuse=1/1/1', 'specular=1/1/1', 'attenuation=1/0/0'];
+
+// Converts a light of a scene file to a value of --light, without the keys that have their defaults.
 export function lightWords({ type, name, ...fields }) {
   const pairs = Object.entries(fields).map(([key, value]) => [key, Array.isArray(value) ? value.join('/') : value === true ? 'yes' : value === false ? 'no' : String(value)]);
   const keys = new Map(pairs.filter((pair) => !STANDARD.includes(pair.join('='))));

@@ -29,7 +29,7 @@ export async function readLights(words) {
 
 const isOwn = () => view.picture?.own_lights && !state.values('light').length && own?.texts && own.model === state.model;
 
-// The lights that the page can change: those of --light, or else of the model's file.
+// The lights that the page can change: the lights of --light, or else the lights of the model's file.
 export const lightsNow = () => (isOwn() ? own.texts : state.values('light'));
 
 // The words in which --light sets these lights.

@@ -39,6 +39,10 @@ export interface Picture {
   camera: Camera;
   /** The bounding sphere of the scene. */
   sphere: { centre: [number, number, number]; radius: number };
+  /** Lights of the model's file light the picture. */
+  own_lights: boolean;
+  /** The diffuse colour of the first object's material, linear. */
+  color: [number, number, number];
   warnings: string[];
 }
 

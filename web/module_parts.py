@@ -17,7 +17,7 @@ FEATURES = ["--enable-" + name for name in ("simd", "exception-handling", "bulk-
 # The functions of each object in the linker's map.
 UNUSED = r"libjpeg\.a\((jc(?!omapi)|jfdct)|jpeg_write\.c" # the page saves PNG; reading also needs jcomapi
 # Only the calling thread runs them: the other threads have only the first part.
-MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|sweep_option\.c\.o|show_all\.c\.o|jdarith\.o|formula_\w+\.c\.o|scene_write\.c\.o|scene_(objects|models|transforms)\.c\.o|:\((web_contents|(web|job)_explain)\)$"
+MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|sweep_option\.c\.o|show_all\.c\.o|jdarith\.o|formula_\w+\.c\.o|scene_write\.c\.o|scene_(objects|models|transforms)\.c\.o|:\((web_contents|web_curves|web_lights|light_of|curve_json|(web|job)_explain)\)$"
 
 
 def call(*command):

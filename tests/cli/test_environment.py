@@ -67,6 +67,22 @@ class EnvironmentOption(Case):
         text = self.good("explain", "sphere", "20,20", *MIRROR[1:-1], "--environment", self.six()).stdout.decode()
         self.assertIn("kr ⊙ environment = (1 1 1) ⊙ (0 1 0)", text)
 
+    def test_none(self):
+        """`none` removes a scene file's environment, also from its copy. A physical model without lights then has the rig's lights."""
+        ball = {"lambent": 1, "image": {"size": [40, 40]}, "objects": [{"shape": "sphere", "material": {"reflectivity": [1, 1, 1]}}], "lights": []}
+        for name, more in (("ball.json", {}), ("sky.json", {"environment": {"builtin": "sky"}})):
+            (self.folder / name).write_text(json.dumps({**ball, **more}))
+            self.given.add(name)
+        plain, sky = (self.good(name, "-q", "-o", "-").stdout for name in ("ball.json", "sky.json"))
+        self.assertNotEqual(plain, sky)
+        self.assertEqual(self.good("sky.json", "-q", "--environment", "none", "--save-scene", "copy.json", "-o", "-").stdout, plain)
+        self.assertEqual(self.good("copy.json", "-q", "-o", "-").stdout, plain)
+        frames = self.good("sky.json", "-q", "--environment", "none", "--turntable", "2", "-o", "{frame}.png") and sorted(self.folder.glob("*.png"))
+        self.assertEqual([frame.read_bytes() == plain for frame in frames], [True, True])
+        metal = ("sphere", "-s", 40, "-q", "--material", "metallic=1,roughness=0.3,diffuse=0.9/0.7/0.4", "-o", "-")
+        self.assertEqual(self.good(*metal, "--environment", "none").stdout, self.good(*metal, "--rig", "studio").stdout)
+        self.assertNotEqual(self.good(*metal).stdout, self.good(*metal, "--environment", "none").stdout)
+
     def test_reference(self):
         """The integral over directions: close to the split sum for mirror-like lobes, reported with its number, and rejected if out of range."""
         metal = (*MIRROR[:-1], "--material", "#ffc356,metallic=1,roughness=0.1", "--environment", "sky", "--tone", "none", "-q")

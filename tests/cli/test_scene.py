@@ -203,6 +203,10 @@ class Scene(Case):
         self.assertEqual(len(rig), 1)
         for light in lights["lights"] + rig:
             self.assertIsNone(misfit(light, SCHEMA["properties"]["lights"]["items"]))
+        # --light replaces the file's lights, or adds to them.
+        for sign, count in (("", 1), ("+", 5)):
+            self.good("scene.json", "--light", sign + "point:position=1/2/3", "--save-scene", "lit.json", "-q", "-s", 8, "-o", "lit.png")
+            self.assertEqual(len(json.loads((self.folder / "lit.json").read_text())["lights"]), count, sign)
         # The output consists of keys of scene files.
         plain = {k: v for k, v in self.example.items()}
         self.write({**plain, **lights}, "copy.json")

@@ -2,6 +2,7 @@
 // handle outside the picture. people.mjs runs these parts and shares its functions with them.
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
 import { commandOf, drawn, fragment, ok, pixels, settled, until } from './driver.mjs';
 import { choose, drop, isFirefoxPage, saved } from './input.mjs';
 
@@ -36,7 +37,7 @@ async function scenes({ open, origin, models }) {
   await other.locator('#files').setInputFiles(join(models, name));
   await until(other, () => !document.getElementById('message').hidden);
   const sentence = await other.locator('#message-text').textContent();
-  ok(/textured\/quad\.obj: not chosen yet/.test(sentence), 'a scene without its model says that the model is not chosen yet', sentence);
+  ok(/missing: textured\/quad\.obj\./.test(sentence) && !/No such file/.test(sentence), 'a scene without its model asks for the model', sentence);
   await openFolder(other, join(models, 'textured'));
   await model(other, '/quad.json');
   ok((await other.locator('#message').isHidden()) && (await other.locator('#missing').isHidden()), 'the folder completes the scene', await other.locator('#stage').innerText());
@@ -55,8 +56,7 @@ async function companions({ open, origin, models }) {
   await drawn(page, 'companions');
   await page.locator('#files').setInputFiles(join(models, 'textured/quad.obj'));
   await until(page, () => !document.getElementById('missing').hidden);
-  const warnings = await page.locator('#warnings').textContent();
-  ok(/quad\.mtl: not chosen yet/.test(warnings) && !/No such file/.test(warnings), 'a file is not chosen yet', warnings);
+  ok((await page.locator('#warnings').textContent()) === '', 'only one message asks for a missing file', await page.locator('#warnings').textContent());
   await page.locator('#files').setInputFiles(['quad.mtl', 'quad.jpg', 'side.png'].map((name) => join(models, 'textured', name)));
   await until(page, () => document.getElementById('missing').hidden && document.getElementById('warnings').textContent === '');
   await settled(page, 'companions');
@@ -89,11 +89,20 @@ async function places({ open, origin }) {
   await settled(page, 'behind');
   const after = await behind.boundingBox(), now = await boxOf(page, '#canvas');
   ok(before.x === after.x && before.y === after.y, 'the button stays under the pointer', JSON.stringify([before, after]));
+  const names = await page.getByLabel('The light to move').locator('option').allTextContents();
+  ok(names.join() === 'Main light,Fill light,Light from behind' && /name=key.*name=fill.*name=rim/.test(await commandOf(page)), 'the lights have plain names', names.join());
   ok((await page.locator('[aria-pressed=true]', { hasText: /^(From the front|Left|Right|Above|Behind)$/ }).allTextContents()).join() === 'Behind', 'the chosen direction is marked');
   ok(JSON.stringify(canvas) === JSON.stringify(now), 'a longer command line leaves the picture in place', JSON.stringify([canvas, now]));
   await page.getByRole('button', { name: 'gold', exact: true }).click();
   await settled(page, 'gold');
-  ok(/surroundings \(studio\) outshine this light/.test(await page.locator('.drowned').textContent()), 'the page says that the studio outshines the light');
+  const grown = await page.evaluate(() => {
+    const working = document.getElementById('working'), height = () => document.getElementById('view').clientHeight, idle = height();
+    working.hidden = false;
+    const busy = height();
+    working.hidden = true;
+    return busy - idle;
+  });
+  ok(grown === 0, 'progress and Stop leave the picture in place', `${grown} pixels`);
   const save = await boxOf(page, '#save');
   await saved(page, () => page.locator('#save').click());
   await until(page, () => /^Saved/.test(document.getElementById('status').textContent));
@@ -113,6 +122,81 @@ async function places({ open, origin }) {
   await page.keyboard.press('Escape');
   ok((await page.locator('#divider').count()) === 0 && (await page.locator('#compare').getAttribute('aria-pressed')) === 'false', 'Escape ends before and now');
   await page.context().close();
+}
+
+// Before and now without a change: the sentence is about the state, also after the next change. Lines of commands break between words.
+async function compared({ open, origin }) {
+  const page = await open(origin, { viewport: { width: 1280, height: 800 } });
+  await drawn(page, 'compared');
+  await page.locator('#compare').click();
+  const title = page.locator('#split-bar > span');
+  await until(page, () => document.getElementById('before')?.dataset.drawn);
+  ok(/^Nothing has changed yet/.test(await title.textContent()), 'before and now: nothing has changed yet', await title.textContent());
+  await page.getByRole('button', { name: 'ruby', exact: true }).click();
+  await settled(page, 'ruby');
+  ok((await title.textContent()) === 'Left, before:', 'before and now: after a change, the left side is the state before it', await title.textContent());
+  for (const id of ['command', 'before-command']) {
+    const broken = await page.locator(`#${id} span`).evaluateAll((words) => words.filter((word) => word.getClientRects().length > 1).map((word) => word.textContent));
+    ok((await page.locator(`#${id} span`).count()) > 3 && !broken.length, `#${id}: lines break between words`, broken.join(' '));
+  }
+  await page.context().close();
+}
+
+// Metals: the surroundings leave with the metal and turn with the light; the colour field shows the colour of a named material.
+async function metals({ open, origin, models }) {
+  const page = await open(origin + fragment(['sphere', '--size=96x96', '--background=white'])), choose = (name) => page.getByRole('button', { name, exact: true }).click().then(() => settled(page, name));
+  const color = page.locator('#panel-quick').getByLabel('Colour', { exact: true }).last();
+  await drawn(page, 'metals');
+  await choose('gold');
+  ok(/--environment=studio$/.test(await commandOf(page)) && (await color.inputValue()) === '#ffe59e', 'gold reflects the studio, and the colour field is golden', `${await color.inputValue()} ${await commandOf(page)}`);
+  const gold = await page.evaluate(brightness);
+  await page.getByRole('button', { name: 'Behind', exact: true }).click();
+  await until(page, () => location.hash.includes('light'));
+  await settled(page, 'behind');
+  const behind = await page.evaluate(brightness), changed = gold.filter((x, i) => Math.abs(x - behind[i]) > 16).length / gold.filter((x) => x < 255).length;
+  ok(changed > 0.2, 'Behind is visible on gold', `${changed} ${await commandOf(page)}`);
+  await choose('ruby');
+  ok(!/environment/.test(await commandOf(page)) && (await color.inputValue()) === '#9d0b0b', 'another material removes the studio, and has its colour', `${await color.inputValue()} ${await commandOf(page)}`);
+  await page.context().close();
+
+  // After a reload, an opened file is gone. The materials still have their pictures.
+  const other = await open(origin + fragment(['sphere', '--size=96x96']));
+  await drawn(other, 'before a reload');
+  await other.locator('#files').setInputFiles(join(models, 'cube.ply'));
+  await until(other, () => location.hash.includes('cube.ply'));
+  await settled(other, 'a file');
+  await other.reload();
+  await until(other, () => !document.getElementById('message').hidden);
+  ok(/needs cube\.ply\. .* a page forgets them when it is loaded again/.test(await other.locator('#message-text').textContent()), 'a reloaded page asks for its file', await other.locator('#message-text').textContent());
+  await until(other, () => document.querySelectorAll('.swatch canvas').length > 20 && [...document.querySelectorAll('.swatch canvas')].every((one) => one.width > 8));
+  ok(true, 'a reloaded page draws the pictures of its materials');
+  await other.evaluate((hash) => (location.hash = hash), fragment(['/cube.ply', '--size=96x96', '--light=point:position=1/2/3']));
+  await until(other, () => document.getElementById('command').textContent.includes('--light'));
+  await other.getByRole('button', { name: 'gold', exact: true }).click();
+  await until(other, () => document.getElementById('command').textContent.endsWith(' --environment=studio'));
+  ok(true, 'a metal can be chosen before there is a picture');
+  await other.context().close();
+}
+
+function brightness() {
+  const canvas = document.getElementById('canvas'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  return Array.from({ length: data.length / 4 }, (_, i) => (data[4 * i] + data[4 * i + 1] + data[4 * i + 2]) / 3);
+}
+
+// A page that was sent fills the window of the receiver, if the picture filled the window of the sender.
+async function sent({ open, origin, models }) {
+  const page = await open(origin, { viewport: { width: 1280, height: 800 } });
+  await drawn(page, 'the sender');
+  await page.locator('#export').click();
+  const { bytes } = await saved(page, () => page.locator('#save-page').click()), path = join(models, 'sent-phone.html');
+  writeFileSync(path, bytes);
+  await until(page, () => /^Saved teapot\.html/.test(document.getElementById('status').textContent));
+  await page.context().close();
+  const phone = await open(pathToFileURL(path).href, { viewport: { width: 390, height: 844 }, hasTouch: true });
+  await drawn(phone, 'the receiver');
+  const canvas = await boxOf(phone, '#canvas'), stage = await boxOf(phone, '#view');
+  ok(stage.width - canvas.width < 9 && stage.height - canvas.height < 9, 'a sent page fills the window of a phone', JSON.stringify([canvas, stage]));
+  await phone.context().close();
 }
 
 // The handle of a light outside the picture follows the pointer.
@@ -135,4 +219,5 @@ async function farLights({ open, origin }) {
   }
 }
 
-export const feedbackParts = (shared) => ({ scenes: () => scenes(shared), companions: () => companions(shared), places: () => places(shared), farLights: () => farLights(shared) });
+export const feedbackParts = (shared) => ({ scenes: () => scenes(shared), companions: () => companions(shared), places: () => places(shared), compared: () => compared(shared),
+  metals: () => metals(shared), sent: () => sent(shared), farLights: () => farLights(shared) });

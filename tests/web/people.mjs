@@ -8,6 +8,7 @@ import { commandOf, drawn, fragment, ok, pixels, settled, until, watchedPage } f
 import { feedbackParts } from './feedback.mjs';
 import { choose, fingers, isFirefoxPage } from './input.mjs';
 import { newcomerParts } from './newcomer.mjs';
+import { sceneParts } from './scene_files.mjs';
 import { openBrowser } from './serve.mjs';
 
 const [, , playwright, executablePath, built, models] = process.argv, FIRST_MAX = 300_000;
@@ -128,7 +129,7 @@ async function files() {
   mkdirSync(join(models, 'away'), { recursive: true });
   writeFileSync(join(models, 'away/part.gltf'), '{"asset":{"version":"2.0"},"buffers":[{"uri":"part.bin","byteLength":36}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}');
   await choose('away/part.gltf');
-  await until(page, () => /part\.bin: not chosen yet.*missing: part\.bin\./.test(document.getElementById('message-text').textContent) && !document.getElementById('message').hidden);
+  await until(page, () => /missing: part\.bin\./.test(document.getElementById('message-text').textContent) && !document.getElementById('message').hidden);
   const bin = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]);
   writeFileSync(join(models, 'away/part.bin'), bin);
   await choose('away/part.bin');
@@ -179,7 +180,7 @@ async function compressed() {
 async function links() {
   const camera = '--camera=eye=0/0/5,target=0/0/0,up=0/1/0,fovy=30', page = await open(origin + fragment(['/cube.ply', '--size=96x96', '--background=white', camera]));
   await until(page, () => !document.getElementById('message').hidden);
-  ok(/link to cube\.ply\. Links contain no files/.test(await messageOf(page)) && (await page.locator('#missing').isHidden()), 'a link to a model of one\'s own says that it holds no files', await messageOf(page));
+  ok(/needs cube\.ply\. Links contain no files/.test(await messageOf(page)) && (await page.locator('#missing').isHidden()), 'a link to a model of one\'s own says that it holds no files', await messageOf(page));
   await choose(page, () => page.getByRole('button', { name: 'Open it…' }).click(), join(models, 'cube.ply'));
   await drawn(page, 'of a link');
   ok((await commandOf(page)) === `lambent cube.ply --size=96x96 --background=white ${camera}`, 'and has its options once the file is opened', await commandOf(page));
@@ -217,7 +218,7 @@ async function screens() {
 }
 
 const parts = { firstPicture, stop: () => interrupted(origin, 'one thread'), stopThreads: () => interrupted(`${origin}isolated/`, 'threads'), files, compressed, links, screens,
-  ...newcomerParts({ open, origin, models, built, said }), ...feedbackParts({ open, origin, models }) };
+  ...newcomerParts({ open, origin, models, built, said }), ...feedbackParts({ open, origin, models, built }), ...sceneParts({ open, origin, models, said }) };
 const only = process.env.LAMBENT_BROWSER?.split(',');
 for (const [name, part] of Object.entries(parts)) {
   if (only && !only.includes(name)) continue;

@@ -154,6 +154,7 @@ static void complete_environment(const struct typed_word *typed)
 {
     for (int i = 0; lam_environment_built_in_name(i); i++)
         complete_offer(typed, lam_environment_built_in_name(i), "", "built in");
+    complete_offer(typed, "none", "", "no environment");
     complete_files();
 }
 

@@ -14,6 +14,7 @@
 
 #include "command_table.h"
 #include "console.h"
+#include "environment_option.h"
 #include "job_inputs.h"
 #include "job_steps.h"
 #include "output.h"
@@ -201,8 +202,8 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
         words[count++] = turn->value;
     }
     o->animation.place_lights |= o->animation.turntable != 0;
-    if (a->environment && !a->loads)
-        o->shading.environment = NULL; // the scene already contains it
+    if (a->environment && !a->loads && !environment_option_is_none(o->shading.environment))
+        o->shading.environment = NULL; // the scene already has it
     return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
 }
 

@@ -13,6 +13,7 @@
 #include "animate_frame.h"
 #include "console.h"
 #include "environment_apply.h"
+#include "environment_option.h"
 #include "interrupt.h"
 #include "job_inputs.h"
 #include "light_markers.h"
@@ -281,7 +282,8 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
 static bool lit_by_options(const struct options *o)
 {
     const struct lighting_options *l = &o->lighting;
-    return (l->has_rig && l->rig != (int)LAM_RIG_AUTO) || l->has_light_scale || l->lights.count;
+    return (l->has_rig && l->rig != (int)LAM_RIG_AUTO) || l->has_light_scale || l->lights.count ||
+           environment_option_is_none(o->shading.environment);
 }
 
 // Removes the dim studio of an earlier picture, so that each view is identical to a view drawn alone.

@@ -9,6 +9,7 @@
 
 #include "options.h"
 #include "console.h"
+#include "environment_option.h"
 #include "light_place.h"
 #include "material_apply.h"
 
@@ -21,7 +22,8 @@ static bool metals_mirror(const struct options *o, const lam_scene *scene)
     const lam_draw_params *draw = &o->draw;
     bool changed = o->material.model_color || o->material.has_shininess || o->material.materials.count > 1;
     return !o->lighting.has_rig && !o->lighting.lights.count && lam_scene_light_count(scene) == 0 && !changed &&
-           !draw->reflection && !draw->shading && !draw->stage && !draw->gl1 && o->picture.color_mode == LAM_COLOR_SRGB;
+           !environment_option_is_none(o->shading.environment) && !draw->reflection && !draw->shading && !draw->stage &&
+           !draw->gl1 && o->picture.color_mode == LAM_COLOR_SRGB;
 }
 
 static bool set_materials(const struct texts *texts, bool back, const char *name, const struct options *o,
@@ -146,7 +148,9 @@ static bool apply_rig(struct job *job, lam_error *error)
     if (o->lighting.has_rig && o->lighting.rig == (int)LAM_RIG_NONE && lam_scene_light_count(job->scene) == 0 &&
         o->lighting.lights.count == 0 && !lam_scene_environment(job->scene))
         lam_scene_add_warning(job->scene, "option '--rig file': the model has no lights");
-    bool dark = o->lighting.rig == RIG_DARK || (replaces && !o->lighting.has_rig);
+    // A scene file with lights sets the rig, unless the command line does.
+    bool by_file = (job->settings.present & LAM_SETTING_LIGHTS) && !option_given(o, "rig");
+    bool dark = o->lighting.rig == RIG_DARK || (replaces && (!o->lighting.has_rig || by_file));
     bool named = o->lighting.has_rig && job->rig != LAM_RIG_AUTO && job->rig != LAM_RIG_NONE;
     if (dark || named || o->lighting.rig == RIG_DEFAULT)
         lam_scene_clear_lights(job->scene);
@@ -154,8 +158,9 @@ static bool apply_rig(struct job *job, lam_error *error)
         job->rig = LAM_RIG_NONE;
     bool classic =
         o->draw.reflection != LAM_REFLECTION_AUTO && !lam_reflection_describe(o->draw.reflection)->microfacet;
-    if (job->rig == LAM_RIG_AUTO && classic && lam_scene_light_count(job->scene) == 0)
-        job->rig = LAM_RIG_STUDIO; // classic reflection needs lights instead of the environment
+    bool no_environment = environment_option_is_none(o->shading.environment);
+    if (job->rig == LAM_RIG_AUTO && (classic || no_environment) && lam_scene_light_count(job->scene) == 0)
+        job->rig = LAM_RIG_STUDIO; // otherwise, the studio environment would light physical models
     const char *format = lam_scene_format(job->scene);
     job->file_lights = lam_scene_light_count(job->scene) > 0 &&
                        (strcmp(format, "gltf") == 0 ||

@@ -88,6 +88,9 @@ static bool take_environment(const struct options *o, lam_picture_settings *s, c
         s->environment_rotation_rad = radians(o->shading.environment_rotation_deg);
     if (!text)
         return true;
+    s->present &= ~(unsigned)LAM_SETTING_ENVIRONMENT;
+    if (environment_option_is_none(text))
+        return true;
     memset(s->environment_faces, 0, sizeof s->environment_faces);
     s->environment_built_in = environment_option_built_in(text);
     s->environment_picture = s->environment_built_in || strchr(text, ',') ? NULL : text;

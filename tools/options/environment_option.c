@@ -28,8 +28,12 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
     return NULL;
 }
 
+bool environment_option_is_none(const char *text) { return text && strcmp(text, "none") == 0; }
+
 const char *environment_option_built_in(const char *name)
 {
+    if (environment_option_is_none(name))
+        return "none";
     for (int i = 0; lam_environment_built_in_name(i); i++)
         if (strcmp(name, lam_environment_built_in_name(i)) == 0)
             return lam_environment_built_in_name(i);

@@ -8,7 +8,10 @@
 // if `text` does not contain six names.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
-// Returns the built-in environment with this name, or NULL if there is none.
+// Returns whether the value removes the environment. `text` may be NULL.
+bool environment_option_is_none(const char *text);
+
+// Returns the built-in environment with this name or "none", or NULL if the value names files.
 const char *environment_option_built_in(const char *name);
 
 // Loads or makes the environment that a value of --environment describes. The caller frees it. Returns NULL on failure;

@@ -672,12 +672,13 @@ struct option option_table[OPTIONS_MAX] = {
      "to 16384; `lambent shapes` describes the segments of each shape. The default of M depends on the shape. "
      "`gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
-    {"environment", 0, GROUP_SHADING, "IMAGE", "none",
-     "The environment that shiny surfaces reflect: an image, six faces, sky or studio.",
+    {"environment", 0, GROUP_SHADING, "IMAGE", "the model's",
+     "The environment that shiny surfaces reflect: an image, six faces, sky, studio or none.",
      "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
      "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
-     "built in. To use a file named `sky`, write `./sky`. Classic materials reflect the environment only if they have "
+     "built in. `none` removes the environment of a scene file, and models then have lights instead of the "
+     "built-in studio. To use a file named `sky`, write `./sky`. Classic materials reflect the environment only if they have "
      "a reflectivity (`--material reflectivity=0.5`). `docs/lighting/reflection.md` describes how Lambent maps each "
      "kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,

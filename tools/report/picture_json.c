@@ -24,6 +24,18 @@ static void answer_camera(struct json *json, const struct job *job)
     json_close(json, '}');
 }
 
+// Returns the material of the first object, or of its first part.
+static const lam_material *first_material(const lam_scene *scene)
+{
+    int index = -1;
+    if (lam_scene_object_count(scene) > 0) {
+        const lam_object *object = lam_scene_object(scene, 0);
+        const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
+        index = object->material < 0 && mesh->part_count ? mesh->parts[0].material : object->material;
+    }
+    return index < 0 ? lam_scene_default_material(scene) : lam_scene_material(scene, index);
+}
+
 void picture_json(struct json *json, const struct job *job, double read_ms)
 {
     json_count(json, "width", (uint64_t)job->image.width);
@@ -32,6 +44,12 @@ void picture_json(struct json *json, const struct job *job, double read_ms)
     json_number(json, "read_ms", read_ms);
     json_number(json, "frame_ms", job->times.frame.total_ms);
     answer_camera(json, job);
+    bool from_file = job->file_lights || (job->settings.present & LAM_SETTING_LIGHTS);
+    json_flag(json, "own_lights",
+              from_file && lam_scene_light_count(job->scene) > 0 && !job->options->lighting.lights.count);
+    const lam_material *first = first_material(job->scene);
+    json_numbers(json, "color",
+                 (double[]){(double)first->diffuse.r, (double)first->diffuse.g, (double)first->diffuse.b}, 3);
     json_open(json, "warnings", '[');
     for (int i = 0; lam_scene_warning(job->scene, i); i++)
         json_message(json, NULL, lam_scene_warning(job->scene, i));

@@ -2,6 +2,7 @@
 #include "environment_apply.h"
 
 #include "console.h"
+#include "environment_option.h"
 
 #include <lambent/material.h>
 
@@ -90,7 +91,9 @@ bool environment_apply(const struct options *options, struct environment_cache *
         return false;
     double rotation_rad = radians(options->shading.environment_rotation_deg);
     bool ok = true;
-    if (options->shading.environment) {
+    if (environment_option_is_none(options->shading.environment)) {
+        ok = lam_scene_set_environment(scene, NULL, 0, error);
+    } else if (options->shading.environment) {
         ok = environment_cache_set(cache, options->shading.environment, (lam_color_mode)options->picture.color_mode,
                                    scene, rotation_rad, control, error);
         if (!ok && error) { // the caller puts the model's name before this sentence, so it names the option

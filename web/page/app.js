@@ -6,6 +6,8 @@
 //   on('still', f)    the picture of the command line is shown, with all of its samples
 //   on('ready', f)    the module has started: view.options, view.shapes
 //   on('missing', f)  the list of missing files of the model has changed: view.missing
+//   on('idle', f)     no drawing is in progress or waiting: view.isIdle
+//   on('lights', f)   the lights of the model's file were read (written_lights.js)
 //   on('fit', f)      the picture has another position or size in the page
 //   on('explained', f)  view.explained has changed: another point, or other numbers of the same point
 import { $ } from './dom.js';
@@ -24,7 +26,8 @@ export function stageSize() {
   return `${Math.floor((k * width) / 8) * 8}x${Math.floor((k * height) / 8) * 8}`;
 }
 
-export const state = new State(fromFragment(location.hash) ?? insideWords() ?? [START[0], `--size=${stageSize()}`, ...START.slice(1)]);
+const filling = `--size=${stageSize()}`;
+export const state = new State(fromFragment(location.hash) ?? insideWords(filling) ?? [START[0], filling, ...START.slice(1)]);
 export const worker = openWorker();
 export const { fetchRest } = worker;
 // In the page of `lambent view`, served.js first fetches the files of the model.
@@ -44,6 +47,7 @@ export const view = {
   camera: null, // the current camera, newer than the picture during a gesture
   sphere: null,
   moving: false, // a gesture is in progress
+  isIdle: false, // the first drawing has ended
   shapes: [],
   options: [],
   endings: [], // file name endings of models
@@ -63,12 +67,10 @@ export function emit(name) {
   for (const listener of listeners.get(name) ?? []) listener();
 }
 
-// The page keeps files in the root of a tree. Messages show the files' names without the leading '/', as the command line does. A file is missing if the user
-// has not chosen it yet.
+// The page keeps files in the root of a tree. Messages show their names without the leading '/', as the command line does.
 export function plainNames(sentence) {
   const paths = [state.model, ...openedPaths(), ...view.missing].filter((path) => path.startsWith('/'));
-  const told = view.missing.length && !$('served') ? sentence.replace('cannot open: No such file or directory', text('notChosen')) : sentence;
-  return told.replace(/(^|[\s'"(])\//g, (found, before, at) => (paths.some((path) => told.startsWith(path, at + before.length)) ? before : found));
+  return sentence.replace(/(^|[\s'"(])\//g, (found, before, at) => (paths.some((path) => sentence.startsWith(path, at + before.length)) ? before : found));
 }
 
 // Shows a message of the program or of the page, with buttons for possible actions, until the next picture.

@@ -5,9 +5,11 @@ import { setOf } from './opened.js';
 import { State, command, commandWords, fromFragment, toFragment } from './state.js';
 import { text } from './strings.js';
 
+// Shows a command line. Each word is an element, so that lines break between words if possible.
+export const showCommand = (place, words) => place.replaceChildren(...commandWords(words).flatMap((word) => [ours('span', word), ' ']).slice(0, -1));
+
 on('words', () => {
-  // Each word is an element, so that lines break between words if possible.
-  $('command').replaceChildren(...commandWords(state.words).flatMap((word) => [ours('span', word), ' ']).slice(0, -1));
+  showCommand($('command'), state.words);
   $('undo').disabled = !state.canUndo;
   $('redo').disabled = !state.canRedo;
   if (!view.moving) remember(toFragment(state.words));

@@ -11,9 +11,9 @@ import { finished, isTooLong, started, stopped } from './unfinished.js';
 
 const canvas = $('canvas'), context = canvas.getContext('2d'), pace = new Pace();
 const PATIENCE_MS = 1000, SHOWN_MS = 400, FLAG_MS = 50;
-const REST_MS = 50; // the full picture is drawn if a gesture makes no step for this long
-const SHORT_MS = 200; // a full picture that takes less time is drawn when the pointer rests, even if no flag can end the drawing
-let running = null, wanted = null, model = null, whole_ms = 0; // the time of the last full picture, without the time for reading the model
+const REST_MS = 50; // without a step of a gesture, until the full picture is drawn
+const SHORT_MS = 200; // a full picture that takes less is drawn when the pointer rests, even if no flag can end it
+let running = null, wanted = null, model = null, shown = null, whole_ms = 0; // shown: the model of the picture; whole_ms: of the last full picture, without reading
 let resting = 0, sharp = null; // the task of the full picture that was started when the pointer rested
 
 // Returns the words of a quick picture, which has one sample and fewer pixels.
@@ -130,6 +130,12 @@ async function work() {
     running = null;
     canvas.setAttribute('aria-busy', 'false');
   }
+  rested();
+}
+
+function rested() {
+  view.isIdle = true;
+  emit('idle');
 }
 
 function measure(task, ms) {
@@ -147,8 +153,9 @@ function forgetModel(name) {
   emit('missing');
 }
 
-// If files are missing, files.js shows the message together with possible actions.
+// The picture of another model disappears. If files are missing, files.js shows the message together with possible actions.
 function refused(error) {
+  $('view').classList.toggle('empty', state.model !== shown);
   view.missing = error.missing ?? [];
   if (!view.missing.length) return refuse(error.message);
   view.refusal = error.message;
@@ -170,6 +177,8 @@ function show({ pixels, ...picture }, task) {
   canvas.height = picture.height;
   context.putImageData(new ImageData(pixels, picture.width, picture.height), 0, 0);
   view.picture = picture;
+  [shown] = task.words;
+  $('view').classList.remove('empty');
   view.missing = picture.missing ?? [];
   view.refusal = null;
   if (!task.quick || !view.size) view.size = { width: picture.width, height: picture.height };
@@ -187,7 +196,8 @@ function show({ pixels, ...picture }, task) {
 function showStatus({ width, height, triangles, frame_ms, warnings }) {
   const line = text('status', { width, height, triangles: triangles.toLocaleString('en'), ms: Math.round(frame_ms) });
   $('status').textContent = line;
-  $('warnings').textContent = warnings.map(plainNames).join(' · ');
+  // The message below the picture lists the missing files.
+  $('warnings').textContent = warnings.filter((one) => $('served') || !/No such file/.test(one)).map(plainNames).join(' · ');
 }
 
 // Makes the picture as large as possible, centred. If the picture is enlarged by three or more, its pixels appear as squares.
@@ -203,7 +213,7 @@ new ResizeObserver(fit).observe($('view'));
 // The first picture is not drawn if the same picture took too long before the page was reloaded.
 let isFirst = true;
 on('words', () => {
-  if (isFirst && isTooLong(state.words)) refuse(text('tooLong'), button('drawAgain', () => draw()));
+  if (isFirst && isTooLong(state.words)) refuse(text('tooLong'), button('drawAgain', () => draw())), rested();
   else drawNow();
   isFirst = false;
 });

@@ -3,6 +3,7 @@ import { state } from './app.js';
 import { curvesOf } from './curves.js';
 import { element, ours } from './dom.js';
 import { aroundEquations, lightEquations, number, sumEquation, triple } from './equations.js';
+import { plainName } from './lights.js';
 import { text } from './strings.js';
 
 const strength = (light) => light.diffuse_term.concat(light.specular_term).reduce((sum, x) => sum + x, 0);
@@ -83,7 +84,7 @@ export class Explanation {
     const open = i === this.chosen.light;
     const details = element('details', { open, className: 'light' });
     const added = light.diffuse_term.map((x, k) => x + light.specular_term[k]);
-    const title = element('summary', {}, ours('span', `${light.name ?? light.type}`), ours('small', ` +${triple(added)}`));
+    const title = element('summary', {}, ours('span', plainName(light.name ?? light.type)), ours('small', ` +${triple(added)}`));
     details.append(title);
     // The details are filled when they are opened. The arrows then show the opened light.
     if (open) details.append(...this.#inside(triangle, point, light, i));

@@ -6,8 +6,9 @@ import { droppedFiles } from './dropped.js';
 import { FILES_BYTES } from './memory.js';
 import { addCompanions, addFiles, openedPaths, setOf } from './opened.js';
 import { companions, ranked, setsSize, withNeighbours } from './ranked_models.js';
-import { FORMULAS, START, withModel } from './state.js';
+import { FORMULAS, START, isScene, withModel } from './state.js';
 import { text } from './strings.js';
+import { windowSize } from './window_size.js';
 
 const isModel = (path) => view.endings.includes(path.replace(/^.*\./, '').toLowerCase());
 const baseOf = (path) => path.replace(/^.*\//, '').toLowerCase();
@@ -31,12 +32,13 @@ on('ready', showModels);
 
 // Matches the options that refer to contents of a model.
 const OF_MODEL = /^--(camera|hide|animation|time|variant|scene)=|^--(back-)?material=.*@/;
-const OF_IMAGE = /^--(size|background|view|azimuth|elevation|zoom|fov|projection)=/;
 
-// Another model starts with its own view and materials, not with the view and materials of the first picture. A scene file keeps its own size and background.
+// Another model starts with its own view and materials, not with those of the first picture. A scene file describes the whole picture.
 function takeModel(name) {
-  const set = setOf(name), own = set ? START : [], isSized = set && setsSize(name, set.files);
-  state.set(withModel(state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word) && !(isSized && OF_IMAGE.test(word)))), name));
+  const set = setOf(name), own = set ? START : [];
+  if (set && isScene(name)) return state.set([name, ...(setsSize(name, set.files) ? [] : [windowSize()])]);
+  const kept = state.words.filter((word, i) => !i || (!OF_MODEL.test(word) && !own.includes(word)));
+  state.set(withModel(isScene(state.model) && !state.values('size').length ? [...kept, windowSize()] : kept, name));
 }
 
 async function read(list) {
@@ -72,7 +74,7 @@ async function takeFiles(list) {
   rest = new Map();
   const [first] = models, wanted = again && (awaited || view.missing.length) ? again : first;
   if (!wanted || wanted === state.model) emit('words'); // new contents under the same name
-  else if (awaited || wanted === again) state.set([wanted, ...state.words.slice(1)]); // keeps the options of a link, or of the same model
+  else if ((awaited && !isScene(awaited)) || wanted === again) state.set([wanted, ...state.words.slice(1)]); // keeps the options of a link, or of the same model
   else takeModel(wanted);
 }
 
@@ -84,14 +86,17 @@ function complete(found, taken) {
   emit('words');
 }
 
-const openFiles = () => ((isAnswer = false), $('files').click()), openFolder = () => ((isAnswer = false), $('folder').click());
+const askFiles = () => ((isAnswer = false), $('files').click()), askFolder = () => ((isAnswer = false), $('folder').click());
 const asking = (open) => () => (open(), (isAnswer = true));
 
-// Explains how to add missing files. If the page was opened by a link to a local model, explains how to open the model itself.
+// The files that are open and may be the missing ones: the rest of the last answer, and for a scene file those that other models have at its paths.
+const openFiles = () => new Map([...(isScene(state.model) ? view.missing : []).flatMap((path) => (setOf(path) ? [[path, setOf(path).files.get(path)]] : [])), ...rest]);
+
+// Explains how to add missing files. After opening a link to a local model, or after a reload, explains how to open the model itself.
 on('missing', () => {
-  const known = setOf(state.model) ? companions(view.missing, rest) : new Map();
-  if (known.size) return setTimeout(() => complete(known, rest)); // after the current drawing
-  const choose = button('chooseFiles', asking(openFiles)), folder = button('openFolder', asking(openFolder)), [model] = state.words;
+  const open = setOf(state.model) ? openFiles() : new Map(), known = companions(view.missing, open);
+  if (known.size) return setTimeout(() => complete(known, open)); // after the present drawing
+  const choose = button('chooseFiles', asking(askFiles)), folder = button('openFolder', asking(askFolder)), [model] = state.words;
   const isGone = view.missing.includes(model), sentence = isGone ? text('linkWithout', { file: plain(model) })
     : text(view.missing.some((path) => /\.mtl$/i.test(path)) ? 'missingMaterials' : 'missingFiles', { files: view.missing.map(plain).join(', ') });
   $('missing').hidden = Boolean(view.refusal) || !view.missing.length || $('missing').dataset.seen === sentence;
@@ -100,13 +105,13 @@ on('missing', () => {
     $('missing').dataset.seen = sentence;
     $('missing').hidden = true;
   }));
-  if (view.refusal && isGone) refuse(sentence, button('openNamed', openFiles), button('openFolder', openFolder));
-  else if (view.refusal) refuse(`${view.refusal}. ${sentence}`, button('chooseFiles', asking(openFiles)), button('openFolder', asking(openFolder)));
+  if (view.refusal && isGone) refuse(sentence, button('openNamed', askFiles), button('openFolder', askFolder));
+  else if (view.refusal) refuse(/No such file/.test(view.refusal) ? sentence : `${view.refusal}. ${sentence}`, button('chooseFiles', asking(askFiles)), button('openFolder', asking(askFolder)));
 });
 
 $('model').onchange = (event) => takeModel(event.target.value);
-$('open').onclick = openFiles;
-$('open-folder').onclick = openFolder;
+$('open').onclick = askFiles;
+$('open-folder').onclick = askFolder;
 for (const id of ['files', 'folder'])
   $(id).onchange = (event) => {
     takeFiles([...event.target.files].map((file) => [file.webkitRelativePath || file.name, file]));

@@ -1,10 +1,11 @@
-// handles.js: shows handles for the lights in the picture. Each light of --light has a handle for its position. A spot light also has handles for its aim and
-// its cone. A handle is a button that can be dragged or moved by keys.
-import { beginGesture, endGesture, gestureKey, on, say, state, view } from './app.js';
+// handles.js: handles for the lights in the picture: one for the position of each light of --light, one for the aim of a spot, one for its cone. A handle
+// is a button that can be dragged or moved by keys.
+import { beginGesture, endGesture, gestureKey, on, say, view } from './app.js';
 import { add, dot, onBall, project, scale, shifted, sub, unit } from './camera.js';
 import { $, element, svg } from './dom.js';
 import { coneEdge, lightText, movedTo, nameOf, parseLight, placeOf, withCone } from './lights.js';
 import { text } from './strings.js';
+import { lightsNow, setLights } from './written_lights.js';
 
 const canvas = $('canvas'), overlay = $('overlay'), lines = $('overlay-lines');
 const PARTS = { position: 'handlePosition', aim: 'handleAim', cone: 'handleCone' };
@@ -14,7 +15,7 @@ let texts = [];
 function rewrite(i, light) {
   texts = texts.map((old, at) => (at === i ? lightText(light) : old));
   beginGesture();
-  state.set(state.withValues('light', texts), gestureKey());
+  setLights(texts, gestureKey());
   say(texts[i]);
 }
 
@@ -86,7 +87,7 @@ function turnCone(i, degrees) {
 }
 
 function remove(i) {
-  state.set(state.withValues('light', state.values('light').filter((_, at) => at !== i)));
+  setLights(lightsNow().filter((_, at) => at !== i));
 }
 
 // --- in the picture
@@ -102,7 +103,7 @@ function inside(point, width, height) {
 
 function show() {
   if (!view.camera || !view.sphere) return;
-  texts = state.values('light');
+  texts = lightsNow();
   const width = canvas.clientWidth, height = canvas.clientHeight, wanted = new Map(), drawn = [];
   lines.setAttribute('viewBox', `0 0 ${width} ${height}`);
   texts.forEach((one, i) => {
@@ -151,4 +152,5 @@ const dotAlong = (point, { position, direction }) => sub(point, position).reduce
 on('picture', show);
 on('words', () => view.picture && show());
 on('fit', show);
+on('lights', show);
 show();

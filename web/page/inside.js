@@ -18,10 +18,10 @@ async function bytesOf(place) {
   return place.dataset.packed === 'gzip' ? new Uint8Array(await unpacked(bytes).arrayBuffer()) : bytes;
 }
 
-// Returns the words of the command line, or null if the page contains none.
-export function insideWords() {
-  const place = document.getElementById('inside-words');
-  return place && JSON.parse(place.textContent);
+// The words of the command line; null: the page contains none. A picture that filled the sender's window fills this one: `size`.
+export function insideWords(size) {
+  const place = document.getElementById('inside-words'), words = place && JSON.parse(place.textContent);
+  return place?.dataset.window ? words.map((word) => (word === place.dataset.window ? size : word)) : words;
 }
 
 // Returns the files by path. The texts of the files are removed from the page to save memory.

@@ -1,5 +1,5 @@
-// later.js: fetches modules of the page when they are first used, and adds their tabs.
-import { fetchRest, on, refuse, state } from './app.js';
+// later.js: the modules of the page that are fetched on first use, and their tabs.
+import { fetchRest, on, refuse, state, view } from './app.js';
 import { $ } from './dom.js';
 import { keepOffline } from './offline.js';
 import { addTab } from './tabs.js';
@@ -24,7 +24,7 @@ on('still', () => {
   const rest = fetchRest().catch(() => {}); // a later call asks again and reports the error
   if (isFirst) rest.then(keepOffline);
   isFirst = false;
-  if (state.values('light').length) used(import('./handles.js'));
+  if (state.values('light').length || view.picture.own_lights) used(import('./handles.js'));
 });
 
 $('compare').onclick = async () => (await used(import('./split.js')))?.toggle();

@@ -7,7 +7,7 @@ import { Picker } from './picker.js';
 import { showNumber, slider } from './slider.js';
 import { State, isMetal } from './state.js';
 import { text } from './strings.js';
-import { writtenLights } from './written_lights.js';
+import { lightsNow, readLights, withLights, wordsOfLights } from './written_lights.js';
 
 // The angles of each button in degrees: around the model, from the viewer to the right, and above the horizon.
 const PLACES = [['lightFront', 0, 25], ['lightLeft', -75, 25], ['lightRight', 75, 25], ['lightAbove', 0, 85], ['lightBehind', 180, 35]];
@@ -48,10 +48,22 @@ function chosenIn(texts) {
   return texts.findIndex(isMovable);
 }
 
-// Returns words with a movable light. The lights that the program has chosen are written as options. If none of them can be moved, a new light is added. If the
-// model's material is a metal, it then reflects the studio environment. Other materials get some ambient light, because their unlit side would be black.
+// The angle of a built-in environment's brightest side in front of the model, in degrees around the up axis, from +X to -Z.
+const BRIGHT = { studio: -90, sky: -47 };
+
+// Metals show the light of their surroundings more than any other light. So a built-in environment turns with the light.
+export function withTurned(words) {
+  const made = new State(words), texts = made.values('light'), i = view.camera ? chosenIn(texts) : -1, bright = BRIGHT[made.values('environment').at(-1)];
+  if (i < 0 || bright === undefined || !made.values('material').some(isMetal)) return words;
+  const { pole } = axes(), east = Math.abs(pole[0]) > 0.5 ? [0, 1, 0] : [1, 0, 0], way = sub(placeOf(parseLight(texts[i]), view.camera, view.sphere).position, view.sphere.centre);
+  const angle = Math.round(Math.atan2(dot(way, cross(pole, east)), dot(way, east)) * DEGREES - bright);
+  return made.withValues('environment-rotation', [String((angle + 720) % 360)]);
+}
+
+// Returns words with a movable light: the program's own lights, written out, or else a new light. If only an environment lit the model, metals keep
+// reflecting it. Other materials get some ambient light, because their unlit side would be black.
 async function words() {
-  const written = await writtenLights(), made = new State(written?.words ?? state.words), texts = made.values('light');
+  const read = await readLights(state.words), made = new State(read ? withLights(state.words, read) : state.words), texts = made.values('light');
   if (texts.some(isMovable)) return made.words;
   const lit = made.withValues('light', [...texts, newLight('directional', texts, texts.length)]), [name, value] = state.values('material').some(isMetal) ? ['environment', 'studio'] : ['ambient', '0.25'];
   return made.values(name).length ? lit : new State(lit).withValues(name, [value]);
@@ -60,14 +72,14 @@ async function words() {
 function changed(from, change, key) {
   const made = new State(from), texts = made.values('light'), i = chosenIn(texts);
   texts[i] = lightText(change(parseLight(texts[i])));
-  state.set(made.withValues('light', texts), key);
+  state.set(withTurned(made.withValues('light', texts)), key);
 }
 
 // While the lights are being written as options, only the newest change is kept.
 let waiting = null, isBusy = false;
 async function change(how, key = null) {
   if (!view.camera) return;
-  if (state.values('light').some(isMovable)) return changed(state.words, how, key);
+  if (lightsNow().some(isMovable)) return changed(wordsOfLights(), how, key);
   waiting = how;
   if (isBusy) return;
   isBusy = true;
@@ -89,20 +101,17 @@ export function lightControls() {
   const bright = slider(titled('lightBright'), text('lightBright'), [0, 4, 0.05], 1, (value) => change(withKey('intensity', value), gestureKey()));
   const color = new Picker(text('lightColor'), (value, key) => change(withKey('color', value), key));
   const places = PLACES.map(([key, at, above]) => button(key, () => change((light) => placed(light, at, above))));
-  const drowned = element('p', { className: 'hint drowned' });
   choice.onchange = () => {
     chosen = Number(choice.value);
     show();
   };
   function show() {
-    const texts = view.camera && view.sphere ? state.values('light') : [], i = texts.length ? chosenIn(texts) : -1, movable = texts.flatMap((one, at) => (isMovable(one) ? [at] : []));
-    choice.disabled = movable.length < 2; // not hidden, so that the buttons below it stay in place
+    const texts = view.camera && view.sphere ? lightsNow() : [], i = texts.length ? chosenIn(texts) : -1, movable = texts.flatMap((one, at) => (isMovable(one) ? [at] : []));
+    choice.disabled = movable.length < 2; // but always there, so that the buttons below it stay in place
     const key = movable.map((at) => nameOf(parseLight(texts[at]), at)).join('\n');
     if (choice.dataset.names !== key) choice.replaceChildren(...(movable.length ? movable.map((at) => new Option(nameOf(parseLight(texts[at]), at), at)) : [new Option(text('lightMain'))]));
     choice.dataset.names = key;
     choice.translate = false;
-    const surroundings = state.values('environment').at(-1);
-    drowned.textContent = i >= 0 && surroundings && surroundings !== 'none' && state.values('material').some(isMetal) ? text('lightDrowned', { name: surroundings }) : '';
     if (i < 0) return places.forEach((one) => one.setAttribute('aria-pressed', 'false'));
     choice.value = i;
     if (view.moving) return;
@@ -113,9 +122,8 @@ export function lightControls() {
     showNumber(bright, light.keys.get('intensity') ?? 1);
     color.show(light.keys.get('color') ?? 'white');
   }
-  on('words', show);
-  on('picture', show);
+  for (const name of ['words', 'picture', 'lights']) on(name, show);
   show();
-  return element('div', {}, choice, element('div', { className: 'buttons', attributes: { role: 'group', 'aria-label': text('lightPlaces') } }, ...places), drowned, around, height, bright,
+  return element('div', {}, choice, element('div', { className: 'buttons', attributes: { role: 'group', 'aria-label': text('lightPlaces') } }, ...places), around, height, bright,
     element('div', { className: 'slider' }, titled('lightColor'), color.input));
 }

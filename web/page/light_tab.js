@@ -7,13 +7,13 @@ import { $, button, element, ours } from './dom.js';
 import { lightText, nameOf, newLight, parseLight } from './lights.js';
 import { slider } from './slider.js';
 import { text } from './strings.js';
-import { writtenLights } from './written_lights.js';
+import { lightsNow, readLights, setLights, withLights } from './written_lights.js';
 
 const place = $('panel-lights'), list = element('ul', { className: 'lights' });
 const adders = ['point', 'spot', 'directional'].map((type) =>
   button({ point: 'addPoint', spot: 'addSpot', directional: 'addDirectional' }[type], () => {
-    const values = state.values('light');
-    state.set(state.withValues('light', [...values, newLight(type, values, values.length)]));
+    const values = lightsNow();
+    setLights([...values, newLight(type, values, values.length)]);
   }));
 const mine = button('mineLights', makeMine), highlight = element('div');
 place.append(element('p', { className: 'hint', textContent: text('lightsHint') }), element('div', { className: 'buttons' }, ...adders, mine), list, highlight);
@@ -34,13 +34,13 @@ function slidersOf(i, light) {
     const parts = (light.keys.get(key) ?? (key === 'attenuation' ? '1/0/0' : String(standard))).split('/'), unit = parts[part].endsWith('r') ? 'r' : '';
     const name = key === 'attenuation' ? `${key} ${'abc'[part]}` : key;
     return slider(ours('span', name), text('sliderOf', { name, light: nameOf(light, i) }), [least, most, step], parseFloat(parts[part]), (value) => {
-      const texts = state.values('light'), now = parseLight(texts[i]), values = [...parts];
+      const texts = [...lightsNow()], now = parseLight(texts[i]), values = [...parts];
       values[part] = value + unit;
       if (key === 'attenuation' && values.every((one) => parseFloat(one) === 0)) values[0] = '0.01';
       parts[part] = values[part];
       now.keys.set(key, values.join('/'));
       texts[i] = lightText(now);
-      state.set(state.withValues('light', texts), gestureKey());
+      setLights(texts, gestureKey());
     });
   });
 }
@@ -56,13 +56,13 @@ function explainedLight(pixel, i, texts) {
 const wordsOf = (one) => state.withValues('light', [one.replace(/^\+/, '')]);
 
 function showLight(one, i) {
-  const light = parseLight(one), remover = button('removeLight', () => state.set(state.withValues('light', state.values('light').filter((_, at) => at !== i))));
+  const light = parseLight(one), remover = button('removeLight', () => setLights(lightsNow().filter((_, at) => at !== i)));
   remover.setAttribute('aria-label', text('removeNamed', { light: nameOf(light, i) }));
   const curves = element('div', { className: 'curves-of' });
   curves.refresh = () => {
-    const now = state.values('light')[i];
+    const now = lightsNow()[i];
     if (light.type !== 'point' && light.type !== 'spot') return;
-    curvesOf({ words: wordsOf(now), light: 0, explained: explainedLight(view.explained, i, state.values('light')), type: light.type }).then((made) => curves.replaceChildren(made), () => {});
+    curvesOf({ words: wordsOf(now), light: 0, explained: explainedLight(view.explained, i, lightsNow()), type: light.type }).then((made) => curves.replaceChildren(made), () => {});
   };
   curves.refresh();
   return element('li', {}, element('div', { className: 'light-head' }, ours('code', one), remover), ...slidersOf(i, light), curves);
@@ -87,7 +87,7 @@ function showHighlight() {
 
 let listed = null;
 function show() {
-  const texts = state.values('light');
+  const texts = lightsNow();
   showHighlight();
   if (view.moving || listed === texts.join('\n')) return;
   listed = texts.join('\n');
@@ -104,10 +104,10 @@ function refresh() {
 
 async function makeMine() {
   try {
-    const made = await writtenLights();
+    const made = await readLights(state.words);
     if (!made) return refuse(text('mineDiffers'));
-    state.set(made.words);
-    say(text('mineDone', { count: made.count }));
+    state.set(withLights(state.words, made));
+    say(text('mineDone', { count: made.texts.length }));
   } catch (error) {
     refuse(error.message);
   }
@@ -115,6 +115,7 @@ async function makeMine() {
 
 show();
 on('words', show);
+on('lights', show);
 on('picture', () => {
   if (!view.explained) refresh();
 });

@@ -1,6 +1,7 @@
 // lights.js: reads the lights of --light as text, and changes the text when a handle moves. Positions are converted to the light's frame and unit (model units,
 // or radii from the middle) and written as decimal text. The picture depends only on this text.
 import { add, cameraAxes, cross, decimal, dot, length, scale, sub, unit } from './camera.js';
+import { text } from './strings.js';
 
 // Parses a text such as "+spot:position=1/2/3,cutoff=20". Returns the light's type, whether the light is added to the other lights, and the light's keys in
 // order.
@@ -120,11 +121,18 @@ export function newLight(type, texts, number) {
   return `${others}${type}:${keys[type]}`;
 }
 
-export const nameOf = (light, i) => light.keys.get('name') ?? `${light.type} ${i + 1}`;
+// Plain names of the lights of the built-in rigs.
+const PLAIN = { key: 'lightMain', fill: 'lightFill', rim: 'lightRim', back: 'lightRim' };
+export const plainName = (name) => (PLAIN[name] ? text(PLAIN[name]) : name);
 
-// Converts a light of a scene file to a value of --light.
+export const nameOf = (light, i) => plainName(light.keys.get('name') ?? `${light.type} ${i + 1}`);
+
+const STANDARD = ['ambient=0/0/0', 'diffuse=1/1/1', 'specular=1/1/1', 'attenuation=1/0/0'];
+
+// Converts a light of a scene file to a value of --light, without the keys that have their defaults.
 export function lightWords({ type, name, ...fields }) {
-  const keys = new Map(Object.entries(fields).map(([key, value]) => [key, Array.isArray(value) ? value.join('/') : value === true ? 'yes' : value === false ? 'no' : String(value)]));
+  const pairs = Object.entries(fields).map(([key, value]) => [key, Array.isArray(value) ? value.join('/') : value === true ? 'yes' : value === false ? 'no' : String(value)]);
+  const keys = new Map(pairs.filter((pair) => !STANDARD.includes(pair.join('='))));
   // A name on the command line cannot contain these characters.
   if (name) keys.set('name', name.replace(/[,=\s]+/g, '-'));
   return lightText({ plus: '', type, keys });

@@ -27,13 +27,13 @@ async function emptyPage() {
 
 const quoted = (path) => path.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
 
-// `files` contains [path, bytes] for each file. Returns a Blob.
-export async function pageWithModel(words, files) {
+// `files`: [path, bytes]. `filling`: the size that fills the window, as a word, or ''. Returns a Blob.
+export async function pageWithModel(words, files, filling) {
   const size = files.reduce((sum, [, bytes]) => sum + bytes.length, 0);
   if (size > MOST) throw new Error(text('pageTooLarge', { size: Math.round(size / 1e6), most: MOST / 1e6 }));
   const page = await emptyPage(), end = page.lastIndexOf('</body>');
   const texts = [];
   for (const [path, bytes] of files) texts.push(`<script type="text/plain" class="inside-file" data-path="${quoted(path)}" data-packed="gzip">${await packed(bytes)}</script>\n`);
-  texts.push(`<script type="application/json" id="inside-words">${JSON.stringify(words).replaceAll('<', '\\u003c')}</script>\n`);
+  texts.push(`<script type="application/json" id="inside-words"${filling && ` data-window="${filling}"`}>${JSON.stringify(words).replaceAll('<', '\\u003c')}</script>\n`);
   return new Blob([page.slice(0, end), ...texts, page.slice(end)], { type: 'text/html' });
 }

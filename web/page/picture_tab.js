@@ -2,9 +2,9 @@
 // of the program and its plain name. The option's own name is shown beside it if the user wants it.
 import { on, state, view } from './app.js';
 import { $, element } from './dom.js';
-import { lightControls } from './light_controls.js';
+import { lightControls, withTurned } from './light_controls.js';
 import { Row, setOption } from './row.js';
-import { START, State, isMetal } from './state.js';
+import { START, State, isMetal, isScene, without } from './state.js';
 import { text } from './strings.js';
 import { swatches } from './swatches.js';
 import { viewControls } from './view_controls.js';
@@ -21,27 +21,28 @@ const SECTIONS = [
   ['sectionShading', null, [['reflection', 'plainReflection'], ['shading', 'plainShading'], ['show', 'plainShow'], ['shininess', 'plainShininess'], ['normals', 'plainNormals'], ['size', 'plainSize']]],
 ];
 
-const without = (words, ...names) => names.reduce((rest, name) => new State(rest).withValues(name, []), words);
-const SPHERE = ['sphere', '--size=88x88', '--samples=8'];
+const SPHERE = ['sphere', '--size=88x88', '--samples=8'], OWN = '--material=color=#b8b8b8'; // the model's own
 
-// Makes the choice of a material for the whole model. The materials of single objects (@NAME) are kept. If a metal is chosen, it replaces the model's textures
-// and reflects the studio.
+// The material of the whole model. Materials of single objects (@NAME) are kept. A metal replaces the model's textures and reflects the studio, which
+// another material removes.
 function materials() {
   const whole = () => state.values('material').filter((value) => !value.includes('@'));
   const own = START.find((word) => word.startsWith('--material=')).slice('--material='.length);
   const take = (value) => {
-    const others = state.values('material').filter((one) => one.includes('@')), mirrors = isMetal(value) && !state.values('environment').length;
-    const words = new State(without(state.words, 'color')).withValues('material', value === null ? others : [value, ...others]);
-    state.set(mirrors ? new State(words).withValues('environment', ['studio']) : words);
+    const others = state.values('material').filter((one) => one.includes('@')), around = state.values('environment').join();
+    let words = new State(without(state.words, 'color')).withValues('material', value === null ? others : [value, ...others]);
+    if (isMetal(value) && !around) words = withTurned(new State(words).withValues('environment', ['studio']));
+    else if (!isMetal(value) && isMetal(whole().at(-1)) && around === 'studio') words = without(words, 'environment', 'environment-rotation');
+    state.set(words);
   };
   const choices = view.materials.map(({ name, metal }) => ({ value: metal ? `${name},${metal}` : name, name, words: [...SPHERE, `--material=${name}`] }));
-  const first = [{ value: null, label: text('materialOwn'), words: [...SPHERE, '--material=color=#b8b8b8'] }, { value: own, label: text('materialFirst'), words: [...SPHERE, `--material=${own}`] }];
+  const first = [{ value: null, label: text('materialOwn'), words: [...SPHERE, OWN] }, { value: own, label: text('materialFirst'), words: [...SPHERE, `--material=${own}`] }];
   return swatches({ title: text('sectionMaterial'), choices: [...first, ...choices], chosen: () => whole().at(-1) ?? null, take });
 }
 
 function environments() {
   const ball = [...SPHERE, '--material=color=white,metallic=1,roughness=0.05'];
-  const choices = [{ value: null, label: text('environmentNone'), words: [...SPHERE, '--material=color=white,specular=0.6,shininess=60'] },
+  const choices = [{ value: null, label: text('environmentOwn'), words: [...SPHERE, OWN] }, { value: 'none', label: text('environmentNone'), words: [...SPHERE, '--material=color=white,specular=0.6,shininess=60'] },
     ...view.environments.map((name) => ({ value: name, name, words: [...ball, `--environment=${name}`] }))];
   return swatches({ title: text('sectionEnvironment'), choices, chosen: () => state.values('environment').at(-1) ?? null, take: (value) => setOption('environment', value === null ? [] : [value]), named: true });
 }
@@ -55,7 +56,8 @@ function looks() {
 function backgrounds() {
   const choices = [['transparent', 'backgroundNone', 'transparent'], ['white', 'backgroundWhite', '#fff'], ['#808080', 'backgroundGrey', '#808080'], ['black', 'backgroundBlack', '#000']]
     .map(([value, key, color]) => ({ value, label: text(key), color }));
-  return swatches({ title: text('sectionBackground'), choices, chosen: () => state.values('background').at(-1) ?? 'transparent', take: (value) => setOption('background', value === 'transparent' ? [] : [value]) });
+  const own = () => (isScene(state.model) ? null : 'transparent'); // a scene file may set one
+  return swatches({ title: text('sectionBackground'), choices, chosen: () => state.values('background').at(-1) ?? own(), take: (value) => setOption('background', value === own() ? [] : [value]) });
 }
 
 function optionNames() {

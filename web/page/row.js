@@ -1,19 +1,16 @@
 // row.js: a control for an option of the program's table: its name, value and description.
-import { gestureKey, state } from './app.js';
+import { gestureKey, on, state, view } from './app.js';
 import { element, ours } from './dom.js';
-import { Picker } from './picker.js';
+import { Picker, hexOf } from './picker.js';
 import { showNumber, slider } from './slider.js';
-import { FORMULAS, State, VIEW, withModel } from './state.js';
+import { FORMULAS, VIEW, withModel, without } from './state.js';
 import { text } from './strings.js';
 
 // Sets the values of an option. --camera and the options of the view replace each other. The option of a formula also changes the model.
 export function setOption(name, values, key = null) {
   if (name in FORMULAS && state.model !== name) return values.length ? state.set(withModel(state.words, name, values[0])) : undefined;
   if (name in FORMULAS && !values.length) values = [FORMULAS[name]];
-  let words = state.withValues(name, values);
-  const without = VIEW.includes(name) ? ['camera'] : name === 'camera' ? VIEW : [];
-  for (const other of without) words = new State(words).withValues(other, []);
-  state.set(words, key);
+  state.set(without(state.withValues(name, values), ...(VIEW.includes(name) ? ['camera'] : name === 'camera' ? VIEW : [])), key);
 }
 
 export class Row {
@@ -35,6 +32,7 @@ export class Row {
     this.inputs = element('div', { className: this.picker ? 'with-color' : '' });
     const about = element('p', { id: `about-${prefix}-${option.name}` }, ours('span', option.summary));
     if (option.default) about.append(' ', element('span', { textContent: text('standard', { value: option.default }) }));
+    if (option.name === 'color') on('picture', () => this.#showColor([]));
     this.place = element('div', { className: 'option' }, this.label, this.slider ?? this.inputs, this.reset, about);
     this.show([]);
   }
@@ -45,6 +43,12 @@ export class Row {
     this.standard = start ?? (parseFloat(this.option.default ?? '') || Math.max(0, least));
     this.slider = slider('', label, this.range, this.standard, (value) => this.change([value], gestureKey()));
     this.slider.querySelector('input').id = this.label.htmlFor;
+  }
+
+  // Without a value, the colour of the model is shown.
+  #showColor(values) {
+    const own = this.option.name === 'color' && view.picture ? hexOf(view.picture.color) : '';
+    this.picker?.show(values.at(-1) ?? (own || this.option.default || ''));
   }
 
   matches(wanted) {
@@ -58,7 +62,7 @@ export class Row {
     this.shown = key;
     this.reset.hidden = !values.length;
     this.label.classList.toggle('given', values.length > 0);
-    this.picker?.show(values.at(-1) ?? this.option.default ?? '');
+    this.#showColor(values);
     if (this.slider) return showNumber(this.slider, values.length && isFinite(values.at(-1)) ? values.at(-1) : this.standard);
     const focused = this.inputs.contains(document.activeElement);
     const shown = this.option.repeats ? [...values, null] : [values.length ? values.at(-1) : null];

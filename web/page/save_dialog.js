@@ -1,13 +1,14 @@
 // save_dialog.js: the dialog that saves the picture with another size and background. It also makes a page with the model, a link, or a scene file, which the
 // user can send to other people.
 import { call, refuse, state, view } from './app.js';
-import { copyLink, download, saveNamed } from './bar.js';
+import { copyLink, download, saveNamed, showCommand } from './bar.js';
 import { $, button, element, ours } from './dom.js';
 import { saveScene } from './scene.js';
 import { pageWithModel } from './packed_page.js';
 import { setOf } from './opened.js';
-import { State, command } from './state.js';
+import { State } from './state.js';
 import { text } from './strings.js';
+import { isFollowing, windowSize } from './window_size.js';
 
 const WIDTHS = [1000, 2000, 4000], BACKGROUNDS = { white: 'backgroundWhite', transparent: 'backgroundNone' };
 let dialog = null, chosen = { width: null, background: null };
@@ -48,7 +49,7 @@ function closing(act) {
 
 async function savePage() {
   $('status').textContent = text('pageMaking');
-  const bytes = await pageWithModel(state.words, await call('used', { words: state.words }));
+  const bytes = await pageWithModel(state.words, await call('used', { words: state.words }), isFollowing() ? windowSize() : '');
   const file = download(bytes, '.html', 'text/html');
   $('status').textContent = text('pageSaved', { file, size: (bytes.size / 1e6).toFixed(1) });
 }
@@ -56,7 +57,7 @@ async function savePage() {
 export function openSaveDialog() {
   if (!view.size) return;
   dialog?.remove();
-  const line = ours('code', '', { id: 'save-command' }), show = () => (line.textContent = command(savedWords()));
+  const line = ours('code', '', { id: 'save-command' }), show = () => showCommand(line, savedWords());
   const { width, height } = view.size, sizes = [[null, text('saveAsShown', { width, height })], ...WIDTHS.map((one) => [one, text('savePixels', { width: one })])];
   const backgrounds = [[null, text('saveBackground')], ...Object.entries(BACKGROUNDS).map(([value, key]) => [value, text(key)])];
   const close = button('closeDialog', () => dialog.close());

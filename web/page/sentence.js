@@ -1,4 +1,5 @@
 // sentence.js: converts an explanation to sentences for reading aloud.
+import { plainName } from './lights.js';
 import { text } from './strings.js';
 
 const TERMS = [['ambient', 'termAmbient'], ['diffuse', 'termDiffuse'], ['specular', 'termSpecular'], ['reflection', 'termReflection'], ['emission', 'termEmission']];
@@ -16,7 +17,7 @@ export function sentenceOf(pixel) {
     if (sum > 0 && part / sum >= 0.005) parts.push(text('spokenTerm', { term: text(key), percent: Math.round((100 * part) / sum) }));
   }
   for (const light of point.lights) {
-    const name = light.name ?? light.type;
+    const name = plainName(light.name ?? light.type);
     if (light.n_dot_l <= 0) parts.push(text('spokenBehind', { light: name }));
     else parts.push(text('spokenLight', { light: name, angle: Math.round(light.theta_deg), diffuse: round(light.D), specular: round(light.S) }));
   }

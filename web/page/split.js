@@ -1,9 +1,10 @@
 // split.js: compares the picture with an earlier picture. The left side shows a kept command line with the current camera and size. The dividing line can be
 // dragged or moved by keys.
 import { call, on, refuse, state, view } from './app.js';
+import { showCommand } from './bar.js';
 import { $, button, element, ours } from './dom.js';
 import { fit, quickWords } from './drawing.js';
-import { State, VIEW, command } from './state.js';
+import { State, VIEW, appearance } from './state.js';
 import { text } from './strings.js';
 
 const kept = element('canvas', { id: 'before', attributes: { 'aria-hidden': 'true' } }), context = kept.getContext('2d');
@@ -11,7 +12,7 @@ const line = element('div', { id: 'divider', tabIndex: 0, attributes: { role: 's
 const title = element('span'), words = ours('code', '', { id: 'before-command' });
 const bar = element('div', { id: 'split-bar' }, title, ' ', words, ' ',
   button('keepNow', () => keep('beforeKept')), button('swap', () => swap()), button('endSplit', () => toggle()));
-let before = null, share = 50, busy = false, again = false;
+let before = null, share = 50, busy = false, again = false, isNone = false; // isNone: nothing had changed yet
 
 // Returns the kept words with the current view and size.
 function beforeWords() {
@@ -27,7 +28,7 @@ async function draw() {
   while (again && before) {
     again = false;
     const now = beforeWords();
-    words.textContent = command(now);
+    showCommand(words, now);
     try {
       const { pixels, width, height } = await call('draw', { words: view.moving ? quickWords(now) : now });
       kept.width = width;
@@ -50,21 +51,25 @@ function place(next) {
   line.setAttribute('aria-valuenow', Math.round(share));
 }
 
-// Keeps the current picture, and compares later pictures with it.
-function keep(sentence) {
-  before = state.words;
+// `sentence`: describes the left side.
+function show(sentence) {
+  isNone = sentence === 'beforeNone';
   title.textContent = text(sentence);
-  draw();
 }
 
-const appearance = (of) => [...VIEW, 'camera', 'size'].reduce((rest, name) => new State(rest).withValues(name, []), of).join('\n');
+// Compares with the present picture from now on.
+function keep(sentence) {
+  before = state.words;
+  show(sentence);
+  draw();
+}
 
 // Compares with the newest state of this model that looks different from the same camera.
 function begin() {
   const last = state.past.findLast((one) => one[0] === state.model && appearance(one) !== appearance(state.words));
   if (!last) return keep('beforeNone');
   before = last;
-  title.textContent = text('before');
+  show('before');
   draw();
 }
 
@@ -72,7 +77,7 @@ function swap() {
   const now = state.words;
   const next = beforeWords();
   before = now;
-  title.textContent = text('beforeKept');
+  show('beforeKept');
   state.set(next);
 }
 
@@ -112,5 +117,9 @@ line.onkeydown = (event) => {
 };
 
 addEventListener('keydown', (event) => event.key === 'Escape' && before && $('working').hidden && !document.querySelector('dialog[open]') && toggle());
-on('picture', () => before && draw());
+on('picture', () => {
+  if (!before) return;
+  if (isNone && appearance(before) !== appearance(state.words)) show('before');
+  draw();
+});
 on('fit', () => before && place(share));

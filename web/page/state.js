@@ -9,7 +9,9 @@ export const START = ['teapot', '--material=ambient=#12657a,diffuse=#1688a5,spec
 export const FORMULAS = { parametric: 'a=2; x=(a+cos(v))*cos(u); y=(a+cos(v))*sin(u); z=sin(v)', implicit: 'x^2+y^2+z^2-1' };
 const OF_FORMULAS = [...Object.keys(FORMULAS), 'u', 'v', 'x', 'y', 'z', 'flip'];
 
-// Returns the words with another model, and with a formula if the model is a formula. Options of the old formula are removed.
+export const isScene = (model) => /\.json$/i.test(model);
+
+// Returns the words with another model, optionally with its formula. Options of the old formula are removed.
 export function withModel(words, name, formula = FORMULAS[name]) {
   const rest = words.slice(1).filter((word) => !OF_FORMULAS.includes(word.slice(2).split('=')[0]));
   return formula ? [name, `--${name}=${formula}`, ...rest] : [name, ...rest];
@@ -18,7 +20,13 @@ export function withModel(words, name, formula = FORMULAS[name]) {
 // Options that determine the view. --camera replaces all of them.
 export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'fov', 'projection'];
 
-// Returns whether a value of --material is a metal, which reflects its surroundings.
+// The words without some options.
+export const without = (words, ...names) => names.reduce((rest, name) => new State(rest).withValues(name, []), words);
+
+// The words that determine how the model looks, independent of the view.
+export const appearance = (words) => without(words, ...VIEW, 'camera', 'size').join('\n');
+
+// Whether a value of --material is a metal, which reflects its surroundings.
 export const isMetal = (material) => /\bmetallic=1\b/.test(material ?? '');
 
 export class State {

@@ -1,5 +1,5 @@
-// thumbnails.js: draws small pictures of choices. They are drawn by a second worker, so that the first worker keeps the page's model loaded. The second worker
-// is started after the first picture, and ended when all small pictures are drawn.
+// thumbnails.js: small pictures of choices. A second worker draws them, so that the first keeps the page's model loaded. It starts after the first picture,
+// or after the message that there is none, and ends when all small pictures are drawn.
 import { on, view } from './app.js';
 import { MODULE_BYTES } from './memory.js';
 import { openWorker } from './start.js';
@@ -10,9 +10,9 @@ let waiting = [], isRunning = false;
 // Draws the picture of the words on a canvas, immediately or later.
 export function thumbnail(canvas, words) {
   waiting.push({ canvas, words });
-  if (view.picture) work();
+  if (view.isIdle) work();
 }
-on('still', work);
+on('idle', work);
 
 function show(canvas, image) {
   Object.assign(canvas, { width: image.width, height: image.height });

@@ -5,14 +5,14 @@ import { $, button, element } from './dom.js';
 import { move } from './move.js';
 import { setOption } from './row.js';
 import { showNumber, slider } from './slider.js';
-import { State, VIEW } from './state.js';
+import { VIEW, without } from './state.js';
 import { text } from './strings.js';
 import { followWindow, isFollowing } from './window_size.js';
 
 const NAMES = { front: 'viewFront', back: 'viewBack', left: 'viewLeft', right: 'viewRight', top: 'viewTop', bottom: 'viewBottom', iso: 'viewIso' };
 
 // Shows the whole model from the direction that the program chooses.
-export const viewAll = () => state.set([...VIEW.filter((name) => name !== 'projection'), 'camera'].reduce((words, name) => new State(words).withValues(name, []), state.words));
+export const viewAll = () => state.set(without(state.words, ...VIEW.filter((name) => name !== 'projection'), 'camera'));
 
 function toggleFullScreen() {
   const done = document.fullscreenElement ? document.exitFullscreen() : $('stage').requestFullscreen();

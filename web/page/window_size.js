@@ -3,7 +3,8 @@ import { on, stageSize, state } from './app.js';
 
 let filled = stageSize(), timer = 0;
 
-export const isFollowing = () => state.values('size').at(-1) === filled;
+export const windowSize = () => `--size=${filled}`;
+export const isFollowing = () => state.words.includes(windowSize());
 
 // Makes the picture fill the window, also after the window's size changes.
 export function followWindow() {

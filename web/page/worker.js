@@ -29,7 +29,7 @@ const aboutThreads = () => ({ threads: lambent.threads, shared: lambent.instance
 
 // The part of a divided module that each of these calls needs. The part is downloaded before the call, because a call that stops at a missing part loses the
 // model.
-const NEEDS = { explain: 'more', lights: 'more', scene: 'more', contents: 'more' };
+const NEEDS = { explain: 'more', curves: 'more', lights: 'more', scene: 'more', contents: 'more' };
 const neededPart = ({ call, parted }) => parted && NEEDS[call] && (threaded ? 'threads-' : '') + NEEDS[call];
 
 const calls = {

@@ -1,16 +1,49 @@
-// written_lights.js: writes the lights of the picture as options, so that the user can change lights that the program has chosen.
-import { call, state } from './app.js';
+// written_lights.js: the picture's lights as options, so that the page can change lights that the program has chosen or read from a file.
+import { call, emit, on, state, view } from './app.js';
 import { lightWords } from './lights.js';
-import { State } from './state.js';
+import { State, appearance } from './state.js';
 
-// Returns the words with the picture's lights, and the number of lights. Draws the picture with these words, and returns null if it differs from the picture
-// before.
-export async function writtenLights() {
-  const before = state.words, { lights, ambient } = await call('lights', { words: before });
-  let words = state.withValues('rig', []);
+const MOST = 16; // a file with more lights keeps them for itself
+const SMALL = ['96x96'];
+let own = null; // the lights of the model's file, and the words that they were read for
+
+// `lights`: { texts, ambient, exposure } of readLights.
+export function withLights(words, { texts, ambient, exposure }) {
   const change = (name, values) => (words = new State(words).withValues(name, values));
-  change('light', lights.map(lightWords));
-  change('ambient', ambient.some((x) => x > 0) ? [ambient.join('/')] : []);
-  const [old, now] = [await call('draw', { words: before }), await call('draw', { words })];
-  return old.pixels.some((byte, i) => byte !== now.pixels[i]) ? null : { words, count: lights.length };
+  change('rig', []);
+  change('light', texts);
+  change('exposure', exposure);
+  return change('ambient', ambient);
 }
+
+// Returns the lights of the picture. The lights of a glTF file need an automatic exposure. Null: the picture would change, which is checked.
+export async function readLights(words) {
+  const { lights, ambient } = await call('lights', { words }), old = await call('draw', { words });
+  for (const exposure of [new State(words).values('exposure'), ['auto']]) {
+    const made = { texts: lights.map(lightWords), ambient: ambient.some((x) => x > 0) ? [ambient.join('/')] : [], exposure };
+    const now = await call('draw', { words: withLights(words, made) });
+    if (now.pixels.every((byte, i) => byte === old.pixels[i])) return made;
+  }
+  return null;
+}
+
+const isOwn = () => view.picture?.own_lights && !state.values('light').length && own?.texts && own.model === state.model;
+
+// The lights that the page can change: the lights of --light, or else the lights of the model's file.
+export const lightsNow = () => (isOwn() ? own.texts : state.values('light'));
+
+// The words in which --light sets these lights.
+export const wordsOfLights = () => (isOwn() ? withLights(state.words, own) : state.words);
+
+export const setLights = (texts, key = null) => state.set(new State(wordsOfLights()).withValues('light', texts), key);
+
+// Reads the lights of a file when its picture is shown, and again when an option may have changed them.
+async function readOwn() {
+  const { words, model } = state, key = appearance(words);
+  if (!view.picture.own_lights || own?.key === key) return;
+  const small = new State(words).withValues('size', SMALL), made = await readLights(small).catch(() => null);
+  own = { key, model, ...(made?.texts.length <= MOST ? made : {}) };
+  emit('lights');
+}
+on('still', readOwn);
+if (view.picture) readOwn();

@@ -60,15 +60,19 @@ def light_row(rig, light):
 
 
 def rigs(program, _):
-    """The rigs' lights, from `lambent lights` for a sphere with radius 1 around the origin."""
+    """The rigs' lights, from `lambent lights` for a sphere with radius 1 around the origin: of few triangles, and of many (curved)."""
     yield "| rig | light | from | diffuse | specular | others |"
     yield "|---|---|---|---|---|---|"
     manual = output(program, "generate", "markdown")
     words = re.search(r"(?m)^\| `--rig NAME`.*$", manual).group()
     for rig in re.findall(r"<br>`([\w-]+)`:", words):
-        lights = json.loads(output(program, "lights", "sphere", "--rig", rig))["lights"] if rig not in ("auto", "none", "file", "default") else []
-        for i, light in enumerate(lights):
-            yield light_row("`%s`" % rig if i == 0 else "", light)
+        if rig in ("auto", "none", "file", "default"):
+            continue
+        for segments, form in (("16x8", ""), ("64x32", ", curved models")):
+            if rig == "studio" or not form:
+                lights = json.loads(output(program, "lights", "sphere", "--segments", segments, "--rig", rig))["lights"]
+                for i, light in enumerate(lights):
+                    yield light_row("`%s`%s" % (rig, form) if i == 0 else "", light)
 
 
 def explained(program, before):

@@ -421,8 +421,9 @@ LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_
                                          const lam_view *view, lam_vec3 centre, const lam_vec3 *axis);
 
 // Lists the lights of a frame: first the lights of the scene, then the lights of the rig. Returns their number and
-// copies the first `capacity` of them to `lights`, which may be NULL. Names are valid until the scene changes.
-LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int capacity);
+// copies the first `capacity` of them to `lights`, which may be NULL. `ground`: as in lam_scene_rig_lights. Names are
+// valid until the scene changes.
+LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light *lights, int capacity);
 
 // Returns the report of the device's last frame; all zero before the first frame.
 LAM_API void lam_device_report(const lam_device *device, lam_frame_report *report);

@@ -366,8 +366,10 @@ LAM_API bool lam_scene_transform(lam_scene *scene, const lam_mat4 *transform, la
 LAM_API bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, double angle_rad, lam_error *error);
 
 // Writes the lights that a rig adds to this scene, at their positions, and returns their number. The call works like
-// lam_rig_lights, but resolves LAM_RIG_AUTO.
-LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
+// lam_rig_lights, but resolves LAM_RIG_AUTO. The lights of LAM_RIG_STUDIO differ for curved models and terrains, unless
+// the picture has a ground (`ground`).
+LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground,
+                                 lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
 // Makes tangents for every mesh that has texture coordinates and no tangents, by MikkTSpace, which is the basis of
 // baked normal maps (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). At each corner, ∂p/∂s is

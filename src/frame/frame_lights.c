@@ -146,7 +146,7 @@ bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig
     for (int i = 0; i < scene->lights.count && !none; i++)
         if ((only < 0 || only == i) && !add_light(frame, scene, lam_scene_light(scene, i), i, view, error))
             return false;
-    int count = frame->rig_count = lam_scene_rig_lights(scene, rig, frame->rig);
+    int count = frame->rig_count = lam_scene_rig_lights(scene, rig, frame->settings.ground, frame->rig);
     for (int i = 0; i < count && !none; i++)
         if ((only < 0 || only == scene->lights.count + i) && !add_light(frame, scene, &frame->rig[i], -1, view, error))
             return false;

@@ -23,6 +23,6 @@ bool is_terrain_on_z(const struct lam_scene *scene)
         return false;
     for (int i = 0; i < scene->meshes.count; i++)
         if (!mesh_is_strokes(scene_mesh(scene, i)))
-            mesh_add_areas(scene_mesh(scene, i), 0, 1, NULL, v3(0, 0, 1), &all, &facing);
+            mesh_add_areas(scene_mesh(scene, i), v3(0, 0, 1), &all, &facing);
     return facing > FACING * all && facing < EVEN * all;
 }

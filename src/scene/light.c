@@ -83,11 +83,12 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
     return light;
 }
 
-// Makes the default rig. The key light is near: 3.2 times half the box's diagonal from the centre, in front and to the
-// left, so that the light varies across a flat face. The key light's strength ranges from 1.3 on the near side of the
-// model to 0.75 on the far side. The rim light comes from above and behind. Tops are brightest, left sides darker and
-// right sides darkest, so that the three visible faces of a cube differ at each azimuth. At the corner of the box that
-// is nearest to the key light, a point reflects ka or kd times at most
+// Makes the default rig; rig_suit_form changes it for curved models and terrains. The key light is near: 3.2 times half
+// the box's diagonal from the centre, in front and to the left, so that the light varies across a flat face. The key
+// light's strength ranges from 1.3 on the near side of the model to 0.75 on the far side. The rim light comes from above
+// and behind. Tops are brightest, left sides darker and right sides darkest, so that the three visible faces of a cube
+// differ at each azimuth. At the corner of the box that is nearest to the key light, a point reflects ka or kd times at
+// most
 //
 //  0.66·1.33 (key) + 0.19 (sky) = 1.07
 //

@@ -186,19 +186,23 @@ bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error)
 // Returns the largest distance of a used vertex from a point, in world space.
 double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
 
-// Adds twice the areas of the triangles `first`, `first + step`, … to *all. Adds the components of the triangles' area
-// vectors along `axis` to *facing. These components are positive for front faces whose normal is `axis`. `transform`
-// may be NULL.
-void mesh_add_areas(const lam_mesh *mesh, size_t first, size_t step, const lam_mat4 *transform, lam_vec3 axis,
-                    double *all, double *facing);
+// Adds twice the areas of a mesh's triangles to *all, and the components of their area vectors along `axis` to *facing.
+// These components are positive for front faces whose normal is `axis`.
+void mesh_add_areas(const lam_mesh *mesh, lam_vec3 axis, double *all, double *facing);
 
-// Returns whether the visible objects are a terrain: an open surface with slopes, most of which faces up. The test
-// samples
-// a few hundred triangles. `scene` may be NULL.
-bool scene_is_terrain(const struct lam_scene *scene);
+// The form of a scene, by which the studio chooses its lights.
+enum scene_form {
+    FORM_FLAT,    // most of the area is in few flat faces, as in machine parts; also every scene with few triangles
+    FORM_CURVED,  // the normals differ everywhere, as in scans
+    FORM_TERRAIN, // an open surface with slopes, most of which faces up
+};
 
-// Changes the lights of the studio for a terrain, and returns their number.
-int rig_light_from_side(lam_light lights[LAM_RIG_LIGHTS_MAX]);
+// Returns the form of the visible objects, from a few hundred sampled triangles. The result is the same on every
+// computer, and in each frame of an animation. `scene` may be NULL.
+enum scene_form scene_form(const struct lam_scene *scene);
+
+// Changes the lights of the studio for a form, and returns their number, which is `count` for flat faces.
+int rig_suit_form(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, enum scene_form form);
 
 // Returns whether a mesh consists of lines or points. Functions that compute normals or follow surfaces skip such
 // meshes.

@@ -179,13 +179,13 @@ static void place_rig_light(const lam_scene *scene, lam_light *light)
     light->attenuation.quadratic = (float)((double)light->attenuation.quadratic / (radius * radius));
 }
 
-int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX])
+int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     if (rig == LAM_RIG_AUTO)
         rig = lam_scene_light_count(scene) || scene_lit_by_environment(scene) ? LAM_RIG_NONE : LAM_RIG_STUDIO;
     int count = lam_rig_lights(rig, lights);
-    if (rig == LAM_RIG_STUDIO && scene_is_terrain(scene))
-        count = rig_light_from_side(lights);
+    if (rig == LAM_RIG_STUDIO && !ground)
+        count = rig_suit_form(lights, count, scene_form(scene));
     for (int i = 0; i < count; i++)
         place_rig_light(scene, &lights[i]);
     return count;

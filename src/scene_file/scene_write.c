@@ -495,7 +495,7 @@ static json_t *light_json(struct scene_writer *w, const lam_light *given)
     return out;
 }
 
-static void put_lights(struct scene_writer *w, json_t *root, lam_rig rig)
+static void put_lights(struct scene_writer *w, json_t *root, lam_rig rig, bool ground)
 {
     lam_rgb ambient = lam_scene_ambient(w->scene);
     lam_light lights[LAM_RIG_LIGHTS_MAX];
@@ -504,7 +504,7 @@ static void put_lights(struct scene_writer *w, json_t *root, lam_rig rig)
     put(w, root, "lights", list);
     for (int i = 0; i < lam_scene_light_count(w->scene); i++)
         append(w, list, light_json(w, lam_scene_light(w->scene, i)));
-    int count = lam_scene_rig_lights(w->scene, rig, lights);
+    int count = lam_scene_rig_lights(w->scene, rig, ground, lights);
     for (int i = 0; i < count; i++)
         append(w, list, light_json(w, &lights[i]));
 }
@@ -668,7 +668,7 @@ static bool encode(struct scene_writer *w, const lam_picture_settings *settings,
     if (up != LAM_UP_Y && up != LAM_UP_AUTO)
         put(w, root, "up", word(up_words, (int)up));
     ok = ok && put_objects(w, root);
-    put_lights(w, root, settings->draw.rig);
+    put_lights(w, root, settings->draw.rig, settings->draw.ground);
     ok = memory_or(w, ok) && scene_print(root, out, w->error);
     json_decref(root);
     return ok;
@@ -711,7 +711,7 @@ bool lam_lights_encode(const lam_scene *scene, lam_rig rig, lam_bytes *out, lam_
     uint64_t state = float_state_enter();
     json_t *root = json_object();
     put(&writer, root, "lambent", json_integer(1));
-    put_lights(&writer, root, rig);
+    put_lights(&writer, root, rig, false);
     bool ok = memory_or(&writer, root != NULL) && scene_print(root, out, error);
     json_decref(root);
     float_state_leave(state);

@@ -312,7 +312,7 @@ static struct mask mask_of(const struct demo *demo, bool soft)
     if (demo->params.ground == LAM_GROUND_CHECKER) // edges of squares, which are not edges of objects
         mask_unstable(&mask, demo, size);
     static lam_light lights[4096];
-    int count = lam_draw_lights(demo->scene, demo->params.rig, lights, 4096);
+    int count = lam_draw_lights(demo->scene, demo->params.rig, demo->params.ground, lights, 4096);
     for (int i = 0; i < count && count <= 16 && demo->params.reflection != LAM_REFLECTION_NONE; i++) {
         bool casts =
             demo->params.shadows && lights[i].type != LAM_LIGHT_AMBIENT && lights[i].type != LAM_LIGHT_HEMISPHERE;

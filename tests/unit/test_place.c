@@ -334,21 +334,21 @@ static void rigs_stand_about_the_scene(void **state)
     move.m[1][3] = 10;
     assert_true(lam_scene_transform(scene, &move, NULL));
     lam_light lights[LAM_RIG_LIGHTS_MAX];
-    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_LECTURE, lights), 1);
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_LECTURE, false, lights), 1);
     near(lights[0].position.x, 2, 1e-5);
     near(lights[0].position.y, 14, 1e-5);
     near(lights[0].position.z, 6, 1e-5);
     near((double)lights[0].ambient.g, 0.1, 1e-7);
     assert_true(lights[0].diffuse.r == 1 && lights[0].specular.b == 1 && lights[0].attenuation.constant == 1);
-    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_NONE, lights), 0);
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_NONE, false, lights), 0);
     lam_light studio[LAM_RIG_LIGHTS_MAX];
-    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, lights), lam_rig_lights(LAM_RIG_STUDIO, studio));
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, true, lights), lam_rig_lights(LAM_RIG_STUDIO, studio));
     for (int rig = 0; rig <= LAM_RIG_LECTURE; rig++)
         for (int i = 0, count = lam_rig_lights((lam_rig)rig, lights); i < count; i++)
             assert_true(lam_light_check(&lights[i], NULL));
     lam_light own = lam_light_default(LAM_LIGHT_POINT);
     assert_int_equal(lam_scene_add_light(scene, &own, NULL), 0);
-    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, lights), 0);
+    assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, false, lights), 0);
     lam_scene_free(scene);
 }
 
@@ -387,31 +387,64 @@ static lam_scene *hills(float height)
     return scene;
 }
 
-// The studio lights a terrain from the side, whatever its axes, and nothing else.
-static void terrains_are_lit_from_the_side(void **state)
+// The studio lights a terrain from the left and below the view's axis, whatever its axes, and nothing else.
+static void terrains_are_lit_from_below(void **state)
 {
     (void)state;
     lam_light lights[LAM_RIG_LIGHTS_MAX];
-    lam_scene *terrain = hills(0.4f), *level = hills(0), *steep = hills(4), *ball = shape_scene("sphere", 2);
-    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, lights), 3);
-    assert_true(-lights[0].position.x > lights[0].position.y + lights[0].position.z);
+    lam_scene *terrain = hills(0.4f), *level = hills(0), *steep = hills(4);
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, false, lights), 3);
+    assert_true(lights[0].position.x < 0 && lights[0].position.y < 0 && lights[0].position.z > 0);
     assert_string_equal(lights[2].name, "sky");
     for (int i = 0; i < 3; i++)
         assert_true(lam_light_check(&lights[i], NULL));
-    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_THREE_POINT, lights), 4);
-    assert_int_equal(lam_scene_rig_lights(level, LAM_RIG_AUTO, lights), 4);
-    assert_int_equal(lam_scene_rig_lights(steep, LAM_RIG_AUTO, lights), 4);
-    assert_int_equal(lam_scene_rig_lights(ball, LAM_RIG_AUTO, lights), 4);
-    lam_scene_set_up(terrain, LAM_UP_Z); // it stands like a wall
-    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, lights), 4);
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_THREE_POINT, false, lights), 4);
+    assert_int_equal(lam_scene_rig_lights(level, LAM_RIG_AUTO, false, lights), 4);
+    assert_int_equal(lam_scene_rig_lights(steep, LAM_RIG_AUTO, false, lights), 4);
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, true, lights), 4); // with a ground
+    lam_scene_set_up(terrain, LAM_UP_Z);                                            // it stands like a wall
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, false, lights), 4);
     assert_true(lam_scene_rotate(terrain, (lam_vec3){0, 0, 0}, (lam_vec3){1, 0, 0}, PI_HALF, NULL));
-    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, lights), 3);
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, false, lights), 3);
     assert_true(lam_scene_hide_object(terrain, 0, true, NULL)); // the other half faces up too
-    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, lights), 3);
+    assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, false, lights), 3);
     lam_scene_free(terrain);
     lam_scene_free(level);
     lam_scene_free(steep);
-    lam_scene_free(ball);
+}
+
+// Without a ground, curved models have a strong key light and no rim light, however they are rotated. Models with flat
+// faces have the lights of the rig, also if they consist of many triangles.
+static void curved_models_have_their_own_light(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *shape;
+        bool curved;
+    } cases[] = {{"sphere", true}, {"teapot", true}, {"torus", true}, {"torus-knot", true}, {"cube", false}};
+    lam_light lights[LAM_RIG_LIGHTS_MAX], studio[LAM_RIG_LIGHTS_MAX];
+    const int all = lam_rig_lights(LAM_RIG_STUDIO, studio);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        lam_scene *scene = shape_scene(cases[i].shape, 1);
+        for (int turn = 0; turn < 3; turn++) {
+            assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, false, lights), all - cases[i].curved);
+            assert_true((lights[0].diffuse.r > studio[0].diffuse.r) == cases[i].curved);
+            assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, true, lights), all);
+            assert_true(lights[0].diffuse.r == studio[0].diffuse.r);
+            assert_true(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){1, 2, 3}, 0.7, NULL));
+        }
+        lam_scene_free(scene);
+    }
+    lam_scene *many = lam_scene_make(NULL), *cut = hills(0);
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_shape(many, "cube", NULL, NULL);
+    for (int i = 0; i < 100; i++)
+        assert_true(lam_scene_add_object(many, &object, NULL) >= 0);
+    assert_true(lam_scene_triangle_count(many) >= 1024 && lam_scene_triangle_count(cut) >= 1024);
+    assert_int_equal(lam_scene_rig_lights(many, LAM_RIG_AUTO, false, lights), all);
+    assert_int_equal(lam_scene_rig_lights(cut, LAM_RIG_AUTO, false, lights), all);
+    lam_scene_free(many);
+    lam_scene_free(cut);
 }
 
 static void draw(lam_scene *scene, lam_image *image)
@@ -526,7 +559,8 @@ int main(void)
         cmocka_unit_test(lights_go_with_the_model),
         cmocka_unit_test(view_matrix),
         cmocka_unit_test(parts_change_their_material),
-        cmocka_unit_test(terrains_are_lit_from_the_side),
+        cmocka_unit_test(terrains_are_lit_from_below),
+        cmocka_unit_test(curved_models_have_their_own_light),
     };
     return cmocka_run_group_tests(all, NULL, NULL);
 }

@@ -112,12 +112,12 @@ static bool apply_sides(const struct options *o, lam_scene *scene, lam_error *er
 
 // --- the rig
 
-static bool add_rig(lam_scene *scene, lam_rig rig, lam_error *error)
+static bool add_rig(const struct job *job, lam_error *error)
 {
     lam_light lights[LAM_RIG_LIGHTS_MAX];
-    int count = lam_scene_rig_lights(scene, rig, lights);
+    int count = lam_scene_rig_lights(job->scene, job->rig, job->options->draw.ground, lights);
     for (int i = 0; i < count; i++)
-        if (lam_scene_add_light(scene, &lights[i], error) < 0)
+        if (lam_scene_add_light(job->scene, &lights[i], error) < 0)
             return false;
     return true;
 }
@@ -126,7 +126,7 @@ static bool lit_by_environment(const struct job *job)
 {
     lam_light lights[LAM_RIG_LIGHTS_MAX];
     return job->rig == LAM_RIG_AUTO && lam_scene_light_count(job->scene) == 0 &&
-           lam_scene_rig_lights(job->scene, LAM_RIG_AUTO, lights) == 0;
+           lam_scene_rig_lights(job->scene, LAM_RIG_AUTO, false, lights) == 0;
 }
 
 // Sets the environment that drawing would use for a scene without lights, because options will add lights.
@@ -170,7 +170,7 @@ static bool apply_rig(struct job *job, lam_error *error)
                     !o->animation.place_lights;
     if (job->rig == LAM_RIG_NONE || as_it_is)
         return true;
-    bool ok = (!job->studio || set_studio(job, error)) && add_rig(job->scene, job->rig, error);
+    bool ok = (!job->studio || set_studio(job, error)) && add_rig(job, error);
     job->rig = LAM_RIG_NONE;
     return ok;
 }

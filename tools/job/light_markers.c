@@ -105,13 +105,14 @@ bool light_markers_add(struct job *job, lam_error *error)
     lam_scene *scene = job->scene;
     lam_vec3 centre;
     double radius;
-    int own = lam_scene_light_count(scene), count = lam_draw_lights(scene, job->rig, NULL, 0);
+    int own = lam_scene_light_count(scene),
+        count = lam_draw_lights(scene, job->rig, job->options->draw.ground, NULL, 0);
     if (!lam_scene_sphere(scene, -1, &centre, &radius))
         return true;
     lam_light *lights = calloc((size_t)count + 1, sizeof *lights);
     if (!lights)
         return complain(error, LAM_LIMIT, "out of memory");
-    lam_draw_lights(scene, job->rig, lights, count);
+    lam_draw_lights(scene, job->rig, job->options->draw.ground, lights, count);
     // The rig's lights are added to the scene first, because some of them depend on the scene's sphere, which the
     // markers enlarge.
     bool ok = true;

@@ -81,7 +81,7 @@ static bool save_layers(const struct layers *layers, const struct job *job, lam_
 
 bool show_all_write(struct job *job, const lam_control *control, lam_error *error)
 {
-    int light_count = lam_draw_lights(job->scene, job->draw.rig, NULL, 0);
+    int light_count = lam_draw_lights(job->scene, job->draw.rig, job->draw.ground, NULL, 0);
     size_t room = 1 + TERMS + (size_t)light_count;
     lam_light *lights = calloc((size_t)light_count + 1, sizeof *lights);
     struct layers layers = {.list = calloc(room, sizeof *layers.list),
@@ -91,7 +91,7 @@ bool show_all_write(struct job *job, const lam_control *control, lam_error *erro
     if (!ok)
         complain(error, LAM_LIMIT, "out of memory");
     if (ok) {
-        lam_draw_lights(job->scene, job->draw.rig, lights, light_count);
+        lam_draw_lights(job->scene, job->draw.rig, job->draw.ground, lights, light_count);
         ok = draw_all(&layers, job, lights, light_count, control, error) && save_layers(&layers, job, error);
     }
     for (size_t i = 0; layers.images && i < room; i++)

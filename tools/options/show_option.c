@@ -106,11 +106,11 @@ bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params
     params->output = text && strcmp(text, "all") != 0 ? split(text, &wanted) : LAM_OUTPUT_PICTURE;
     if (!takes_light(params->output))
         return true;
-    int count = lam_draw_lights(scene, params->rig, NULL, 0);
+    int count = lam_draw_lights(scene, params->rig, params->ground, NULL, 0);
     lam_light *lights = calloc((size_t)count + 1, sizeof *lights);
     if (!lights)
         return complain(error, LAM_LIMIT, "out of memory");
-    lam_draw_lights(scene, params->rig, lights, count);
+    lam_draw_lights(scene, params->rig, params->ground, lights, count);
     params->output_light = find(wanted, lights, count);
     bool directed = params->output != LAM_OUTPUT_LIGHT;
     bool ok = params->output_light >= 0 && (!directed || has_direction(&lights[params->output_light]));

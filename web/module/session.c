@@ -206,10 +206,10 @@ static double spot_value(const lam_light *light, double x) { return (double)lam_
 // The light with this number among the picture's lights listed by an explanation; other types are not listed.
 static lam_light light_of(const struct job *job, int number)
 {
-    int count = lam_draw_lights(job->scene, job->rig, NULL, 0);
+    int count = lam_draw_lights(job->scene, job->rig, job->options->draw.ground, NULL, 0);
     lam_light *lights = calloc((size_t)count + 1, sizeof *lights), found = lam_light_default(LAM_LIGHT_AMBIENT);
     if (lights)
-        lam_draw_lights(job->scene, job->rig, lights, count);
+        lam_draw_lights(job->scene, job->rig, job->options->draw.ground, lights, count);
     for (int i = 0; lights && i < count; i++)
         if (lights[i].type != LAM_LIGHT_AMBIENT && lights[i].type != LAM_LIGHT_HEMISPHERE && number-- == 0)
             found = lights[i];

@@ -44,13 +44,13 @@ bool lam_output_is_light(lam_output output)
     return (unsigned)output <= LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_ENVIRONMENT;
 }
 
-int lam_draw_lights(const lam_scene *scene, lam_rig rig, lam_light *lights, int capacity)
+int lam_draw_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light *lights, int capacity)
 {
     int count = lam_scene_light_count(scene);
     for (int i = 0; lights && i < count && i < capacity; i++)
         lights[i] = *lam_scene_light(scene, i);
     lam_light rig_lights[LAM_RIG_LIGHTS_MAX];
-    int rig_count = lam_scene_rig_lights(scene, rig, rig_lights);
+    int rig_count = lam_scene_rig_lights(scene, rig, ground, rig_lights);
     for (int i = 0; lights && i < rig_count && count + i < capacity; i++)
         lights[count + i] = rig_lights[i];
     return count + rig_count;

@@ -4,6 +4,7 @@ import os
 import math
 import re
 import shutil
+import struct
 import unittest
 
 from harness import ROOT, Case, pixel, read_png
@@ -59,6 +60,28 @@ class Default(Case):
                     self.assertEqual(len(tones), 3)
                     self.assertGreaterEqual(min(tones[1] - tones[0], tones[2] - tones[1]), 20)
                     self.assertLessEqual(tones[2], 245) # darker than white paper
+
+    def test_form(self):
+        """Curved models have no rim light. Models with few triangles and files with animations, whose form may change, have one."""
+        lights = lambda *words: [light["name"] for light in json.loads(self.good("lights", *words, "--rig", "studio").stdout)["lights"]]
+        self.good("convert", "sphere", "still.glb", "-q")
+        data = (self.folder / "still.glb").read_bytes()
+        size = struct.unpack("<I", data[12:16])[0]
+        gltf, buffer = json.loads(data[20:20 + size]), data[28 + size:]
+        gltf["bufferViews"] += [{"buffer": 0, "byteOffset": len(buffer) + 16 * i, "byteLength": 4 + 12 * i} for i in range(2)]
+        view, accessor = len(gltf["bufferViews"]) - 2, len(gltf["accessors"])
+        gltf["accessors"] += [{"bufferView": view, "componentType": 5126, "count": 1, "type": "SCALAR", "min": [0], "max": [0]},
+                              {"bufferView": view + 1, "componentType": 5126, "count": 1, "type": "VEC4"}]
+        gltf["animations"] = [{"samplers": [{"input": accessor, "output": accessor + 1}],
+                               "channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}]}]
+        buffer += struct.pack("<8f", 0, 0, 0, 0, 0, 0, 0, 1)
+        gltf["buffers"][0] = {"byteLength": len(buffer), "uri": "moving.bin"}
+        (self.folder / "moving.bin").write_bytes(buffer)
+        (self.folder / "moving.gltf").write_text(json.dumps(gltf))
+        self.given |= {"still.glb", "moving.bin", "moving.gltf"}
+        self.assertEqual(lights("still.glb"), ["key", "fill", "sky"])
+        for words in (["moving.gltf"], ["moving.gltf", "--animation", "0"], ["sphere", "--segments", "16x8"], ["cube"]):
+            self.assertEqual(lights(*words), ["key", "fill", "rim", "sky"], words)
 
     def test_dark_models_get_more_light(self):
         """Their exposure depends on their colours. It is the same from every side, and is not used with a given exposure, colour or light."""

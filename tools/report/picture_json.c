@@ -1,6 +1,8 @@
 // picture_json.c: describes a drawn picture in JSON for web pages.
 #include "picture_json.h"
 
+#include <lambent/material.h>
+
 #include "light_place.h"
 
 static void answer_camera(struct json *json, const struct job *job)

@@ -5,8 +5,6 @@
 
 #include "light_place.h"
 
-#include <lambent/material.h>
-
 static void answer_camera(struct json *json, const struct job *job)
 {
     const lam_camera *c = &job->camera;

@@ -129,7 +129,7 @@ ROWS = [
     ("docs/check.md", "exponent {}; attenuation 1/(1 + {} d + {} d²)", code("classroom/check/contracts/nyu.json", r'"shininess": (\d+)'),
      code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, ([\d.]+),'),
      code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, [\d.]+, ([\d.]+)\]')),
-    ("tools/options/option_table.c", "the number of triangles that cover a pixel: c/(c + {})", OVERDRAW),
+    ("tools/options/option_table.c", "c/(c + {}) for a pixel that c triangles cover", OVERDRAW),
     ("include/lambent/device.h", "no channel below {}", LEAST_ID),
     ("docs/opengl.md", "in tiles of {}×{} pixels", *2 * [constant("src/gl/gl_device.h", "PART_SIZE_MAX")]),
     ("docs/opengl.md", "the teapot ({} triangles)", TEAPOT),
@@ -146,7 +146,7 @@ ROWS = [
      TOLERANCE, PIXELS_OVER_CHECK),
     ("tools/options/option_table.c", "fills {} % of the picture's width or height", PERCENT_FILL),
     ("tools/options/option_table.c", "a vertical field of view of {} degrees", FOVY),
-    ("tools/options/option_table.c", "`fovy` (the full vertical angle in degrees: {};", FOVY),
+    ("tools/options/option_table.c", "`fovy` is the full vertical angle in degrees (default: {})", FOVY),
     ("tools/options/option_table.c", "With more than {} lights, Lambent skips the weakest", FEW_LIGHTS),
     ("include/lambent/camera.h", "in (0, π); 0: {}°", FOVY),
     ("include/lambent/camera.h", "in (0, 1]. 0: {}.", FILL),
@@ -261,9 +261,9 @@ class Defaults(Case):
         """The same for the keys in the values of --edges, --wireframe and --turntable, whose defaults stand in the text."""
         made = generated("markdown")
         for words, key, standard, other, text in (
-                (["--edges"], "angle", "40", "20", "`angle` (40 degrees)"), (["--edges"], "width", "1.5", "3", "`width` (1.5 pixels)"),
-                (["--edges"], "color", "black", "red", "`color` (black)"), (["--wireframe"], "width", "1", "2", "the width in pixels (1)"),
-                (["--wireframe"], "color", "black", "red", "the colour (black)"), (["--turntable", "3"], "light", "camera", "model", "keeping them with the camera")):
+                (["--edges"], "angle", "40", "20", "`angle` (default: 40 degrees)"), (["--edges"], "width", "1.5", "3", "`width` (default: 1.5 pixels)"),
+                (["--edges"], "color", "black", "red", "`color` (default: black)"), (["--wireframe"], "width", "1", "2", "the width in pixels (default: 1)"),
+                (["--wireframe"], "color", "black", "red", "the colour (default: black)"), (["--turntable", "3"], "light", "camera", "model", "keeping them with the camera")):
             with self.subTest((words, key)):
                 self.assertIn(text, made)
                 plain = {"--edges": ["all"]}.get(words[0], words[1:])

@@ -12,10 +12,10 @@ class Shape(Case):
 
     def test_model_files_show_the_same_picture(self):
         words = ["shape", "--parametric", RIPPLE, "--u", "0..4", "--segments", "40x60"]
-        self.good(*words, "-o", "drawn.png", "-s", "96")
+        self.good(*words, "-o", "drawn.png", "-s", "128")
         for ending in ("obj", "ply"):
             self.good(*words, "-o", "r." + ending)
-            self.good("r." + ending, "-o", "read.png", "-s", "96")
+            self.good("r." + ending, "-o", "read.png", "-s", "128")
             self.assertEqual((self.folder / "drawn.png").read_bytes(), (self.folder / "read.png").read_bytes(), ending)
         self.good(*words, "-o", "r.stl")
         self.assertEqual((self.folder / "r.stl").stat().st_size, 84 + 50 * (2 * 40 * 60 - 60))  # the centre is a pole

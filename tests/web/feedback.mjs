@@ -89,8 +89,15 @@ async function places({ open, origin }) {
   await settled(page, 'behind');
   const after = await behind.boundingBox(), now = await boxOf(page, '#canvas');
   ok(before.x === after.x && before.y === after.y, 'the button stays under the pointer', JSON.stringify([before, after]));
-  const names = await page.getByLabel('The light to move').locator('option').allTextContents();
-  ok(names.join() === 'Main light,Fill light,Light from behind' && /name=key.*name=fill.*name=rim/.test(await commandOf(page)), 'the lights have plain names', names.join());
+  const names = async (on) => (await on.getByLabel('The light to move').locator('option').allTextContents()).join();
+  ok((await names(page)) === 'Main light,Fill light' && /name=key.*name=fill/.test(await commandOf(page)), 'the lights of a curved model have plain names', await names(page));
+  const flat = await open(origin + fragment(['cube', '--size=96x96']));
+  await drawn(flat, 'a cube');
+  await flat.getByRole('button', { name: 'Behind', exact: true }).click();
+  await until(flat, () => location.hash.includes('light'));
+  await settled(flat, 'a cube from behind');
+  ok((await names(flat)) === 'Main light,Fill light,Light from behind' && /name=key.*name=fill.*name=rim/.test(await commandOf(flat)), 'the lights of a cube have plain names', await names(flat));
+  await flat.context().close();
   ok((await page.locator('[aria-pressed=true]', { hasText: /^(From the front|Left|Right|Above|Behind)$/ }).allTextContents()).join() === 'Behind', 'the chosen direction is marked');
   ok(JSON.stringify(canvas) === JSON.stringify(now), 'a longer command line leaves the picture in place', JSON.stringify([canvas, now]));
   await page.getByRole('button', { name: 'gold', exact: true }).click();

@@ -83,6 +83,7 @@ async function sceneFiles({ open, origin, models }) {
   ok((await shows('#canvas')) === 'hidden' && (await shows('#message')) === 'visible', 'the picture of the last model disappears');
   await page.locator('#undo').click();
   await settled(page, 'undone');
+  await until(page, () => getComputedStyle(document.getElementById('canvas')).visibility === 'visible');
   ok((await shows('#canvas')) === 'visible', 'and is there again after undo');
   await page.locator('#files').setInputFiles(['quad.obj', 'quad.mtl', 'quad.jpg', 'side.png'].map((name) => join(models, 'textured', name)));
   await until(page, () => document.getElementById('model').value === '/quad.obj');

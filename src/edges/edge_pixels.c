@@ -2,9 +2,9 @@
 //
 // The coverage of a pixel is the area of its square that a strip of the stroke's width covers. Projected across the
 // strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
-// strip's angle. Along any row or column that crosses a line, the sum of the line's coverage is therefore its width in
-// that direction, at any position. At a crossing the largest coverage is used, so that edges shared by two triangles,
-// and corners, are not darker than the rest.
+// strip's angle. Therefore, for any position of a line, its coverage along any row or column that crosses the line adds
+// up to the width of the line in that direction. At a crossing the largest coverage is used, so that edges shared by
+// two triangles, and corners, are not darker than the rest.
 #define LANES 1
 #include "edge_lines.h"
 
@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-enum { BAND = 32, BANDS_MAX = 65536 / BAND }; // rows per task; tasks of the highest picture
+enum { BAND = 32, BANDS_MAX = 65536 / BAND }; // rows per task; number of tasks for the tallest picture
 
 struct cover_job {
     struct edge_memory *memory;
@@ -123,7 +123,7 @@ static void bands_of(const struct edge_stroke *s, int bands, int *first, int *la
     *last = clamped((high + reach) / BAND, bands - 1);
 }
 
-// Lists the strokes of each band by counting. The order of a band's strokes does not matter.
+// Lists the strokes of each band with a counting sort. The order of a band's strokes does not matter.
 static bool list_strokes(struct cover_job *job, int bands, struct call_control *call, lam_error *error)
 {
     struct edge_memory *memory = job->memory;

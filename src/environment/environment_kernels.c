@@ -154,7 +154,8 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
         for (size_t i = 0; i < sums->count; i++) {
             const struct opposite_texels *from = &sums->pair[i];
             num along = x * from->direction[0] + y * from->direction[1] + z * from->direction[2];
-            num cosine = absolute(along), weight = cosine; // the weight of the direction that is above the horizon
+            num cosine = absolute(along),
+                weight = cosine; // the share of the direction's weight that lies above the horizon
             mask behind = along < 0.0f;
             if (q > 0) {
                 num part = square / (1.0f - q * (1.0f + cosine));

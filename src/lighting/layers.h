@@ -4,7 +4,7 @@
 // The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). The formulas are from the Khronos
 // extensions KHR_materials_ior, specular, clearcoat, sheen, anisotropy, iridescence, transmission and volume. `set`
 // contains a bit for each layer of the material (layer_kinds.h). For materials without layers, lobes.h and sum.h are
-// sufficient. Colours of the base layer are multiplied by pi, like every lobe here.
+// sufficient. The colours of the base layer include the factor pi, as do all lobes in this file.
 
 // The numbers of a material at a point.
 STRUCT(layer_values)
@@ -468,7 +468,7 @@ FN vec3 layered_transmittance(surface s, layered m, layer_values given, int set)
 
 // --- C only: the GLSL text ends here (src/glsl/embed.py).
 
-// Returns the numbers of a material that are the same at all points. The base colour, the coat's normal and the
+// Returns the values of a material that are the same at all points. The base colour, the coat's normal and the
 // stretched direction are not set, because they differ between points.
 LANE_FN layer_values layers_of(const lam_material *m)
 {

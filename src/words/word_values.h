@@ -11,8 +11,8 @@ enum { WORDS_MAX = 1024 };
 // Copies a text that the caller will split in place. Returns false if the text is too long.
 bool word_copy(const char *text, char copy[WORDS_MAX], lam_error *error);
 
-// Returns the index of `name` in a list that ends with NULL. Returns −1 if the name is missing; the error then suggests
-// the nearest name, or lists all names.
+// Returns the index of `name` in a list that ends with NULL. Returns −1 if the name is not in the list; the error then
+// suggests the nearest name, or lists all names.
 int word_key(const char *name, const char *const *names, lam_error *error);
 
 // Like word_key, for the keys from 0 to `count` − 1; `count` must be at most WORD_KEYS_MAX. Keys without a name are

@@ -25,8 +25,8 @@ enum output_given { OUTPUT_BY_MODEL, OUTPUT_NAMED, OUTPUT_PATTERN };
 enum output_given output_given(const char *output);
 
 // Checks before the work starts that `path` can be written: its folder exists and is writable, and the path is not a
-// folder. If the name comes from the model, an existing file must have been written by Lambent. If the user did not
-// name the file, its folder may be missing (-o pictures/), as long as the program can create the folder.
+// folder. If the name comes from the model, an existing file must have been written by Lambent. If --output names only
+// a folder (-o pictures/), the folder need not exist yet, but the program must be able to create it.
 bool output_check(const char *path, const char *model, enum output_given given, lam_error *error);
 
 // Returns true if the picture is written directly to `path` as a PNG: "-", or a pipe or device without the extension of

@@ -109,9 +109,9 @@ int reference_scene_find(const char *name); // returns −1 if not found
 // each triangle. The 16-bit indices of OpenGL ES 2 are sufficient. The arrays are allocated with malloc.
 struct reference_points {
     float *positions, *normals, *tangents;
-    // Data for maps. Texture coordinates have two floats and are linear in the position, so that their derivatives are
-    // nowhere zero. Tangents have four floats: the tangent and the sign of the bitangent. On a patch the tangent is the
-    // direction in which u increases.
+    // Data for maps. Texture coordinates consist of two floats. They are linear in the position, so their derivatives
+    // are nonzero everywhere. Tangents have four floats: the tangent and the sign of the bitangent. On a patch the
+    // tangent is the direction in which u increases.
     float *texture_coordinates, *surface_tangents, *bitangents;
     uint16_t *indices;
     int vertex_count, count; // `count` is the number of indices

@@ -41,8 +41,9 @@ char *arena_string(struct arena *arena, const char *text);
 char *arena_string_of(struct arena *arena, const char *text, size_t length);
 char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 
-// Makes the arena the owner of `held` bytes at `pages` (pages.h). `charged` is the number of bytes charged to its call
-// for these pages; arena_free refunds it. Returns false if memory runs out; the caller then still owns the pages.
+// Makes the arena the owner of `held` bytes at `pages` (pages.h). `charged` is the number of bytes that the arena
+// charged to the call for these pages; arena_free refunds these bytes. Returns false if memory runs out; the caller
+// then still owns the pages.
 bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged);
 
 // For tests: makes allocation number `countdown` of this thread fail once; 0 is the next allocation. −1 disables this.

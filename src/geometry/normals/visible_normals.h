@@ -1,6 +1,6 @@
 // visible_normals.h: computes normals for some or all triangles of a mesh.
 //
-// A picture of a large model shows only few of the model's triangles. Only the corners at the positions of visible
+// A picture of a large model shows only a few of the model's triangles. Only the corners at the positions of visible
 // triangles are searched. The normals at these corners are bit-identical to the normals that are computed for the whole
 // mesh.
 #ifndef VISIBLE_NORMALS_H

@@ -1,8 +1,8 @@
 // batch_use.h: the interface for commands that draw many models for a purpose other than writing pictures, such as
 // hashes and comparisons.
 //
-// These commands share the loop over the models with its workers, processes, sandbox, messages and counts. The results
-// for each model are stored in its record.
+// These commands share the loop over the models, including its workers, processes, sandbox, messages and counts. The
+// results for each model are stored in its record.
 #ifndef BATCH_USE_H
 #define BATCH_USE_H
 

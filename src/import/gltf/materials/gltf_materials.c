@@ -58,7 +58,8 @@ static bool take_specular_glossiness(struct gltf *gltf, const struct place *plac
         !take_share(gltf, here, pbr, "glossinessFactor", &f->glossiness))
         return false;
     f->metallic = 0;
-    // If there is a map, the roughness is 1 − glossiness · alpha, which the map computes as offset + scale · alpha.
+    // With a map, the roughness is 1 − glossiness · alpha. The offset and scale of the map express this as offset +
+    // scale · alpha.
     f->roughness = json_object_get(pbr, "specularGlossinessTexture") ? 1 : 1 - f->glossiness;
     return true;
 }

@@ -17,8 +17,8 @@ enum {
 };
 
 // Sets the indices and the triangle_count of the mesh from the indices of the primitive. `mode` must be one of the
-// three modes for triangles. Checks that every index is below mesh->vertex_count. Degenerate triangles of strips and
-// fans, which use a vertex twice, are dropped.
+// three modes for triangles. Checks that every index is below mesh->vertex_count. Drops the degenerate triangles of
+// strips and fans, that is, triangles that use a vertex twice.
 bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh);
 
 // Like gltf_triangles, for lines and points: sets line_count or point_count.

@@ -58,9 +58,9 @@ LAM_API bool lam_scene_encode(const lam_scene *scene, const lam_picture_settings
                               lam_bytes *out, lam_error *error);
 
 // Writes the lights of a scene and a rig (LAM_RIG_AUTO: the studio if the scene has no lights) as the keys "ambient"
-// and "lights" of a scene file. These lights light a picture without a ground. The caller frees `out` with
-// lam_bytes_free. Errors: LAM_LIMIT.
-LAM_API bool lam_lights_encode(const lam_scene *scene, lam_rig rig, lam_bytes *out, lam_error *error);
+// and "lights" of a scene file. `ground`: as in lam_scene_rig_lights. The caller frees `out` with lam_bytes_free.
+// Errors: LAM_LIMIT.
+LAM_API bool lam_lights_encode(const lam_scene *scene, lam_rig rig, bool ground, lam_bytes *out, lam_error *error);
 
 #ifdef __cplusplus
 }

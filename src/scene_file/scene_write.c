@@ -703,7 +703,7 @@ bool lam_scene_save(const lam_scene *scene, const lam_picture_settings *settings
     return ok;
 }
 
-bool lam_lights_encode(const lam_scene *scene, lam_rig rig, lam_bytes *out, lam_error *error)
+bool lam_lights_encode(const lam_scene *scene, lam_rig rig, bool ground, lam_bytes *out, lam_error *error)
 {
     if (!scene || !out)
         return fail(error, LAM_BAD_ARGUMENT, "lam_lights_encode: %s is NULL", scene ? "out" : "scene");
@@ -711,7 +711,7 @@ bool lam_lights_encode(const lam_scene *scene, lam_rig rig, lam_bytes *out, lam_
     uint64_t state = float_state_enter();
     json_t *root = json_object();
     put(&writer, root, "lambent", json_integer(1));
-    put_lights(&writer, root, rig, false);
+    put_lights(&writer, root, rig, ground);
     bool ok = memory_or(&writer, root != NULL) && scene_print(root, out, error);
     json_decref(root);
     float_state_leave(state);

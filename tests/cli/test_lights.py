@@ -177,6 +177,14 @@ class Pictures(Case):
 
 
 class Lights(Pictures):
+    def test_list_with_a_ground(self):
+        """The lights are listed that light the picture: with a ground, a curved model has the rim light too."""
+        for words in (["torus-knot"], ["torus-knot", "--ground"], ["cube", "--ground"]):
+            listed = json.loads(self.good("lights", *words).stdout)["lights"]
+            self.good(*words, "-s", 16, "-o", "x.png", "--save-scene", "x.json")
+            self.assertEqual(listed, json.loads((self.folder / "x.json").read_text())["lights"], words)
+            self.assertEqual([light["name"] for light in listed], ["key", "fill", *(["rim"] if "--ground" in words else []), "sky"])
+
     def test_a_light_replaces_the_default_and_plus_adds(self):
         sky = ("--light", "hemisphere:sky=0.5,ground=0.1")
         self.same(("--light", "none"), ("--rig", "none"))

@@ -564,8 +564,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
     lam_error error = {0};
     char *store[ACROSS_MAX] = {0}, *path = NULL;
     bool ok = sheet_choose(options, &c.sheet, store, &error);
-    if (ok && !(path = path_of(options, c.model, c.sheet.name)))
-        ok = complain(&error, LAM_LIMIT, "out of memory");
+    ok = ok && ((path = path_of(options, c.model, c.sheet.name)) || complain(&error, LAM_LIMIT, "out of memory"));
     ok = ok && check(options, &c.sheet, c.model, path, &error);
     if (ok) {
         struct sandbox_paths paths = {0};

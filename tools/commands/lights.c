@@ -22,7 +22,8 @@ int run_lights(int operand_count, char **operands, const struct options *options
     struct sandbox_paths paths = {0};
     sandbox_add_input(&paths, job.model);
     bool ok = sandbox_start(options, &paths, &error) && job_load(&job, &progress, &error) &&
-              job_arrange(&job, &progress, &error) && lam_lights_encode(job.scene, job.rig, &text, &error);
+              job_arrange(&job, &progress, &error) &&
+              lam_lights_encode(job.scene, job.rig, options->draw.ground, &text, &error);
     progress_end(&progress);
     if (ok)
         fwrite(text.data, 1, text.size, stdout); // main reports a failed write

@@ -264,7 +264,7 @@ int web_lights(int count)
     lam_error error = {0};
     lam_bytes text = {0};
     bool ok = start(count, &options, &job, &error) && job_load(&job, NULL, &error) && job_arrange(&job, NULL, &error) &&
-              lam_lights_encode(job.scene, job.rig, &text, &error);
+              lam_lights_encode(job.scene, job.rig, job.options->draw.ground, &text, &error);
     if (ok) {
         fwrite(text.data, 1, text.size, stdout);
     }

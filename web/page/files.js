@@ -33,7 +33,7 @@ on('ready', showModels);
 // Matches the options that refer to contents of a model.
 const OF_MODEL = /^--(camera|hide|animation|time|variant|scene)=|^--(back-)?material=.*@/;
 
-// Another model starts with its own view and materials, not with those of the first picture. A scene file describes the whole picture.
+// Another model starts with its own view and materials, not with the view and materials of the first picture. A scene file describes the whole picture.
 function takeModel(name) {
   const set = setOf(name), own = set ? START : [];
   if (set && isScene(name)) return state.set([name, ...(setsSize(name, set.files) ? [] : [windowSize()])]);

@@ -158,7 +158,7 @@ typedef enum lam_output {
 typedef enum lam_tone {
     // KHRONOS_NEUTRAL if the frame shows a physical material, otherwise NONE.
     LAM_TONE_AUTO = 0,
-    LAM_TONE_NONE,     // each channel is clipped at 1
+    LAM_TONE_NONE,     // no curve: each channel is clipped at 1
     LAM_TONE_REINHARD, // x / (1 + x) for each channel (Reinhard et al., 2002)
     // Hill's fit of the ACES reference and output transform for sRGB screens.
     LAM_TONE_ACES,

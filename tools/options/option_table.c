@@ -57,8 +57,9 @@ static const struct choice shard_by_words[] = {
     {"list", SHARD_BY_LIST, "into consecutive blocks of one sorted list, so that each shard reads only its own models"},
     {NULL, 0, NULL}};
 static const struct choice light_frame_words[] = {
-    {"object", LAM_FRAME_OBJECT, "in object space: the model-view matrix transforms the position, like the vertices"},
-    {"camera", LAM_FRAME_CAMERA, "in eye space: used as given"},
+    {"object", LAM_FRAME_OBJECT,
+     "in object space: the model-view matrix transforms the position, as it transforms the vertices"},
+    {"camera", LAM_FRAME_CAMERA, "in eye space: Lambent uses the position without a transform"},
     {NULL, 0, NULL}};
 
 static const struct choice highlight_words[] = {
@@ -72,7 +73,7 @@ static const struct choice term_words[] = {{"all", LAM_CHECK_TERM_ALL, NULL},
 
 static const struct choice compress_words[] = {
     {"fast", LAM_COMPRESS_FAST, "compresses a million pixels in a few milliseconds"},
-    {"best", LAM_COMPRESS_BEST, "makes the file about a third smaller, in a second or two for a million pixels"},
+    {"best", LAM_COMPRESS_BEST, "makes the file about a third smaller, but takes a second or two for a million pixels"},
     {NULL, 0, NULL}};
 
 static const struct choice term_words_list[] = {
@@ -87,7 +88,7 @@ static const struct choice term_words_list[] = {
 static const struct choice color_mode_words[] = {
     {"srgb", LAM_COLOR_SRGB,
      "Lambent decodes the colours of files, computes lighting in linear light and encodes the picture"},
-    {"raw", LAM_COLOR_RAW, "no conversion; the file stores the results of the equations"},
+    {"raw", LAM_COLOR_RAW, "Lambent converts no colours; the file stores the results of the equations"},
     {NULL, 0, NULL}};
 
 static const struct choice show_words[] = {
@@ -113,7 +114,8 @@ static const struct choice show_words[] = {
     {"overdraw", LAM_OUTPUT_OVERDRAW, "c/(c + 3) for a pixel that c triangles cover"},
     {"clipped", LAM_OUTPUT_CLIPPED, "red if a channel of the picture is above 1, blue if a channel is below 0"},
     {"base-color", LAM_OUTPUT_BASE_COLOR,
-     "the base colour of a physical material, or the diffuse colour of a classic one, times maps and vertex colours"},
+     "the base colour of a physical material, or the diffuse colour of a classic one, multiplied by maps and vertex "
+     "colours"},
     {"roughness", LAM_OUTPUT_ROUGHNESS, "the roughness of physical materials"},
     {"metallic", LAM_OUTPUT_METALLIC, "the metalness of physical materials"},
     {"occlusion", LAM_OUTPUT_OCCLUSION, "the factor of an occlusion map"},
@@ -124,7 +126,7 @@ static const struct choice show_words[] = {
 
 static const struct choice glsl_words[] = {
     {"330", LAM_GLSL_330, "OpenGL 3.3"},
-    {"120", LAM_GLSL_120, "OpenGL 2.1: attribute and varying, no blocks, no flat"},
+    {"120", LAM_GLSL_120, "OpenGL 2.1: with attribute and varying, without uniform blocks and flat inputs"},
     {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
     {NULL, 0, NULL}};
 
@@ -136,7 +138,7 @@ static const struct choice style_words[] = {
 static const struct choice lights_in_words[] = {
     {"auto", LAM_SHADER_LIGHTS_AUTO, "an array in GLSL 120 and in the lecture style, otherwise a block"},
     {"array", LAM_SHADER_LIGHTS_ARRAY, "plain uniforms, set one by one: lights[0].position"},
-    {"block", LAM_SHADER_LIGHTS_BLOCK, "uniform blocks, std140"},
+    {"block", LAM_SHADER_LIGHTS_BLOCK, "uniform blocks in the std140 layout"},
     {"texture", LAM_SHADER_LIGHTS_TEXTURE, "floating-point textures, for thousands of lights"},
     {NULL, 0, NULL}};
 
@@ -171,7 +173,7 @@ static char reflection_summary[400], output_summary[200];
 
 static const struct choice tone_words[] = {
     {"auto", LAM_TONE_AUTO, "khronos-neutral for pictures with physical materials, otherwise none"},
-    {"none", LAM_TONE_NONE, "each channel is clipped at 1"},
+    {"none", LAM_TONE_NONE, "no curve: each channel is clipped at 1"},
     {"reinhard", LAM_TONE_REINHARD, "x / (1 + x) for each channel"},
     {"aces", LAM_TONE_ACES, "film-like contrast (Hill's fit of ACES)"},
     {"agx", LAM_TONE_AGX, "soft contrast; bright colours fade to white"},
@@ -194,7 +196,8 @@ static const struct choice rig_words[] = {
     {"studio", LAM_RIG_STUDIO, "key, fill and rim lights fixed to the camera, with sky and ground light"},
     {"headlight", LAM_RIG_HEADLIGHT, "one light from the eye"},
     {"three-point", LAM_RIG_THREE_POINT, "key, fill and back lights as in portrait photography, fixed to the camera"},
-    {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r: ambient 0.1, diffuse and specular 1, attenuation 1/0/0"},
+    {"lecture", LAM_RIG_LECTURE,
+     "a point light at 1r/2r/3r with ambient 0.1, diffuse and specular 1, and attenuation 1/0/0"},
     {NULL, 0, NULL}};
 
 static const struct choice turntable_light_words[] = {
@@ -204,14 +207,14 @@ static const struct choice turntable_light_words[] = {
 
 static const struct choice device_words[] = {
     {"auto", DEVICE_AUTO, "OpenGL if `--gl-device` names a device, otherwise the CPU"},
-    {"cpu", DEVICE_CPU, "the processor, which draws identical bytes on every machine"},
+    {"cpu", DEVICE_CPU, "the processor, which draws identical pictures on every machine"},
     {"gl", DEVICE_GL, "OpenGL 3.3"},
     {"gles", DEVICE_GLES, "OpenGL ES 3.0, as in WebGL 2"},
     {NULL, 0, NULL}};
 
 static const struct choice texture_filter_words[] = {
-    {"exact", TEXTURE_FILTER_EXACT, "filtering in the shader: within 1/255 of the CPU device's picture"},
-    {"hardware", TEXTURE_FILTER_HARDWARE, "filtering by the graphics card: faster, less exact"},
+    {"exact", TEXTURE_FILTER_EXACT, "the shader filters; the picture is within 1/255 of the CPU device's picture"},
+    {"hardware", TEXTURE_FILTER_HARDWARE, "the graphics card filters; this is faster and less exact"},
     {NULL, 0, NULL}};
 
 static const struct choice cull_words[] = {{"none", LAM_CULL_NONE, "draw both sides"},
@@ -225,7 +228,7 @@ static const struct choice back_face_words[] = {{"two-sided", 0, "with the rever
 
 static const struct choice normals_words[] = {
     {"file", LAM_NORMALS_FILE, "the file's normals, or smooth normals if the file contains none"},
-    {"smooth", LAM_NORMALS_SMOOTH, "computed smooth normals; the file's normals are ignored"},
+    {"smooth", LAM_NORMALS_SMOOTH, "computed smooth normals instead of the file's normals"},
     {"facet", LAM_NORMALS_FACET, "one normal for each triangle"},
     {NULL, 0, NULL}};
 
@@ -258,18 +261,19 @@ static const struct choice isa_words[] = {
 struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
      "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. If "
-     "the name of a file, pipe or device has no known extension, Lambent also writes a PNG. By default, Lambent writes "
-     "`MODEL.png` to the current folder (`model.png` if the model comes from standard input). By default, Lambent "
-     "never overwrites a file that another program created. `-o pictures/`, with a trailing slash, writes to that "
-     "folder and creates the folder if it is missing. Every command that writes files accepts a folder in this form. "
-     "`--out` is an alias of `--output`.\nA file name may contain placeholders in braces, which Lambent replaces for "
-     "each model: `-o 'thumbs/{dir}/{stem}-{view}.png'`. `{stem}` is the model's file name without the extension, "
-     "`{ext}` is the extension, and `{dir}` is the model's folder (without `..` or a leading slash). `{view}` is the "
-     "value of `--view`, and `{size}` is the size in pixels (`256` or `256x128`). Lambent creates missing folders and "
-     "replaces existing files. If the pictures of two models would have the same file name, Lambent reports an error "
-     "before it starts. To write a literal brace, use `{{` or `}}`.\nWith the extension `.html`, Lambent writes one "
-     "file that contains the picture and the model. Open the file in a browser to turn the model and change every "
-     "option. The page works offline (`docs/web.md`). This format requires the page built by `make web`.",
+     "the name of a file, pipe or device has no known extension, Lambent also writes a PNG. Without `-o`, Lambent "
+     "writes `MODEL.png` to the current folder (`model.png` if the model comes from standard input). Without `-o`, "
+     "Lambent never overwrites a file that another program created. `-o pictures/` (with a slash at the end) writes to "
+     "the folder `pictures`, and creates this folder if it is missing. Every command that writes files accepts a "
+     "folder in this form. `--out` is an alias of `--output`.\nA file name may contain placeholders in braces: `-o "
+     "'thumbs/{dir}/{stem}-{view}.png'`. Lambent replaces the placeholders for each model. `{stem}` is the model's "
+     "file name without the extension, `{ext}` is the extension, and `{dir}` is the model's folder (without `..` or a "
+     "leading slash). `{view}` is the value of `--view`, and `{size}` is the size in pixels (`256` or `256x128`). With "
+     "placeholders, Lambent creates missing folders and replaces existing files. If the pictures of two models would "
+     "have the same file name, Lambent reports an error before it starts. To write a literal brace, use `{{` or "
+     "`}}`.\nWith the extension `.html`, Lambent writes one file that contains the picture and the model. Open the "
+     "file in a browser to turn the model and change every option. The page works offline (`docs/web.md`). This format "
+     "requires the page built by `make web`.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
      .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
      FIELD(picture.output), .single = TAKES_OUTPUT, .not_in = IN_LOOK | IN_JOB | IN_KEY | IN_PAGE},
@@ -298,58 +302,57 @@ struct option option_table[OPTIONS_MAX] = {
     {"point-size", 0, GROUP_PICTURE, "PIXELS", "by the number of points", NULL,
      "Lambent draws the points of OBJ (`p`) and glTF files, and the vertices of PLY files without faces and edges, at "
      "the same size at every distance. The default is 16 % of the picture's shorter side, divided by the square root "
-     "of the number of points, but at most 2.5 % of the shorter side. The minimum is 3 pixels. If there are fewer than "
-     "100 points, the minimum is 8 pixels.",
+     "of the number of points, but at most 2.5 % of the shorter side. The default is never below 3 pixels. For fewer "
+     "than 100 points, the default is never below 8 pixels.",
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
-     "The background fills all pixels that the model does not cover, also with `--show` and on sheets. The sheets of "
-     "`compare` and `materials` are white by default. A colour is `#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), three or "
-     "four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a name. The names are `black`, `white`, `gray`, "
-     "`silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, `orange` and the other colour names of HTML 4.",
+     "The background fills all pixels that the model does not cover, also with `--show` and on sheets. A colour is "
+     "`#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), three or four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a "
+     "name. The names are `black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
+     "`orange` and the other colour names of HTML 4.",
      .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
      .others = "bg background-color backdrop transparent", FIELD(picture.background), .also_in = IN_SHEET},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
      FIELD(picture.color_mode), .also_in = IN_SHEET, .not_in = KEEPS_MODEL},
     {"compress", 0, GROUP_PICTURE, "LEVEL", "fast", "The compression of PNG files: fast or best.",
-     "`best` makes the file about a third smaller, but takes a second or two for a million pixels; `fast` takes a few "
-     "milliseconds. The pixels are identical. Other formats ignore the option. `best` needs libdeflate, and the bytes "
-     "of the file depend on the version of libdeflate. With `fast`, the bytes depend only on the picture.",
+     "Both levels store the same pixels. The option has no effect on other formats. `best` needs libdeflate. The bytes "
+     "of the file then depend on the version of libdeflate. With `fast`, the bytes depend only on the picture.",
      compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress),
      .not_in = IN_PAGE},
     {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG, lossless for WebP",
      "The quality of JPEG and WebP files, 1 to 100.",
      "A lower number gives a smaller file of lower quality. At 90 and above, JPEG files store a colour for every "
-     "pixel; below 90, they store one colour for every four pixels. WebP is lossless at 100 and by default. Other "
-     "formats ignore the option. The bytes depend on the version of libjpeg-turbo or libwebp.",
+     "pixel; below 90, they store one colour for every four pixels. WebP is lossless at 100 and by default. The option "
+     "has no effect on other formats. The bytes depend on the version of libjpeg-turbo or libwebp.",
      .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
      .max = 100, .not_in = IN_PAGE},
     {"term", 0, GROUP_PICTURE, "METHOD", "auto",
-     "The method that shows the picture in the terminal; off shows no picture there.",
-     "If the terminal can show pictures and `-o` is missing, Lambent shows a single picture above the line that names "
-     "the picture's file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and "
-     "WezTerm by their environment variables, and queries other terminals (for at most half a second). If the picture "
-     "is wider than the window, Lambent scales the picture down. With a value other than `auto`, Lambent also shows "
-     "the picture if `-o` names a file with 8 bits per channel. Lambent shows no picture with `--json` or `--quiet`, "
-     "with several models, or if standard output is not a terminal. `sixel` and `blocks` need libchafa (Debian's "
-     "package `libchafa0`). `docs/terminal.md` lists the terminals.",
+     "How to show the picture in the terminal: auto, kitty, iterm2, sixel, blocks or off.",
+     "If the terminal supports pictures and you omit `-o`, Lambent shows the picture above the line that names the "
+     "picture's file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and "
+     "WezTerm by their environment variables. Lambent queries other terminals, which takes at most half a second. If "
+     "the picture is wider than the window, Lambent scales the picture down. With `kitty`, `iterm2`, `sixel` or "
+     "`blocks`, Lambent also shows the picture if `-o` names a file with 8 bits per channel. Lambent shows no picture "
+     "with `--json` or `--quiet`, with several models, or if standard output is not a terminal. `sixel` and `blocks` "
+     "need libchafa (Debian's package `libchafa0`). `docs/terminal.md` lists the terminals.",
      term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,
      .others = "terminal sixel kitty preview inline", FIELD(picture.term)},
     {"durable", 0, GROUP_PICTURE, NULL, NULL, "Flush each picture and its folder to disk before continuing (fsync).",
      "After a power failure, the disk contains either the complete old picture or the complete new one. Without this "
-     "option, the operating system writes pictures to disk within seconds, and most file systems give the same "
-     "guarantee.",
+     "option, the operating system writes pictures to disk within seconds. Most file systems then also keep either the "
+     "old picture or the new one.",
      .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable),
      .not_in = IN_JOB | IN_KEY | IN_PAGE},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
-     "The exposure in stops: 1 doubles the light, -1 halves the light; or auto.",
+     "The exposure in stops, or auto: 1 doubles the light, -1 halves the light.",
      "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. The "
      "exposure also applies to `--color-mode raw`, to float pictures and to the light terms of `--show`. The "
-     "background keeps its colour. If "
-     "the picture uses the lights of a glTF file (candela, lux), the default is `auto`. With `auto`, Lambent selects "
-     "an exposure, in thirds of a stop, at which 95 % of the covered pixels are no brighter than 0.8. Lambent reports "
-     "the selected exposure. `--exposure 0` keeps the light unchanged.",
+     "background keeps its colour. If the picture uses the lights of a glTF file (candela, lux), the default is "
+     "`auto`. With `auto`, Lambent selects the highest exposure at which 95 % of the covered pixels have a brightness "
+     "of at most 0.8. Lambent tries exposures in steps of a third of a stop. Lambent reports the selected exposure. "
+     "`--exposure 0` keeps the light unchanged.",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
@@ -438,21 +441,21 @@ struct option option_table[OPTIONS_MAX] = {
      "The axis is x, y or z of the scene. Lambent applies rotations in the given order. Lights do not move, except "
      "lights that are fixed to the model. Lengths with the unit r refer to the model before the rotation. Lambent also "
      "fits the camera to the model before the rotation. If the model would leave the picture at any angle, the camera "
-     "moves back, so that the model has the same size and position at every angle. All pictures of a sheet share this "
-     "camera.",
+     "moves back. The model therefore has the same size and position at every angle. All pictures of a sheet share "
+     "this camera.",
      .brief = "rotate the model: y:30", .store = store_rotation, .others = "r rotation turn spin",
      FIELD(shading.rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
      "A camera: eye=x/y/z,target=x/y/z,fovy=30 and more keys; or a camera of the model file, given by its name or "
      "number.",
-     "A value without `=` is the name of a camera in the model file (glTF), or its number, counted from 0. Otherwise, "
+     "A value without `=` selects a camera of a glTF file, by its name or number (the first camera is 0). Otherwise, "
      "the value is a list of keys, separated by commas, in the model's own coordinates. `eye` is required, unless "
      "`fovy` is the only key. By default, `target` is the middle of the model, and `up` is the model's up axis. In a "
-     "perspective projection, `fovy` is the full vertical angle in degrees (default: 30); without other keys, `fovy` "
-     "is the same as `--fov`. In a parallel projection, `ortho` is the distance from the picture's middle to its top, "
-     "in model units. Give both `near` and `far`, or neither; by default, Lambent fits both to the scene. You cannot "
-     "combine this option with `--view`, `--azimuth`, `--elevation`, `--zoom`, `--fov` or `--projection`. `--json` "
-     "reports the camera of any picture with these keys.",
+     "perspective projection, `fovy` is the full vertical angle in degrees (default: 30). Without other keys, "
+     "`--camera fovy=60` and `--fov 60` are equivalent. In a parallel projection, `ortho` is the distance from the "
+     "picture's middle to its top, in model units. Give both `near` and `far`, or neither. By default, Lambent fits "
+     "both distances to the scene. You cannot combine this option with `--view`, `--azimuth`, `--elevation`, `--zoom`, "
+     "`--fov` or `--projection`. `--json` reports the camera of any picture with these keys.",
      .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
      .min = FOV_MIN, .max = FOV_MAX},
 
@@ -467,16 +470,17 @@ struct option option_table[OPTIONS_MAX] = {
      "direction. `direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` is the point at "
      "which the light aims. By default, a directional light travels along 0/0/-1, and a spot aims at the model's "
      "centre. `frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the frame of the "
-     "scene. `camera` is the frame of the eye: x right, y up, looking along -z; a light without a position is at the "
-     "eye. `view` uses the axes of the eye, with the origin at the middle of the scene's box. `object` is the frame of "
-     "the model before `--rotate`, and `object:NAME` is the frame of a named object.\nEmission: `color` times "
-     "`intensity` is the diffuse and specular light (default: 1). `ambient` (default: 0), `diffuse` and `specular` set "
-     "each term separately. A colour is `#rrggbb`, a name, `r/g/b` (linear) or one number. An ambient light uses "
-     "`color` or `ambient` (default: 0.2). A hemisphere light uses `sky` (default: 0.4), `ground` (default: 0.1) and "
-     "`up`.\nFalloff: `attenuation=a/b/c` is 1/(a + b d + c d^2). With r after b and c, the distance d is in radii "
-     "(`1/2.7r/5r`). `range` (also with r) is the distance beyond which the light contributes nothing. The cone of a "
-     "spot is defined by `cutoff` (half angle in degrees, default: 45) and `exponent`, or by the half angles `inner` "
-     "and `outer`. `name` appears in reports.\n`lambent help lights` lists all keys.",
+     "scene. `camera` is the frame of the eye: x points right, y points up, and the eye looks along -z. In this frame, "
+     "a light without a position is at the eye. `view` uses the axes of the eye, with the origin at the middle of the "
+     "scene's box. `object` is the frame of the model before `--rotate`, and `object:NAME` is the frame of a named "
+     "object.\nEmission: `color` times `intensity` is the diffuse and specular light (default: 1). `ambient` (default: "
+     "0), `diffuse` and `specular` set each term separately. A colour is `#rrggbb`, a name, `r/g/b` (linear) or one "
+     "number. An ambient light uses `color` or `ambient` (default: 0.2). A hemisphere light uses `sky` (default: 0.4), "
+     "`ground` (default: 0.1) and `up`.\nFalloff: `attenuation=a/b/c` is 1/(a + b d + c d^2). With r after b and c, "
+     "the distance d is in radii (`1/2.7r/5r`). `range` (also with r) is the distance beyond which the light "
+     "contributes nothing. The cone of a spot is defined by `cutoff` (half angle in degrees, default: 45) and "
+     "`exponent`, or by the half angles `inner` and `outer`. `name` appears in reports.\n`lambent help lights` lists "
+     "all keys.",
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... replace the studio", .store = store_light,
      .others = "l lamp sun spot point directional lighting", FIELD(lighting.lights)},
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
@@ -502,11 +506,10 @@ struct option option_table[OPTIONS_MAX] = {
      "markers outside the picture.",
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
-     "With more than 16 lights, Lambent skips the weakest lights in each part of the picture. Together, the skipped "
+     "With more than 16 lights, Lambent skips the weakest lights in each region of the picture. Together, the skipped "
      "lights can change a channel by at most this share of the channel's range. The default is half a step of an 8-bit "
-     "channel "
-     "(0.5/255), so no byte changes by more than 1. Lambent always skips lights that contribute nothing, because they "
-     "are behind the surface or out of range, or because the surface is outside their cone.",
+     "channel (0.5/255), so no byte changes by more than 1. Lambent always skips lights that contribute nothing: "
+     "lights behind the surface, lights out of range, and spot lights whose cone does not reach the surface.",
      .words = NULL, .not_in = IN_LOOK},
     {"ao", 0, GROUP_LIGHTS, "METHOD", NULL, NULL,
      "A recess receives less light from its surroundings than an open face. Occlusion dims ambient, hemisphere and "
@@ -520,9 +523,8 @@ struct option option_table[OPTIONS_MAX] = {
      "on`.",
      .others = "curvature ridges valleys no-cavity"},
     {"specular-aa", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "This option enables specular antialiasing. If the normals of a mesh or of a normal map vary within a pixel, "
-     "highlights become jagged streaks that flicker. Specular antialiasing increases the roughness of such pixels "
-     "(`docs/lighting/physical.md`).",
+     "If the normals of a mesh or of a normal map vary within a pixel, highlights become jagged streaks that flicker. "
+     "Specular antialiasing increases the roughness of such pixels (`docs/lighting/physical.md`).",
      .others = "specular-antialiasing toksvig glitter fireflies no-specular-aa"},
     {"brighten", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
      "A black model needs more light than a white model; otherwise, only the outline of the black model is visible. If "
@@ -543,23 +545,25 @@ struct option option_table[OPTIONS_MAX] = {
      "followed by keys (`gold,shininess=80`). Under the default lights, `brass`, `bronze`, `chrome`, `copper`, `gold` "
      "and `silver` without keys are physical metals that reflect the studio. `glass` is clear glass (`lambent help "
      "glass`). Properties that you do not list keep the model's values. `lambent help materials` lists the keys (a "
-     "colour is `#rrggbb`, a name, `r/g/b` or one number). `color` sets ambient and diffuse; `specular_color` sets "
-     "specular. The factors `ka`, `kd` and `ks` multiply the ambient, diffuse and specular colour. `kr` sets the "
-     "reflectivity to `kr` times `specular_color` (default: white).\n`@NAME` limits the option to the surfaces of that "
-     "name: `ruby@handle`. Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and "
-     "then for materials of the model. If several options match a surface, the last one wins.",
+     "colour is `#rrggbb`, a name, `r/g/b` or one number). `color` sets the ambient and diffuse colour. "
+     "`specular_color` sets the specular colour. The factors `ka`, `kd` and `ks` multiply the ambient, diffuse and "
+     "specular colour. `kr` sets the reflectivity. If you also give `specular_color`, the reflectivity is `kr` times "
+     "this colour.\n`@NAME` limits the option to the surfaces of that name: `ruby@handle`. Lambent first looks for "
+     "objects of that name, then for parts (OBJ groups, STL solids), and then for materials of the model. If several "
+     "options match a surface, the last one wins.",
      .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
      .others = "m mat specular diffuse", FIELD(material.materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
      "The colour replaces the ambient and diffuse colour of every material, including colours set by `--material`. "
      "Highlights keep their colour. The option is short for `--material color=COLOR`. A colour alone is also a valid "
-     "material: `--material '#ff8800@handle'`. (`--color raw` and `--color srgb` still mean `--color-mode`.)",
+     "material: `--material '#ff8800@handle'`. For old scripts, `--color raw` means `--color-mode raw`, and `--color "
+     "srgb` means `--color-mode srgb`.",
      .kind = VALUE_COLOR, .brief = "of the model: red, '#ff8800'", .store = store_opaque_color,
      .others = "c paint tint albedo model-color mesh-color surface-color", FIELD(material.model_color),
      .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
-     "The material of back faces, written as for `--material`; properties that you do not list are copied from the "
-     "front.",
+     "The material of back faces, in the form of `--material`; properties that you do not list keep the front's "
+     "values.",
      NULL, .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
      "Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and then for surfaces "
@@ -582,9 +586,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"reflection", 0, GROUP_SHADING, "MODEL", NULL, reflection_summary,
      .others = "brdf lobe pbr lighting-model reflection-model blinn-phong lambert"},
     {"stage", 0, GROUP_SHADING, "STAGE", "fragment", NULL,
-     "Without `--shading`, `application` and `vertex` imply Gouraud shading, and `fragment` implies Phong shading. "
-     "`flat` works with all three stages, `gouraud` with `application` and `vertex`, and `phong` with `fragment`. On "
-     "the CPU, a shading method draws the same picture at every stage.",
+     "Without `--shading`, `application` and `vertex` imply Gouraud shading, and `fragment` implies Phong shading. The "
+     "list shows the shading methods of each stage. On the CPU, a shading method draws the same picture at every "
+     "stage.",
      .others = "per-vertex per-pixel per-fragment"},
     {"flat-normal", 0, GROUP_SHADING, "SOURCE", .words = NULL},
     {"viewer", 0, GROUP_SHADING, "KIND", .words = NULL},
@@ -592,10 +596,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"single-scattering", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Rough metals then look darker, as in renderers without multiple scattering.", .words = NULL},
     {"reference", 0, GROUP_SHADING, "N", NULL, NULL,
-     "By default, Lambent approximates environment light by the split sum. This option integrates the light "
-     "numerically, for comparison. Most results are within 0.5 % of the exact integral with 1024 directions, and "
-     "within 0.2 % with 4096 directions. The directions are the same at every point and on every machine. Only the CPU "
-     "device supports this option.",
+     "This option integrates the light numerically, for comparison with the approximation. Most results are within 0.5 "
+     "% of the exact integral with 1024 directions, and within 0.2 % with 4096 directions. The directions are the same "
+     "at every point and on every machine. Only the CPU device supports this option.",
      .others = "ground-truth importance-samples"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "
@@ -637,8 +640,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"edge-color", 0, GROUP_SHADING, "COLOR", "black", NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
      .now = "edges", .key = "color", .others = "outline-color", FIELD(shading.edge_color)},
     {"hidden-lines", 0, GROUP_SHADING, "STYLE", NULL, NULL,
-     "Lambent traces rays from each edge to the eye to determine exactly whether the edge is hidden, so lines along a "
-     "surface have no gaps. A surface hides the lines behind it if its opacity is at least 0.5; glass hides nothing.",
+     "To find the hidden edges, Lambent traces rays from each edge to the eye. This method is exact, so lines along a "
+     "surface have no gaps. A surface hides the lines behind it if the surface's opacity is at least 0.5. Glass hides "
+     "nothing.",
      .others = "hidden-line dashed see-through xray x-ray"},
     {"surfaces", 0, GROUP_SHADING, "SWITCH", NULL, NULL,
      "With `off`, the invisible surfaces still hide the lines behind them.",
@@ -677,11 +681,10 @@ struct option option_table[OPTIONS_MAX] = {
      "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
      "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
-     "built in. `none` removes the environment of a scene file, and models then have lights instead of the "
-     "built-in studio. To use a file named `sky`, write `./sky`. Classic materials reflect the environment only if "
-     "they have "
-     "a reflectivity (`--material reflectivity=0.5`). `docs/lighting/reflection.md` describes how Lambent maps each "
-     "kind around the model.",
+     "built in. `none` removes the environment of a scene file. For models, `none` selects lights instead of the "
+     "built-in studio environment. To use a file named `sky`, write `./sky`. Classic materials reflect the environment "
+     "only if they have a reflectivity (`--material reflectivity=0.5`). `docs/lighting/reflection.md` describes how "
+     "Lambent maps each kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
@@ -697,8 +700,8 @@ struct option option_table[OPTIONS_MAX] = {
      "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
      "exposure. By default, and with a name that ends in `.png` or `.webp`, Lambent writes all frames to one animated "
      "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame "
-     "to a separate file, in any format. `36,light=model` turns the lights with the model instead of keeping them with "
-     "the camera. Lights that are fixed to an object always turn with the object. For examples, see "
+     "to a separate file, in any format. `36,light=model` turns the lights with the model, instead of keeping the "
+     "lights fixed to the camera. Lights that are fixed to an object always turn with the object. For examples, see "
      "`docs/animation.md`.",
      .store = store_integer, .keyed = true, .others = "spin turnaround orbit rotate360 animate gif apng",
      FIELD(animation.turntable), .min = 2, .max = 100000},
@@ -716,11 +719,11 @@ struct option option_table[OPTIONS_MAX] = {
      "angles in degrees), `intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which "
      "the light comes, in the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. "
      "`time` is the time in a glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can "
-     "give more than two values: `light.elevation=10..80..10`. If a sweep ends as it begins, for example after a whole "
-     "turn, Lambent ends the sweep one step earlier, so that the loop is seamless. You can combine several sweeps, "
-     "also with `--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and `elevation`, the "
-     "distance of the camera is constant. For `time`, the camera fits the bounding boxes of all frames. Only `zoom` "
-     "and `fov` change the camera between frames.",
+     "give more than two values: `light.elevation=10..80..10`. If a sweep returns to its first value, for example "
+     "after a full turn, the last frame is one step before that value. The loop is then seamless. You can combine "
+     "several sweeps, also with `--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and "
+     "`elevation`, the distance of the camera is constant. For `time`, the camera fits the bounding boxes of all "
+     "frames. Only `zoom` and `fov` change the camera between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
     {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames in a sweep.",
@@ -756,18 +759,17 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_integer, .others = "iterations benchmark bench", FIELD(work.repeat), .min = 1, .max = 100000},
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter of the available memory",
      "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
-     "The limit applies separately to reading a model and to drawing it, including textures and decoders. Lambent "
-     "checks the limit before it allocates memory. The default is a quarter of the available memory, divided by the "
-     "number of models drawn at the same time. The available memory is the smallest of the machine's memory, the "
-     "limits of control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and "
-     "T are powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the "
+     "The limit applies separately to reading a model and to drawing the model, including textures and decoders. "
+     "Lambent checks the limit before it allocates memory. The default is a quarter of the available memory, divided "
+     "by the number of models drawn at the same time. The available memory is the smallest of the machine's memory, "
+     "the limits of control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G "
+     "and T are powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the "
      "process that draws a shader.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
-     "The limit applies to the elapsed time for reading, drawing and writing each model. Multiplied by the number of "
-     "threads (`--threads`), the limit also applies to the processor time. Lambent stops within half a second after "
-     "the limit. In "
-     "an animation, the default applies to each frame; a limit that you set applies to all frames together.",
+     "The limit applies to the elapsed time for reading, drawing and writing each model. The processor time is limited "
+     "to this limit times the number of threads (`--threads`). Lambent stops within half a second of the limit. In an "
+     "animation, the default applies to each frame; a limit that you set applies to all frames together.",
      .store = store_seconds, .others = "timeout", FIELD(limits.time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
     {"triangle-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
@@ -796,7 +798,7 @@ struct option option_table[OPTIONS_MAX] = {
      .max = 2147483647, .single = TAKES_PICTURE_LIMITS},
     {"pixel-limit", 0, GROUP_LIMITS, "N", "400M",
      "Reject a texture or an environment with more pixels than this (exit 4).",
-     "Lambent checks the header before it allocates memory. The width and height are limited to 65535 pixels.",
+     "Lambent checks the header before it allocates memory. The width and the height may each be at most 65535 pixels.",
      .store = store_count, .others = "max-pixels texture-limit image-limit", FIELD(limits.pixel_limit),
      .max = 4294836225, .single = TAKES_PICTURE_LIMITS},
     {"file-limit", 0, GROUP_LIMITS, "BYTES", "32G", "Reject files larger than this (exit 4).",
@@ -811,18 +813,16 @@ struct option option_table[OPTIONS_MAX] = {
      "always be in the model's folder. Files given on the command line may be anywhere.",
      .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES, .also_in = IN_KEY},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
-     "Drop all privileges that reading files does not need: auto, require or off.",
+     "Drop all privileges that reading files does not need. Values: auto, require or off.",
      "In the sandbox, a file that exploits a decoder cannot run programs, open sockets or read other files. The "
-     "process can read only the folders of the models and of `--allow-path`, and the system's libraries and fonts. The "
-     "process cannot change any file: a small process outside the sandbox writes only the pictures. The sandbox "
-     "consists of "
-     "Linux's Landlock and a seccomp filter. `auto` uses both methods if the kernel supports them. `require` fails if "
-     "one of the methods is missing (exit 3), and restricts scene files to their own folder (`--files-inside`) and "
-     "`--allow-path`. `-v`, "
-     "`--json` and `--version` report the methods in use. The sandbox applies to commands that read models or "
-     "pictures. `check` and OpenGL need privileges for their drivers; with `auto` they run without a sandbox. With "
-     "`auto`, a scene file (`.json`) may refer to files in any folder, unless you give `--files-inside` or "
-     "`--allow-path`.",
+     "rendering process can read only the folders of the models and of `--allow-path`, and the system's libraries and "
+     "fonts. The rendering process cannot change any file. A separate small process outside the sandbox writes the "
+     "pictures, and nothing else. The sandbox consists of two methods: Linux's Landlock and a seccomp filter. `auto` "
+     "uses each method that the kernel supports. `require` fails if a method is missing (exit 3), and restricts scene "
+     "files to their own folder (`--files-inside`) and `--allow-path`. `-v`, `--json` and `--version` report the "
+     "methods in use. The sandbox applies to commands that read models or pictures. `check` and OpenGL need more "
+     "privileges for the graphics driver. With `auto`, Lambent therefore runs both without a sandbox. With `auto`, a "
+     "scene file (`.json`) may refer to files in any folder, unless you give `--files-inside` or `--allow-path`.",
      sandbox_words, .store = store_word, .others = "seccomp landlock jail", FIELD(limits.sandbox),
      .single = TAKES_PICTURE_LIMITS},
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL,
@@ -863,7 +863,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_integer, .others = "retries retry attempts", FIELD(batch.retry_failed), .max = 1000},
     {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
      "Exit with 0 even if models fail, provided that the journal records each result.",
-     "Open MPI stops all ranks if one rank exits with a code other than 0. Other systems repeat such a task. The "
+     "Open MPI stops all ranks if one rank exits with a code other than 0. Other schedulers repeat such a task. The "
      "journal and the messages still report the failures. If a run ends early, for example after a wrong option or an "
      "interrupt, the command still exits with an error code.",
      .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
@@ -889,20 +889,19 @@ struct option option_table[OPTIONS_MAX] = {
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or by list.",
      "With `name`, each shard reads all names, which takes a second or two for a million models. With `list`, a shard "
      "reads only the K-th of N equal parts of one list (`@FILE`). The list must be sorted by the names of the pictures "
-     "(`LC_ALL=C "
-     "sort`), so that Lambent can check that no two pictures share a name. If the list changes, models move to other "
-     "shards, and `--resume` refuses to continue.",
+     "(`LC_ALL=C sort`), so that Lambent can check that no two pictures share a name. If the list changes, models move "
+     "to other shards, and `--resume` reports an error.",
      shard_by_words, .store = store_word, .others = "partition split-by", FIELD(batch.shard_by)},
     {"jobs", 0, GROUP_BATCH, "-", NULL, "`batch`: Read one JSON job per line, and answer each job with a line of JSON.",
-     "For servers: one process draws all jobs until its standard input ends (`docs/worker.md`). A job contains an "
-     "`id`, a `model` or its bytes, `options`, and an `output`. Without `output`, the answer contains the picture. "
-     "Lambent reads and writes files only inside the folders given with `--allow-path`. The options on the command "
-     "line apply to every job; Lambent adds a job's own options after them. Instead of `-`, you can give a file or a "
-     "pipe.",
+     "This option is for servers: one process draws all jobs until standard input ends (`docs/worker.md`). A job "
+     "contains an `id`, a `model` or its bytes, `options`, and an `output`. Without `output`, the answer contains the "
+     "picture. Lambent reads and writes files only inside the folders given with `--allow-path`. The options on the "
+     "command line apply to every job; Lambent adds a job's own options after them. Instead of `-`, you can give a "
+     "file or a pipe.",
      .kind = VALUE_FILE, .store = store_jobs, .others = "worker server daemon serve", FIELD(batch.jobs)},
     {"ahead", 0, GROUP_BATCH, "N", "twice the number of models drawn at once",
-     "The maximum number of waiting jobs; at this number Lambent stops reading lines.", NULL, .store = store_integer,
-     .others = "queue backlog queue-length", FIELD(batch.ahead), .min = 1, .max = 100000},
+     "The maximum number of waiting jobs. When this many jobs are waiting, Lambent pauses reading.", NULL,
+     .store = store_integer, .others = "queue backlog queue-length", FIELD(batch.ahead), .min = 1, .max = 100000},
     {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The maximum line length for `--jobs`; a longer line is an error.",
      "A line can include the bytes of a model. Base64 needs four bytes for every three bytes of the model. The models "
      "of waiting jobs use at most twice this limit.",
@@ -921,7 +920,7 @@ struct option option_table[OPTIONS_MAX] = {
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,
-     "Print the pictures that the command would draw and write, but write nothing.",
+     "List the pictures that the command would write, but draw and write nothing.",
      "Lambent reads and checks the models and the options, and checks whether it can write each picture. Lambent draws "
      "nothing. For each model, Lambent prints the name and size of the picture, whether the picture would overwrite a "
      "file, the camera, the device and the options on the command line. With `--json`, the report contains `planned` "
@@ -945,7 +944,7 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent reports this first.",
      .kind = VALUE_FILE, .store = store_text, .others = "verify compare-with against", FIELD(hash.check)},
     {"update", 0, GROUP_HASH, NULL, NULL,
-     "With `--check`, write the new hashes to the file, and a sheet of the changed pictures.",
+     "With `--check`, write the new hashes to the file, and draw a sheet of the changed pictures.",
      "Lambent writes the sheet next to the file: `pictures-changes.png` for `pictures.hash`. For each of the first 40 "
      "changed models, the sheet shows the old picture, the new picture and the difference between them. The old "
      "picture is available only if `--pictures` stored it, because a hash does not contain the picture.",
@@ -967,17 +966,16 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "layout", FIELD(sheet.name)},
     {"title", 0, GROUP_SHEET, "TEXT", NULL, "The title of a sheet, a plot or a figure, in any language; '' for none.",
      "An SVG file stores titles and captions as text, so the viewer provides the fonts, supports right-to-left "
-     "languages and can read the text aloud. In a PNG file, Lambent draws the letters one by one. The default font "
-     "covers Latin, Greek and Cyrillic. For Chinese, Japanese and Korean, give a font that covers them (`--font`). For "
-     "scripts that run "
-     "from right to left or join letters, write an SVG file.",
+     "languages and can read the text aloud. In a PNG file, Lambent draws each letter separately, from left to right. "
+     "The default font covers Latin, Greek and Cyrillic. For Chinese, Japanese and Korean, give a font that covers "
+     "these scripts (`--font`). For scripts that run from right to left or join letters, write an SVG file.",
      .store = store_text, .single = TAKES_TITLE, .others = "heading name header", FIELD(captions.title)},
     {"caption", 0, GROUP_SHEET, "TEXT", NULL, "The caption of a sheet's next picture, in any language; repeatable.",
      NULL, .store = store_texts, .others = "captions label labels", FIELD(captions.texts)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
      "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across makes a grid.",
-     "OPTION is the name of an option for pictures, without dashes. Separate the values by commas. If the values "
-     "themselves contain commas, as for `light` and `material`, separate them by semicolons "
+     "OPTION is the name of an option for pictures, without the leading dashes. Separate the values by commas. If the "
+     "values themselves contain commas, as for `light` and `material`, separate the values by semicolons "
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
      "accepts. The default values of `shininess` are 10, 50 and 1000. `light` draws one light of each type by default, "
      "and `show` (also called `term`) draws the five terms. If you give `--across` twice, the first defines the rows "
@@ -1028,8 +1026,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader, with its points and mistakes.", NULL,
      .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
     {"moodle", 0, GROUP_CHECK, "FILE", NULL, "Write grades as a Moodle worksheet (CSV).",
-     "Lambent recognises folders that Moodle names after its participants.", .kind = VALUE_FILE, .store = store_text,
-     FIELD(check.moodle)},
+     "Lambent recognises the folder names that Moodle makes from the names of the participants.", .kind = VALUE_FILE,
+     .store = store_text, FIELD(check.moodle)},
     {"gradescope", 0, GROUP_CHECK, "FILE", NULL, "Write one submission's results.json for Gradescope.", NULL,
      .kind = VALUE_FILE, .store = store_text, FIELD(check.gradescope)},
     {"submitty", 0, GROUP_CHECK, "FILE", NULL, "Write one submission's result for Submitty.",
@@ -1070,15 +1068,15 @@ struct option option_table[OPTIONS_MAX] = {
      "--across mistake=A,B` shows the effect of mistakes. `--mistake list --json` prints the list for programs.",
      .store = store_text, .others = "error bug fault wrong", FIELD(shader.mistake)},
     {"parametric", 0, GROUP_SHAPE, "FORMULAS", NULL,
-     "A surface over u and v: 'x = ...; y = ...; z = ...', after any definitions.",
+     "A surface over u and v: 'x = ...; y = ...; z = ...'; definitions may come first.",
      "`a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)` is a torus. Formulas support `+ - * / ^`, "
      "parentheses, `pi`, `tau`, `e`, and these functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt "
      "cbrt abs sign floor mod min max hypot pow. Normals come from symbolic derivatives. z is up, as in textbooks, "
      "unless you give `--up`. `docs/shapes.md` describes the language and gives examples.",
      .store = store_text, .others = "formula formulas surface equation", FIELD(shape.parametric), .loads = true},
-    {"u", 0, GROUP_SHAPE, "FROM..TO", "0..2pi", "The range of u, two constant expressions.", NULL, .store = store_text,
+    {"u", 0, GROUP_SHAPE, "FROM..TO", "0..2pi", "The range of u: two constant expressions.", NULL, .store = store_text,
      .others = "u-range", FIELD(shape.u_range), .loads = true},
-    {"v", 0, GROUP_SHAPE, "FROM..TO", "0..2pi", "The range of v, two constant expressions.", NULL, .store = store_text,
+    {"v", 0, GROUP_SHAPE, "FROM..TO", "0..2pi", "The range of v: two constant expressions.", NULL, .store = store_text,
      .others = "v-range", FIELD(shape.v_range), .loads = true},
     {"implicit", 0, GROUP_SHAPE, "FORMULA", NULL,
      "The surface on which an expression of x, y and z is zero: 'x^2+y^2+z^2-1'.",
@@ -1116,11 +1114,11 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(viewer.no_open)},
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
-     "By default, the environment variable `LAMBENT_FONT` names the font. If this variable is not set, Lambent uses "
-     "the first of these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, Noto Sans, "
-     "FreeSans, Roboto. "
-     "FreeType draws the letters, which may differ by a few shades between versions of FreeType. The pictures on the "
-     "sheet are always identical. An SVG file requests DejaVu Sans, but the viewer may use another font.",
+     "By default, Lambent uses the font that the environment variable `LAMBENT_FONT` names. If this variable is not "
+     "set, Lambent uses the first of these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, "
+     "Noto Sans, FreeSans, Roboto. FreeType draws the letters. Between versions of FreeType, the letters may differ by "
+     "a few shades. The pictures on the sheet are always identical. An SVG file requests DejaVu Sans, but the viewer "
+     "may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw no text, so that no font is needed.", NULL,
      .store = store_switch, .others = "no-text no-labels", FIELD(captions.no_captions)},
@@ -1129,8 +1127,8 @@ struct option option_table[OPTIONS_MAX] = {
      "The settings file: keys of scene files that override the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if this file exists "
      "and the environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks "
-     "and options on the command line override settings. Scene files ignore settings. `lambent config` prints the "
-     "current settings, and `docs/settings.md` describes the file.",
+     "and options on the command line override settings. Lambent does not apply settings to scene files. `lambent "
+     "config` prints the current settings, and `docs/settings.md` describes the file.",
      .kind = VALUE_FILE, .store = store_text, .others = "settings preferences rc conf configuration",
      FIELD(settings.file)},
     {"no-config", 0, GROUP_SETTINGS, NULL, NULL, "Ignore the user's settings file.", NULL, .store = store_switch,

@@ -100,7 +100,7 @@ static const lam_setting rows[] = {
     {"stage", MEMBER(WORD, stage), WORDS_OF(stage_words), .expected = "stage, viewer or flat_normal",
      .summary = "The stage that evaluates the lighting: application, vertex or fragment."},
     {"flat_normal", MEMBER(WORD, flat_normal), WORDS_OF(flat_normal_words), .expected = "stage, viewer or flat_normal",
-     .summary = "The normal for flat shading: the normal of the face, or of its last vertex."},
+     .summary = "The normal for flat shading: the normal of the triangle, or of its last vertex."},
     {"match_highlights", MEMBER(FLAG, match_highlights),
      .summary = "Multiply Blinn-Phong's shininess by 4, so that highlights look like Phong's."},
     {"single_scattering", MEMBER(FLAG, single_scattering),
@@ -114,8 +114,7 @@ static const lam_setting rows[] = {
     {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 112, .expected = "0 to 256",
      .summary = "The number of shadow rays from each point in a penumbra to a light with a radius."},
     {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
-     .summary =
-         "A ground plane at the model's lowest point: shadow, checker, a colour or off; without a value, shadow."},
+     .summary = "A ground plane at the model's lowest point: shadow (also without a value), checker, a colour or off."},
     {"ground_color", MEMBER(RGB, ground_color),
      .summary = "The colour of the ground, or of the bright squares of a checkerboard. Default: black, or 0.6 for a "
                 "checkerboard."},
@@ -124,8 +123,8 @@ static const lam_setting rows[] = {
                 "sharper."},
     {"reference", MEMBER(WHOLE, reference), .min = 16, .max = 1 << 20, .zero = true,
      .expected = "0 or 16 to 1048576 directions",
-     .summary = "The number of directions for integrating the environment's light on physical materials, 16 to "
-                "1048576; 0: split sum."},
+     .summary = "The number of directions (16 to 1048576) for integrating the environment's light on physical "
+                "materials. 0 uses the split-sum approximation instead."},
     {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",
@@ -142,14 +141,14 @@ static const lam_setting rows[] = {
      .summary = "The number of rays from each lit point for ambient occlusion (`rays`); more rays reduce noise."},
     {"light_cutoff", MEMBER(NUMBER, light_cutoff), .max = 1, .standard = 0.5 / 255, .zero_is_negative = true,
      .expected = "at most 1",
-     .summary = "The maximum error caused by skipping weak lights; 0 evaluates every light everywhere."},
+     .summary = "The maximum error caused by skipping weak lights; 0 skips only lights that contribute nothing."},
     {"line_width", MEMBER(NUMBER, line_width), .min = 0.01, .max = 1000, .standard = 1.5,
-     .expected = "pixels from 0 to 1000", .summary = "The width of lines in the model file."},
+     .expected = "pixels from 0 to 1000", .summary = "The width of lines in the model file, in pixels."},
     {"point_size", MEMBER(NUMBER, point_size), .min = 0.01, .max = 1000, .expected = "pixels from 0 to 1000",
-     .summary = "The diameter of points in the model file; by default, points are larger if there are few of them."},
+     .summary = "The diameter of points in the model file, in pixels; the default depends on the number of points."},
     {"wireframe", MEMBER(FLAG, wireframe), .summary = "Draw the edges of all faces as lines over the picture."},
     {"wireframe_width", MEMBER(NUMBER, wireframe_width), .min = 0.01, .max = 1000, .standard = 1,
-     .expected = "pixels from 0 to 1000", .summary = "The width of the wireframe's lines."},
+     .expected = "pixels from 0 to 1000", .summary = "The width of the wireframe's lines, in pixels."},
     {"wireframe_color", MEMBER(RGBA, wireframe_color),
      .summary = "The colour of the wireframe: by default black, or white if surfaces are off and the background is "
                 "dark."},
@@ -158,7 +157,7 @@ static const lam_setting rows[] = {
     {"edge_angle", MEMBER(ANGLE, edge_angle_rad), .min = 0.001, .max = 180, .standard = 40, .expected = "0° to 180°",
      .summary = "An edge is a crease if its two faces meet at more than this angle."},
     {"edge_width", MEMBER(NUMBER, edge_width), .min = 0.01, .max = 1000, .standard = 1.5,
-     .expected = "pixels from 0 to 1000", .summary = "The width of feature edges."},
+     .expected = "pixels from 0 to 1000", .summary = "The width of feature edges, in pixels."},
     {"edge_color", MEMBER(RGBA, edge_color),
      .summary = "The colour of feature edges: by default black, or white if surfaces are off and the background is "
                 "dark."},

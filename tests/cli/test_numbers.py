@@ -263,7 +263,7 @@ class Defaults(Case):
         for words, key, standard, other, text in (
                 (["--edges"], "angle", "40", "20", "`angle` (default: 40 degrees)"), (["--edges"], "width", "1.5", "3", "`width` (default: 1.5 pixels)"),
                 (["--edges"], "color", "black", "red", "`color` (default: black)"), (["--wireframe"], "width", "1", "2", "the width in pixels (default: 1)"),
-                (["--wireframe"], "color", "black", "red", "the colour (default: black)"), (["--turntable", "3"], "light", "camera", "model", "keeping them with the camera")):
+                (["--wireframe"], "color", "black", "red", "the colour (default: black)"), (["--turntable", "3"], "light", "camera", "model", "keeping the lights fixed to the camera")):
             with self.subTest((words, key)):
                 self.assertIn(text, made)
                 plain = {"--edges": ["all"]}.get(words[0], words[1:])

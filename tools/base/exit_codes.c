@@ -17,7 +17,7 @@ const struct exit_code exit_codes[] = {
     {EXIT_SOME_FAILED, -1, NULL,
      "`batch`, `diff` of folders, `hash`: some pictures failed (0 with `--failures-ok`); the messages and the journal "
      "name them; `journal`: some pictures failed or are missing"},
-    {EXIT_CRASHED, -1, "crashed", "`--isolate`: the process that drew the model ended without an answer"},
+    {EXIT_CRASHED, -1, "crashed", "`--isolate`: the process that drew the model ended without a result"},
     {130, LAM_CANCELLED, "cancelled", "interrupted (Ctrl-C); no partial files remain"},
     {0, -1, NULL, NULL},
 };

@@ -15,29 +15,29 @@ const struct topic topics[] = {
      "other models. The exit code is then the highest exit code of all models. With `-o FILE` or `-`, you can give "
      "only one model."},
     {"batch", "Many models", BIT(BATCH), TOPIC_NO_TABLE,
-     "`lambent batch` draws all models in folders and their sub-folders, in lists (`@FILE`) or listed on standard "
-     "input (`-`). The command draws one model per processor at a time, and writes a journal: `lambent batch models/ "
-     "-o "
-     "'thumbs/{dir}/{stem}.png'`. `--dry-run` prints the picture's name for each model. If the run is interrupted, "
-     "repeat the command with `--resume`. To draw only changed models, use `--skip-same`. If some pictures fail, the "
-     "exit code is 7, or 0 with `--failures-ok`. For details, see `docs/batch.md`. With `--jobs -`, `batch` works as a "
-     "server: it reads one JSON job per line and answers each job (`docs/worker.md`)."},
+     "`lambent batch` draws all models in folders and their sub-folders: `lambent batch models/ -o "
+     "'thumbs/{dir}/{stem}.png'`. The command also accepts lists of models, from files (`@FILE`) or from standard "
+     "input (`-`). The command draws one model per processor at a time, and writes a journal. `--dry-run` prints the "
+     "picture's name for each model. If the run is interrupted, repeat the command with `--resume`. To draw only "
+     "changed models, use `--skip-same`. If some pictures fail, the exit code is 7, or 0 with `--failures-ok`. For "
+     "details, see `docs/batch.md`. `lambent batch --jobs -` works as a server: the command reads one JSON job per "
+     "line and answers each job (`docs/worker.md`)."},
     {"viewer", "The viewer", BIT(VIEWER), TOPIC_NO_TABLE,
-     "`lambent view bunny.obj` shows a model in the browser, and updates the picture when the file changes. `lambent "
-     "view models/` shows a gallery of a folder. The viewer requires a page. To build the page, run `make web` once in "
-     "Lambent's source folder. Lambent serves the page only on 127.0.0.1, at an address with a secret token. Press "
-     "Ctrl-C to stop the viewer. For details, see `docs/view.md`."},
+     "`lambent view bunny.obj` shows a model in the browser, and updates the picture when the model file changes. "
+     "`lambent view models/` shows a gallery of a folder. The viewer requires a page. To build the page, run `make "
+     "web` once in Lambent's source folder. Lambent serves the page only on 127.0.0.1, at an address with a secret "
+     "token. Press Ctrl-C to stop the viewer. For details, see `docs/view.md`."},
     {"formats", "Model formats", 0, TOPIC_NO_TABLE,
      "`lambent formats` lists the formats that Lambent reads and writes. `docs/formats.md` describes how Lambent draws "
      "each element of each format.\n3MF (`.3mf`): a ZIP archive for 3D printing, with units, components, colours, "
      "textures, layered textures and metals. Lambent loads libzip and expat (Debian's `libzip4` or `libzip5`, and "
      "`libexpat1`) only for these files. Lambent ignores beams, slices and displacements, with a warning. `--lenient` "
-     "reads files that require unknown extensions or use an undeclared XML prefix.\nSTL (`.stl`): triangles, text or "
-     "binary. Z is up. The format defines no unit. Binary files may contain colours.\nOBJ (`.obj`): polygons, with "
-     "`.mtl` materials and textures. Y is up.\nPLY (`.ply`): triangles, points and lines with colours, text or "
-     "binary.\nglTF (`.gltf`, `.glb`): scenes with physical materials, lights, cameras, skins and animations, in "
-     "metres. Y is up. `--scene`, `--variant`, `--animation` and `--time` select parts of a file. Lambent decodes "
-     "Draco and meshoptimizer data if their libraries are installed."},
+     "reads files that require unknown extensions or use an undeclared XML prefix.\nSTL (`.stl`): triangles, as text "
+     "or binary data. Z is up. The format defines no unit. Binary files may contain colours.\nOBJ (`.obj`): polygons, "
+     "with `.mtl` materials and textures. Y is up.\nPLY (`.ply`): triangles, points and lines with colours, as text or "
+     "binary data.\nglTF (`.gltf`, `.glb`): scenes with physical materials, lights, cameras, skins and animations, in "
+     "metres. Y is up. `--scene`, `--variant`, `--animation` and `--time` select the scene, the materials and the "
+     "pose. Lambent decodes Draco and meshoptimizer data if their libraries are installed."},
     {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
     {"output", "Output", 0, TOPIC_NO_TABLE,
      "Without `-o`, Lambent writes the picture of `models/koala.obj` to `koala.png` in the current folder. Lambent "
@@ -56,50 +56,48 @@ const struct topic topics[] = {
      "`lambent MODEL --turntable 36` and `lambent MODEL --sweep light.azimuth=0..360` draw several pictures of one "
      "model, and read the model only once. Lambent writes the frames to one animated PNG or WebP (by the extension in "
      "`-o`), which loops forever. With `{frame}` in the name, Lambent writes each frame to a separate file. A frame is "
-     "identical to a picture drawn alone with the same options. All frames use the camera and the automatic exposure "
+     "identical to a single picture drawn with the same options. All frames use the camera and the automatic exposure "
      "of the first frame."},
     {"sheets", "Sheets", BIT(SHEET) | BIT(CAPTIONS), TOPIC_NO_TABLE,
      "`lambent compare MODEL` writes one PNG file with several pictures of a model, and a caption under each picture. "
      "To draw one of these pictures alone, use `lambent MODEL` with the options that the sheet shows in grey under the "
      "title and under the caption. `--sheet` selects the pictures; `--across OPTION=VALUES` draws a row with one "
-     "picture for each value. Every other option applies to all pictures. `--size` (480x400) is the size of each "
-     "picture. The options under a caption override the options on the command line. The background is white by "
-     "default. Lambent writes the sheet to `MODEL-NAME.png` in the current folder, or to the folder or file given with "
-     "`-o`. The pictures are identical on every machine; only the letters, which FreeType draws, may differ.\nThe "
-     "options under the title are the sheet's defaults, which make the differences visible. Sheets about shading draw "
-     "a built-in shape with few segments (unless you give `--segments`) under one light (unless you give `--light` or "
-     "`--rig`, or the model contains lights). Sheets with highlights use a material with a highlight (unless you give "
-     "`--material`, or the model contains materials).\n`--sheet stages` marks the brightest highlight (the largest "
-     "difference from the picture without highlights) and shows it below, three times as large. `terms` sets the "
-     "coefficients of all other terms to black. `ambient` sets the ambient coefficient of the default material."},
+     "picture for each value. Every other option applies to all pictures. `--size` sets the size of each picture "
+     "(default: 480x400). The options under a caption override the options on the command line. The background is "
+     "white by default. Lambent writes the sheet to `MODEL-NAME.png` in the current folder, or to the folder or file "
+     "given with `-o`. The pictures are identical on every machine. FreeType draws the letters, which may differ "
+     "between machines.\nThe options under the title are the sheet's defaults, which make the differences visible. "
+     "Sheets about shading draw a built-in shape with few segments (unless you give `--segments`) under one light "
+     "(unless you give `--light` or `--rig`, or the model contains lights). Sheets with highlights use a material with "
+     "a highlight (unless you give `--material`, or the model contains materials).\n`--sheet stages` marks the "
+     "brightest highlight (the largest difference from the picture without highlights) and shows this highlight below, "
+     "three times as large. For a picture of one term, `--sheet terms` sets the coefficients of the other terms to "
+     "black. `--sheet ambient` sets the ambient coefficient of the default material."},
     {"explain", "Explaining a pixel", 0, TOPIC_NO_TABLE,
-     "`lambent explain MODEL X,Y` accepts the options of a picture and prints the calculation of the pixel in column X "
-     "and row Y, counted from 0 at the top left corner. For each visible triangle, Lambent prints the samples, the "
-     "object, "
-     "the position in the triangle, the vectors n, v and t, and the material. For each light, Lambent prints the "
-     "colours (rows ambient, diffuse, specular), the vectors l, r and h, the distance, and the angles between n and l, "
-     "r and "
-     "v, and n and h. Lambent also prints the attenuation and spot factors, the base and exponent of the highlight, "
-     "and the "
-     "diffuse and specular terms of the light. At the end, Lambent prints the terms and their sum, the weighted sum of "
-     "the "
-     "triangles over the background, the encoding "
-     "and the bytes. Vectors are in eye space. The numbers are bit-identical to the numbers behind the picture. For "
-     "the formulas, see `docs/lighting.md`. `--json` prints the same numbers on one line. `-o figure.svg` draws the "
-     "numbers as a figure."},
+     "`lambent explain MODEL X,Y` accepts the options of a picture and prints the calculation of one pixel. X is the "
+     "pixel's column and Y is its row, counted from 0 at the top left corner. For each visible triangle, Lambent "
+     "prints the samples, the object, the position in the triangle, the vectors n, v and t, and the material. For each "
+     "light, Lambent prints the colours (rows ambient, diffuse, specular), the vectors l, r and h, and the distance. "
+     "Lambent also prints three angles: between n and l, between r and v, and between n and h. The attenuation and "
+     "spot factors, the base and exponent of the highlight, and the diffuse and specular terms of the light follow. At "
+     "the end, Lambent prints the terms and their sum, the weighted sum of the triangles over the background, the "
+     "encoding and the bytes. Vectors are in eye space. The numbers are bit-identical to the numbers behind the "
+     "picture. For the formulas, see `docs/lighting.md`. `--json` prints the same numbers on one line. `-o figure.svg` "
+     "draws the numbers as a figure."},
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. The command lists the format, "
      "the program that wrote the file, the size and the up axis, triangles, meshes, parts and objects, and the names "
      "that `--hide` accepts. The command also lists materials (numbers and maps), textures and their sizes, lights, "
      "cameras, scenes, animations and their lengths, variants, and glTF extensions (supported, ignored or unknown). At "
      "the end, the command prints the memory, the loading time and the warnings. Each list is limited to 8 rows; "
-     "`--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF (in metres) and 3MF (which "
-     "states its unit), the command prints the size, area and volume in millimetres. Other formats define no unit. "
-     "`info` prints the volume only for closed surfaces. In a closed surface, each edge belongs to as many triangles "
-     "in one direction as in the other. `info` also reads files that require an unknown extension, as with "
-     "`--lenient`, and reports the extension. The memory is the sum of the model's size and the memory needed to draw "
-     "a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the depths. If Lambent cannot "
-     "read a model, it reports the error and continues; the exit code is then the highest exit code of all models."},
+     "`--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF files (in metres) and 3MF "
+     "files (which state their unit), the command prints the size, area and volume in millimetres. Other formats "
+     "define no unit. `info` prints the volume only for closed surfaces. In a closed surface, each edge belongs to as "
+     "many triangles in one direction as in the other. `info` also reads files that require an unknown extension, as "
+     "with `--lenient`, and reports the extension. The memory is the sum of the model's size and the memory needed to "
+     "draw a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the depths. If Lambent "
+     "cannot read a model, Lambent reports the error and continues. The exit code is then the highest exit code of all "
+     "models."},
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares "
      "these pictures with the pictures of the CPU device. Without `--vertex`, Lambent generates a correct vertex "
@@ -107,92 +105,84 @@ const struct topic topics[] = {
      "infers the role of each input from its use. `--list` prints the contracts, the scenes and the known mistakes. If "
      "pictures differ, Lambent draws the same scenes with known mistakes. Lambent reports the smallest set of mistakes "
      "that reproduces the shader's pictures, and a corrected line for each mistake. `-o` writes a sheet that shows, "
-     "for "
-     "each scene, the shader's picture, the reference and the difference between them (times `--gain`). `--tolerance` "
-     "(default 2) applies to each channel of a pixel: at most one pixel in 200 may exceed the tolerance, and the mean "
-     "difference may be at most a quarter of the tolerance. The shaders run in a separate process, which "
-     "`--stop-after` and `--memory-limit` limit. "
-     "`lambent check --class FOLDER --csv grades.csv -o sheets/` checks a class. A submission is a folder with one "
-     "fragment shader and at most one vertex shader. In other folders, each fragment shader forms one submission with "
-     "the vertex shader of the same name. `sheets/index.html` is a page with all results. You can also give several "
-     "shaders: "
-     "`lambent check */phong.frag */phong.vert` pairs the fragment and vertex shaders of the same folder and name, and "
-     "`-o sheets/` writes a sheet for each shader. If Lambent cannot check a shader, it reports the error and checks "
-     "the other shaders. The exit code is 0 if every scene of every shader matches the reference; otherwise it is the "
-     "highest exit code of all shaders. The exit code is also 6 for shaders that do not compile, do not end, or write "
-     "NaN. With `--json`, Lambent prints the report on "
-     "one line (`docs/check.schema.json`). For details, see `docs/check.md`."},
+     "for each scene, the shader's picture, the reference and the difference between them (times `--gain`). "
+     "`--tolerance` (default 2) applies to each channel of a pixel. At most one pixel in 200 may exceed the tolerance. "
+     "The mean difference may be at most a quarter of the tolerance. The shaders run in a separate process. "
+     "`--stop-after` limits the processor time of this process, and `--memory-limit` limits its memory. `lambent check "
+     "--class FOLDER --csv grades.csv -o sheets/` checks a class. A submission is a folder with one fragment shader "
+     "and at most one vertex shader. In a folder with more shaders, each fragment shader forms one submission with the "
+     "vertex shader of the same name. `sheets/index.html` is a page with all results. You can also give several "
+     "shaders: `lambent check */phong.frag */phong.vert` pairs the fragment and vertex shaders of the same folder and "
+     "name. `-o sheets/` then writes a sheet for each shader. If Lambent cannot check a shader, it reports the error "
+     "and checks the other shaders. The exit code is 0 if every scene of every shader matches the reference. "
+     "Otherwise, the exit code is the highest exit code of all shaders. A shader that differs, does not compile, does "
+     "not end or writes NaN has the exit code 6. With `--json`, Lambent prints the report on one line "
+     "(`docs/check.schema.json`). For details, see `docs/check.md`."},
     {"shaders", "Shaders for other programs", BIT(SHADER), TOPIC_NO_TABLE, NULL},
     {"diff", "Comparing pictures", BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent diff A B` reads two pictures of the same size and the same kind (PNG or PPM with 8 bits, or PFM with "
      "floats). The command prints the largest difference of a channel, and the mean and root mean square over all "
-     "channels "
-     "(red, green, blue and alpha as stored in the files, 1 = full range). The command also prints the PSNR in "
-     "decibels "
-     "(`infinite` for equal pictures, null in JSON), and the share of pixels in which a channel differs by more than "
-     "1/255 and 2/255. `-o` draws the difference (with `-o out/`, as `A-difference.png` in that folder). Each channel "
-     "shows its difference times `--gain`, clamped at white; black means equal. A pixel that differs only in alpha is "
-     "grey. A `.pfm` file stores the differences as floats without clamping. `--json` prints one line with these keys: "
-     "`a`, `b`, `width`, `height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, "
-     "`differ` (0 or 1: beyond the tolerance) and `picture`. The exit code is 6 if the largest difference exceeds the "
-     "tolerance, and 1 if the sizes or kinds differ. If OLD and NEW are two models or two folders, `lambent diff OLD "
-     "NEW` draws the models of both sides with one camera. `-o report.html` writes a page of added, removed and "
-     "changed models, with pictures before and after. For details, see `docs/pull-requests.md`."},
+     "channels. The channels are red, green, blue and alpha as stored in the files; 1 is the full range. The command "
+     "also prints the PSNR in decibels (`infinite` for equal pictures, null in JSON), and the share of pixels in which "
+     "a channel differs by more than 1/255 and 2/255. `-o` draws the difference. With `-o out/`, the file is "
+     "`A-difference.png` in that folder. Each channel shows its difference times `--gain`, clamped at white; black "
+     "means equal. A pixel that differs only in alpha is grey. A `.pfm` file stores the differences as floats without "
+     "clamping. `--json` prints one line with these keys: `a`, `b`, `width`, `height`, `maximum`, `mean`, `rmse`, "
+     "`psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (0 or 1: beyond the tolerance) and `picture`. "
+     "The exit code is 6 if the largest difference exceeds the tolerance, and 1 if the sizes or kinds differ. If OLD "
+     "and NEW are two models or two folders, `lambent diff OLD NEW` draws the models of both sides with one camera. "
+     "`-o report.html` writes a page of added, removed and changed models, with pictures before and after. For "
+     "details, see `docs/pull-requests.md`."},
     {"hash", "Hashes of pictures", BIT(HASH), TOPIC_NO_TABLE,
      "`lambent hash models/ -o pictures.hash` writes a line for each model: the XXH64 hash of the picture's pixels "
-     "(rows from the top; red, green, blue, alpha), and the model's name relative to the file. The first lines of the "
+     "(rows from the top; red, green, blue, alpha), and the model's path relative to the file. The first lines of the "
      "file record the version and the options. Pictures are identical on every machine, so a repository can store this "
      "file instead of the pictures. `lambent hash models/ --check pictures.hash` lists the models whose pictures "
      "changed. For details, see `docs/pull-requests.md`."},
     {"glass", "Glass", 0, TOPIC_NO_TABLE,
      "`--material glass` is clear, smooth glass: `white,roughness=0,transmission=1`. You can change this material with "
      "keys: `--material glass,roughness=0.3` blurs the scene behind the glass, `glass,diffuse=0.2/0.8/0.5` tints the "
-     "glass, and `thickness` refracts the light. Glass requires Phong shading and a physical reflection model. "
-     "Rough or thick glass also requires the CPU device. For the formulas, see `docs/lighting/layers.md`. For surfaces "
-     "that are partly transparent and refract no light, use `--material opacity=0.5`."},
+     "glass, and `thickness` adds refraction. Glass requires Phong shading and a physical reflection model. Rough or "
+     "thick glass also requires the CPU device. For the formulas, see `docs/lighting/layers.md`. For surfaces that are "
+     "partly transparent and refract no light, use `--material opacity=0.5`."},
     {"settings", "The user's own defaults", BIT(SETTINGS), TOPIC_NO_TABLE,
      "The file `lambent.json` in the folder `~/.config/lambent` overrides the default picture settings. The file "
      "contains keys of scene files: `{\"image\": {\"background\": \"white\"}, \"shadows\": true}`. Looks and options "
-     "on the "
-     "command line override the settings file. Scene files, `batch`, `hash`, `diff`, `check` and pages ignore the "
-     "settings file. If the environment variable `CI` is set, every command ignores this file. `lambent config` prints "
-     "the current settings. "
-     "For details, see `docs/settings.md`."},
+     "on the command line override the settings file. The settings file applies only to pictures of models drawn by "
+     "`render`, `explain` and `shape`, not to scene files or pages. If the environment variable `CI` is set, every "
+     "command ignores this file. `lambent config` prints the current settings. For details, see `docs/settings.md`."},
     {"convert", "Models in another format", BIT(CONVERT), TOPIC_NO_TABLE,
      "`lambent convert MODEL OUT.glb` writes any model or scene file as GLB, OBJ (with MTL and PNG files next to it), "
      "STL, PLY or 3MF. The command writes geometry, materials with their textures, lights and cameras, as far as the "
-     "format "
-     "supports them. Lambent prints a sentence for each kind of data that it omits. For details, see "
+     "format supports these kinds of data. Lambent prints a sentence for each kind that it omits. For details, see "
      "`docs/convert.md`."},
     {"formulas", "Surfaces given by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
      "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v. `--implicit 'x^2+y^2+z^2-1'` "
      "draws the surface on which an expression of x, y and z is zero. `-o torus.obj`, `.stl` or `.ply` saves the "
      "surface as a model file. You can also save built-in shapes: `lambent shape teapot -o teapot.stl`. Normals come "
-     "from symbolic derivatives. If the ends of a surface over u and v meet, Lambent joins them. Creases along a grid "
-     "line stay sharp (`--segments 64x32`). `docs/shapes.md` describes the language."},
+     "from symbolic derivatives. If two opposite edges of a surface over u and v meet, Lambent joins these edges. "
+     "Creases along a grid line stay sharp (`--segments 64x32`). `docs/shapes.md` describes the language."},
     {"plots", "Plots", BIT(PLOT) | BIT(CAPTIONS), TOPIC_NO_TABLE,
-     "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d. Each argument defines a "
-     "curve: three such numbers, a light as in `--light` (`spot:attenuation=0/0/1,range=9`), or a model or scene file. "
-     "For a file, Lambent draws a curve for each of its lights. A dot marks the distance at which each curve falls "
-     "below 1/255, the smallest step of an 8-bit picture. A fourth number (`a/b/c/range`) is a range as in glTF. "
-     "`lambent plot spot cutoff=30,exponent=8 inner=20,outer=35` draws the cones of spot lights over the angle from "
-     "the axis, with the formula of OpenGL or glTF. `lambent plot highlight 10 50 1000` draws the highlight over the "
-     "angle between the mirrored light and the eye. For each shininess, Lambent draws three curves: Phong, "
-     "Blinn-Phong, and "
-     "Blinn-Phong at four times the shininess, which looks like Phong. Without arguments, each plot draws a default "
-     "set of curves. The values come from the same functions that compute the lighting of pixels.\nBy default, Lambent "
-     "writes a picture of 1600x1000 pixels to `attenuation.png`, `spot.png` or `highlight.png` (with `-o plots/`, in "
-     "that folder). If the name ends in `.svg`, Lambent writes an SVG file. The table on standard output lists the "
-     "distance "
-     "or angle at which each curve falls below 1/255. With `--json`, the table is one line: `plot`, `x`, `y`, `curves` "
-     "(each with `label`, `below_1_255_from`, null for never, and `points`, 101 pairs) and `picture`."},
+     "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d. An argument is either three "
+     "such numbers, a light as in `--light` (`spot:attenuation=0/0/1,range=9`), or a model or scene file. For a file, "
+     "Lambent draws a curve for each light in the file. A dot marks the distance at which each curve falls below "
+     "1/255, the smallest step of an 8-bit picture. A fourth number (`a/b/c/range`) is a range as in glTF. `lambent "
+     "plot spot cutoff=30,exponent=8 inner=20,outer=35` draws the cones of spot lights over the angle from the axis. "
+     "The first cone uses the formula of OpenGL, and the second uses the formula of glTF. `lambent plot highlight 10 "
+     "50 1000` draws the highlight over the angle between the mirrored light and the eye. For each shininess, Lambent "
+     "draws three curves: Phong, Blinn-Phong, and Blinn-Phong at four times the shininess, which looks like Phong. "
+     "Without arguments, each plot draws a default set of curves. The values come from the same functions that compute "
+     "the lighting of pixels.\nBy default, Lambent writes a picture of 1600x1000 pixels to `attenuation.png`, "
+     "`spot.png` or `highlight.png` (with `-o plots/`, in that folder). If the name ends in `.svg`, Lambent writes an "
+     "SVG file. The table on standard output lists the distance or angle at which each curve falls below 1/255. With "
+     "`--json`, the table is one line: `plot`, `x`, `y`, `curves` (each with `label`, `below_1_255_from`, null for "
+     "never, and `points`, 101 pairs) and `picture`."},
     {"work", "Threads and devices", BIT(WORK), TOPIC_NO_TABLE, NULL},
     {"limits", "Limits", BIT(LIMITS), TOPIC_NO_TABLE,
-     "A malicious file could crash or block a program, or exhaust the machine's memory. Limits prevent this, and "
-     "options change the limits. If a file exceeds a limit, Lambent reports the number found, the number allowed, and "
-     "the option that "
-     "raises the limit. The exit code is 4. The same limits apply to the decoders for pictures and compressed meshes. "
-     "`SECURITY.md` describes Lambent's security guarantees and their tests."},
+     "A malicious file could crash or block a program, or exhaust the machine's memory. Limits prevent such attacks; "
+     "you can change each limit by an option. If a file exceeds a limit, Lambent reports the number found, the number "
+     "allowed, and the option that raises the limit. The exit code is 4. The same limits apply to the decoders for "
+     "pictures and compressed meshes. `SECURITY.md` describes Lambent's security guarantees and their tests."},
     {"reports", "Reports", BIT(REPORT), TOPIC_NO_TABLE, NULL},
     {"bytes", "Same picture everywhere", 0, TOPIC_NO_TABLE,
      "The same model and options give identical bytes with every instruction set, number of threads and compiler, on "

@@ -181,7 +181,7 @@ static void fail_process(struct batch *b, struct batch_unit *u, const struct bat
         complain(&error, LAM_LIMIT, "%.400s: its process was ended by signal %d (%s)", model, WTERMSIG(status),
                  strsignal(WTERMSIG(status)));
     else
-        complain(&error, LAM_LIMIT, "%.400s: its process ended without an answer (%d)", model, WEXITSTATUS(status));
+        complain(&error, LAM_LIMIT, "%.400s: its process ended without a result (%d)", model, WEXITSTATUS(status));
     free(u->out);
     free(u->err);
     u->out = u->err = NULL;

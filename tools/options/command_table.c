@@ -28,10 +28,10 @@ static const struct own_default shape_defaults[] = {{"output", "NAME.png, parame
                                                     {NULL, NULL, NULL}};
 static const struct own_default diff_defaults[] = {
     {"output", "no picture, no page", "a picture of the difference between two pictures, or a page: FILE.html"},
-    {"size", "384x384", "of the pictures of models: 800 or 1920x1080"},
+    {"size", "384x384", "size of the models' pictures: 800 or 1920x1080"},
     {NULL, NULL, NULL}};
 static const struct own_default hash_defaults[] = {{"output", "required without --check", "the text file of hashes"},
-                                                   {"size", NULL, "of the pictures: 800 or 1920x1080"},
+                                                   {"size", NULL, "size of the pictures: 800 or 1920x1080"},
                                                    {NULL, NULL, NULL}};
 static const struct own_default plot_defaults[] = {
     {"output", "KIND.png", NULL}, {"size", "1600x1000", NULL}, {NULL, NULL, NULL}};
@@ -142,13 +142,14 @@ const struct command command_table[] = {
     [COMMAND_devices] = {"devices", NULL,
                          "List the devices that can draw on this machine, and explain why other devices cannot.",
                          ABOUT | TAKES_JSON, .min_operands = 0, .max_operands = 0},
-    [COMMAND_help] = {"help", "[TOPIC]", "Explain a subject, a command or an option; without a name, list all of them.",
+    [COMMAND_help] = {"help", "[TOPIC]",
+                      "Explain a subject, a command or an option. Without TOPIC, list the subjects and commands.",
                       ABOUT, .min_operands = 0, .max_operands = -1, .verbatim = true},
     [COMMAND_complete] = {"complete", "-- WORD...", "Print completions for the last word (used by shells).", ABOUT,
                           .min_operands = 0, .max_operands = -1, .verbatim = true},
     [COMMAND_generate] = {"generate", "man|markdown|bash|zsh|fish|scene-schema|contract-schema|contract-NAME",
-                          "Print the man page, its Markdown form, shell completions, the JSON Schema of scene files or "
-                          "shader contracts, or the file of a built-in contract.",
+                          "Print the man page, the reference in Markdown, shell completions, the JSON Schema of scene "
+                          "files or shader contracts, or the file of a built-in contract.",
                           ABOUT, .min_operands = 1, .max_operands = 1},
     [COMMAND_COUNT] = {.name = NULL},
 };

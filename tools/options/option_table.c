@@ -547,10 +547,10 @@ struct option option_table[OPTIONS_MAX] = {
      "glass`). Properties that you do not list keep the model's values. `lambent help materials` lists the keys (a "
      "colour is `#rrggbb`, a name, `r/g/b` or one number). `color` sets the ambient and diffuse colour. "
      "`specular_color` sets the specular colour. The factors `ka`, `kd` and `ks` multiply the ambient, diffuse and "
-     "specular colour. `kr` sets the reflectivity. If you also give `specular_color`, the reflectivity is `kr` times "
-     "this colour.\n`@NAME` limits the option to the surfaces of that name: `ruby@handle`. Lambent first looks for "
-     "objects of that name, then for parts (OBJ groups, STL solids), and then for materials of the model. If several "
-     "options match a surface, the last one wins.",
+     "specular colour. The factor `kr` multiplies `reflectivity`. Without the key `reflectivity`, the reflectivity is "
+     "`kr` times `specular_color` (default: white).\n`@NAME` limits the option to the surfaces of that name: "
+     "`ruby@handle`. Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and then "
+     "for materials of the model. If several options match a surface, the last one wins.",
      .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
      .others = "m mat specular diffuse", FIELD(material.materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
@@ -558,7 +558,7 @@ struct option option_table[OPTIONS_MAX] = {
      "Highlights keep their colour. The option is short for `--material color=COLOR`. A colour alone is also a valid "
      "material: `--material '#ff8800@handle'`. For old scripts, `--color raw` means `--color-mode raw`, and `--color "
      "srgb` means `--color-mode srgb`.",
-     .kind = VALUE_COLOR, .brief = "of the model: red, '#ff8800'", .store = store_opaque_color,
+     .kind = VALUE_COLOR, .brief = "the model's colour: red, '#ff8800'", .store = store_opaque_color,
      .others = "c paint tint albedo model-color mesh-color surface-color", FIELD(material.model_color),
      .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
@@ -606,10 +606,11 @@ struct option option_table[OPTIONS_MAX] = {
      "`docs/lighting/shadows.md` describes the method and common shadow errors.",
      .others = "shadow cast-shadows raytrace shadow-map"},
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
-     "Lights then cast shadows on the ground plane and on the model. The kind `shadow` draws only the shadows, over "
-     "any background, including a transparent one. The other kinds are lit surfaces. The ground plane is perpendicular "
-     "to the up axis (`--up`) and fades out with distance. The ground plane is invisible from below. A ground plane "
-     "requires Phong shading. For pictures, see `docs/lighting/ground.md`.",
+     "`--ground` without a value means `--ground shadow`. With a ground plane, lights cast shadows on the plane and on "
+     "the model. The kind `shadow` draws only the shadows, over any background, including a transparent one. The other "
+     "kinds are lit surfaces. The ground plane is perpendicular to the up axis (`--up`) and fades out with distance. "
+     "The ground plane is invisible from below. A ground plane requires Phong shading. For pictures, see "
+     "`docs/lighting/ground.md`.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
@@ -1020,8 +1021,9 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_integer, .others = "effort budget tries", FIELD(check.search_limit), .min = 1, .max = 1000000000},
     {"class", 0, GROUP_CHECK, "FOLDER", NULL, "Check every submission in a folder.",
      "A submission is a sub-folder with one fragment shader, at most one vertex shader and any other files. In the top "
-     "folder, each fragment shader forms one submission with the vertex shader of the same name. With `-o FOLDER/`, "
-     "Lambent writes a page for the whole class, `index.html`, and a sheet for each submission.",
+     "folder, and in sub-folders with more shaders, each fragment shader forms one submission with the vertex shader "
+     "of the same name. With `-o FOLDER/`, Lambent writes a page for the whole class, `index.html`, and a sheet for "
+     "each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
     {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader, with its points and mistakes.", NULL,
      .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},

@@ -67,7 +67,7 @@ static const struct light_field rows[] = {
                .max = 1,
                .standard = {1},
                .light_types = REACHING,
-               .summary = "whether this light casts shadows in pictures with shadows"},
+               .summary = "whether this light casts shadows in pictures drawn with shadows"},
      .optional = true},
     {.field = {MEMBER(radius), .max = UNBOUNDED, .light_types = PLACED, .unit = "world units",
                .summary = "radius of the ball that emits the light; a larger ball casts softer shadows; 0: a point"},

@@ -114,7 +114,7 @@ static const lam_setting rows[] = {
     {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 112, .expected = "0 to 256",
      .summary = "The number of shadow rays from each point in a penumbra to a light with a radius."},
     {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
-     .summary = "A ground plane at the model's lowest point: shadow (also without a value), checker, a colour or off."},
+     .summary = "A ground plane at the model's lowest point: shadow, checker, a colour or off."},
     {"ground_color", MEMBER(RGB, ground_color),
      .summary = "The colour of the ground, or of the bright squares of a checkerboard. Default: black, or 0.6 for a "
                 "checkerboard."},

@@ -180,7 +180,7 @@ static void receive(struct view_tasks *tasks, struct view_process *process)
     struct view_task *task = process->task;
     int whole = view_process_receive(process, &reply);
     if (whole < 0)
-        lose(tasks, process, "the drawing process ended without an answer");
+        lose(tasks, process, "the drawing process ended without a result");
     if (whole <= 0)
         return;
     struct view_result result = {

@@ -58,7 +58,7 @@ class Docs(Case):
         for word in ("gl-device", "light-cutoff", "tolerance"):
             self.assertNotIn(f"--{word}", text)
         self.assertIn("lambent --help", text)
-        commands = re.search(r"Commands: ([\w\s,]*)\nEverything", text).group(1).replace(",", "").split()
+        commands = re.search(r"Commands: ([\w\s,]*)\nComplete help", text).group(1).replace(",", "").split()
         self.assertGreater(len(commands), 10)
         for command in ("render", *commands):
             brief, whole = (self.good(command, way).stdout.decode() for way in ("-h", "--help"))

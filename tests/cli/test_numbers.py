@@ -93,7 +93,7 @@ OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
 # A page, a sentence of it in which {} replaces each number determined by the code, and the sources of these
 # numbers.
 ROWS = [
-    ("docs/lighting/pixels.md", "snapped to 1/{} of a pixel", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
+    ("docs/lighting/pixels.md", "rounds vertices to 1/{} of a pixel", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "uses {} samples in pictures of up to {}² pixels, {} samples up to {}² pixels, and {} samples in larger pictures", *SAMPLES),
     ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} up to {}², {} above |", *SAMPLES),
@@ -105,11 +105,11 @@ ROWS = [
     ("docs/view.md", "a picture of {}x{} pixels", *2 * [constant("tools/view/view_gallery.h", "VIEW_THUMBNAIL")]),
     ("docs/view.md", "a token of {} random bits", counted("bits of VIEW_TOKEN_SIZE", lambda: (constant("tools/view/view.h", "VIEW_TOKEN_SIZE").look_up() - 1) * 4)),
     ("docs/web.md", "is limited to {} MB", counted("megabytes of PAGE_FILES_MAX", lambda: constant("tools/page/page_write.h", "PAGE_FILES_MAX").look_up() / 1e6)),
-    ("docs/lighting/diffuse.md", "`roughness_angle` in degrees, {} by default", field("roughness_angle")),
+    ("docs/lighting/diffuse.md", "`roughness_angle` in degrees (default: {})", field("roughness_angle")),
     ("docs/lighting/lights.md", "With more than {} lights, Lambent skips the weakest lights", FEW_LIGHTS),
     ("docs/lighting/surfaces.md", "At most {} translucent triangles may cover one pixel", LAYERS),
     ("docs/lighting/reflection.md", "Faces may have up to {} pixels on a side", SPHERE),
-    ("docs/lighting/reflection.md", "built in, computed, {} pixels on each side", constant("src/environment/environment_made.c", "SIDE")),
+    ("docs/lighting/reflection.md", "built in, computed, with faces of {}×{} pixels", *2 * [constant("src/environment/environment_made.c", "SIDE")]),
     ("docs/internals/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
     ("docs/internals/cpu.md", "A thread can store {} such fragments", LAYERS),
     ("docs/internals/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
@@ -136,13 +136,13 @@ ROWS = [
     ("docs/shaders.md", "RGBA32F, {} texels wide", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
     ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
-    ("docs/formats.md", "from zero is more than {} times its own size", constant("src/geometry/origin.h", "ORIGIN_RATIO")),
+    ("docs/formats.md", "from zero is more than {} times the model's size", constant("src/geometry/origin.h", "ORIGIN_RATIO")),
     ("docs/formats.md", "| `Ns` | shininess, 0 to {}; by default {}. With exactly 0,", code("src/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
     ("docs/check.md", "at most one pixel in {} differs by more than `--tolerance` ({} steps of 1/255)", PIXELS_OVER_CHECK, TOLERANCE),
     ("docs/check.md", "the shader exceeded `--stop-after` ({} seconds)", option("stop-after")),
     ("docs/lighting.md", "about {} hundred lines", counted("the hundreds of lines of lobes.h, lights.h and sum.h", lambda: round(sum(
         len((ROOT / "src/lighting" / name).read_text().splitlines()) for name in ("lobes.h", "lights.h", "sum.h")) / 100))),
-    ("tools/help/topics.c", "`--tolerance` (default {}) applies to each channel of a pixel: at most one pixel in {} may exceed",
+    ("tools/help/topics.c", "`--tolerance` (default {}) applies to each channel of a pixel. At most one pixel in {} may exceed",
      TOLERANCE, PIXELS_OVER_CHECK),
     ("tools/options/option_table.c", "fills {} % of the picture's width or height", PERCENT_FILL),
     ("tools/options/option_table.c", "a vertical field of view of {} degrees", FOVY),

@@ -103,8 +103,8 @@ void print_brief_help(const struct command *command)
         }
         printf("\n");
         help_text(names, 0, BRIEF_WIDTH);
-        printf("Everything: lambent --help. A subject, a command or an option: lambent help NAME\n");
+        printf("Complete help: lambent --help. One subject, command or option: lambent help NAME\n");
     } else if (options_shown) {
-        printf("\nEverything: lambent %s --help\n", command->name);
+        printf("\nComplete help: lambent %s --help\n", command->name);
     }
 }

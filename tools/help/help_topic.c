@@ -1,4 +1,4 @@
-// help_topic.c: the command `help`: explains a subject, a command or an option, or lists all of them.
+// help_topic.c: the command `help`: explains a subject, a command or an option, or lists the subjects and commands.
 #include "command.h"
 
 #include <stdio.h>
@@ -105,8 +105,7 @@ static void print_list(void)
     }
     printf("\nCommands:\n");
     help_commands();
-    printf(
-        "\nOptions: lambent help light, lambent help --light or lambent help -o; lambent --help lists all of them.\n");
+    printf("\nOptions: lambent help light, lambent help --light or lambent help -o. All options: lambent --help\n");
 }
 
 // Returns the most similar name, or NULL if no name is similar enough.
@@ -133,10 +132,10 @@ static int search(int count, char **words)
     if (nearest && count == 1)
         snprintf(meant, sizeof meant, "; did you mean '%s'?", nearest);
     if (count > 1)
-        snprintf(heading, sizeof heading, "Found in these entries:");
+        snprintf(heading, sizeof heading, "These entries contain all of these words:");
     else
         snprintf(heading, sizeof heading, "No subject, command or option is named '%.60s'%s", words[0],
-                 *meant ? meant : "; found in:");
+                 *meant ? meant : ". These entries contain the word:");
     bool letter = count == 1 && strlen(words[0]) < 2; // a letter matches nearly every text
     if (!letter && help_search(count, words, heading))
         return 0;

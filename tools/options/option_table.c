@@ -555,9 +555,9 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "m mat specular diffuse", FIELD(material.materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
      "The colour replaces the ambient and diffuse colour of every material, including colours set by `--material`. "
-     "Highlights keep their colour. The option is short for `--material color=COLOR`. A colour alone is also a valid "
-     "material: `--material '#ff8800@handle'`. For old scripts, `--color raw` means `--color-mode raw`, and `--color "
-     "srgb` means `--color-mode srgb`.",
+     "Highlights keep their colour. `--color COLOR` is short for `--material color=COLOR`. A colour alone is also a "
+     "valid material: `--material '#ff8800@handle'`. For old scripts, `--color raw` means `--color-mode raw`, and "
+     "`--color srgb` means `--color-mode srgb`.",
      .kind = VALUE_COLOR, .brief = "the model's colour: red, '#ff8800'", .store = store_opaque_color,
      .others = "c paint tint albedo model-color mesh-color surface-color", FIELD(material.model_color),
      .former = "color-mode"},
@@ -586,9 +586,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"reflection", 0, GROUP_SHADING, "MODEL", NULL, reflection_summary,
      .others = "brdf lobe pbr lighting-model reflection-model blinn-phong lambert"},
     {"stage", 0, GROUP_SHADING, "STAGE", "fragment", NULL,
-     "Without `--shading`, `application` and `vertex` imply Gouraud shading, and `fragment` implies Phong shading. The "
-     "list shows the shading methods of each stage. On the CPU, a shading method draws the same picture at every "
-     "stage.",
+     "Without `--shading`, `application` and `vertex` imply Gouraud shading, and `fragment` implies Phong shading. On "
+     "the CPU, a shading method draws the same picture at every stage.",
      .others = "per-vertex per-pixel per-fragment"},
     {"flat-normal", 0, GROUP_SHADING, "SOURCE", .words = NULL},
     {"viewer", 0, GROUP_SHADING, "KIND", .words = NULL},
@@ -769,7 +768,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
      "The limit applies to the elapsed time for reading, drawing and writing each model. The processor time is limited "
-     "to this limit times the number of threads (`--threads`). Lambent stops within half a second of the limit. In an "
+     "to this value times the number of threads (`--threads`). Lambent stops within half a second of the limit. In an "
      "animation, the default applies to each frame; a limit that you set applies to all frames together.",
      .store = store_seconds, .others = "timeout", FIELD(limits.time_limit_s), .min = 0.001, .max = 1e9,
      .single = TAKES_PICTURE_LIMITS},
@@ -922,10 +921,10 @@ struct option option_table[OPTIONS_MAX] = {
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,
      "List the pictures that the command would write, but draw and write nothing.",
-     "Lambent reads and checks the models and the options, and checks whether it can write each picture. Lambent draws "
-     "nothing. For each model, Lambent prints the name and size of the picture, whether the picture would overwrite a "
-     "file, the camera, the device and the options on the command line. With `--json`, the report contains `planned` "
-     "instead of `image`. Errors and exit codes are the same as without `--dry-run`.",
+     "Lambent reads and checks the models and the options, and checks whether it can write each picture. For each "
+     "model, Lambent prints the name and size of the picture, whether the picture would overwrite a file, the camera, "
+     "the device and the options on the command line. With `--json`, the report contains `planned` instead of `image`. "
+     "Errors and exit codes are the same as without `--dry-run`.",
      .store = store_switch, .others = "plan simulate no-write preview what-if check-only", FIELD(report.dry_run)},
     {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Print the files read and the duration of each step to standard error.",
      NULL, .store = store_switch, FIELD(report.verbose)},
@@ -939,7 +938,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
 
     {"check", 0, GROUP_HASH, "FILE", NULL,
-     "Compare the pictures with the hashes in FILE; if they differ, the exit code is 6.",
+     "Compare the pictures with the hashes in FILE; if a picture differs, the exit code is 6.",
      "Lambent lists changed models, new models, and missing models (models in FILE that you did not give). If you give "
      "no models, Lambent draws the models listed in FILE. If FILE was made with another version or with other options, "
      "Lambent reports this first.",
@@ -952,8 +951,9 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, .others = "renew accept bless", FIELD(hash.update)},
     {"pictures", 0, GROUP_HASH, "DIR", NULL,
      "Store the pictures in this folder, so that the next `--update` can show them as old pictures on the sheet.",
-     "Each picture is a PNG file named after its model: `DIR/models/koala.obj.png`. `-o` and `--update` write the "
-     "pictures, and `--update` reads them. The folder need not be in the repository; a CI cache is sufficient.",
+     "Each picture is a PNG file named after its model: `DIR/models/koala.obj.png`. Commands with `-o` or `--update` "
+     "write the pictures. `--update` also reads the pictures of the earlier run. The folder need not be in the "
+     "repository; a CI cache is sufficient.",
      .kind = VALUE_FILE, .store = store_text, .others = "keep cache-dir baseline", FIELD(hash.pictures)},
 
     {"thumbnail", 0, GROUP_CONVERT, NULL, NULL, "Put a picture of the model into the GLB file.",
@@ -995,8 +995,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"contract", 0, GROUP_CHECK, "NAME", "auto",
      "The contract that defines the shaders' variables: a built-in contract's name, or a file.",
      "`auto` recognises a built-in contract by the names of its variables. If no contract fits, Lambent infers the "
-     "role of each input from its use. `auto` never selects `chile` or `glsl120`; to use one of these contracts, give "
-     "its name. `--list` prints the contracts. You can also write your own contract in JSON "
+     "role of each input from the use of the input. `auto` never selects `chile` or `glsl120`; to use one of these "
+     "contracts, give its name. `--list` prints the contracts. You can also write your own contract in JSON "
      "(`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
     {"light-frame", 0, GROUP_CHECK, "SPACE", "the contract's", "The space of light positions: object or camera.", NULL,
@@ -1088,13 +1088,14 @@ struct option option_table[OPTIONS_MAX] = {
      "the longest side of the box around the surface (default: 96).",
      .store = store_text, .others = "implicit-surface isosurface level-set marching-cubes sdf", FIELD(shape.implicit),
      .loads = true},
-    {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of x in which an implicit surface is drawn.",
+    {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface",
+     "The range of x in which Lambent draws an implicit surface.",
      "Give two constant expressions. By default, Lambent searches for the surface in -4..4, and in -16..16 if the "
      "surface is closed only in the larger range.",
      .store = store_text, .others = "x-range box bounds", FIELD(shape.x_range), .loads = true},
-    {"y", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of y.", NULL, .store = store_text,
+    {"y", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of y, as for `--x`.", NULL, .store = store_text,
      .others = "y-range", FIELD(shape.y_range), .loads = true},
-    {"z", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of z.", NULL, .store = store_text,
+    {"z", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of z, as for `--x`.", NULL, .store = store_text,
      .others = "z-range", FIELD(shape.z_range), .loads = true},
     {"flip", 0, GROUP_SHAPE, NULL, NULL, "Swap front and back faces.",
      "By default, the front of a parametric surface is the side to which the cross product of the derivatives by u and "

@@ -35,9 +35,9 @@ WORDS(shading_words, {"flat", LAM_SHADING_FLAT, "one colour for each triangle"},
       {"phong", LAM_SHADING_PHONG, "interpolated normals, with lighting evaluated for each pixel"},
       {"normal", LAM_SHADING_PHONG, "an alias of phong"})
 WORDS(stage_words, {"auto", LAM_STAGE_AUTO, NULL},
-      {"application", LAM_STAGE_APPLICATION, "before drawing (flat, gouraud)"},
-      {"vertex", LAM_STAGE_VERTEX, "for each vertex (flat, gouraud)"},
-      {"fragment", LAM_STAGE_FRAGMENT, "for each fragment (flat, phong)"})
+      {"application", LAM_STAGE_APPLICATION, "before drawing; for flat and Gouraud shading"},
+      {"vertex", LAM_STAGE_VERTEX, "for each vertex; for flat and Gouraud shading"},
+      {"fragment", LAM_STAGE_FRAGMENT, "for each fragment; for flat and Phong shading"})
 WORDS(viewer_words, {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
       {"infinite", LAM_VIEWER_INFINITE,
        "the eye is infinitely far away, so the direction to the eye is the same at every point"})

@@ -134,11 +134,11 @@ const struct topic topics[] = {
      "`-o report.html` writes a page of added, removed and changed models, with pictures before and after. For "
      "details, see `docs/pull-requests.md`."},
     {"hash", "Hashes of pictures", BIT(HASH), TOPIC_NO_TABLE,
-     "`lambent hash models/ -o pictures.hash` writes a line for each model: the XXH64 hash of the picture's pixels "
-     "(rows from the top; red, green, blue, alpha), and the model's path relative to the file. The first lines of the "
-     "file record the version and the options. Pictures are identical on every machine, so a repository can store this "
-     "file instead of the pictures. `lambent hash models/ --check pictures.hash` lists the models whose pictures "
-     "changed. For details, see `docs/pull-requests.md`."},
+     "`lambent hash models/ -o pictures.hash` writes a line for each model. The line contains the XXH64 hash of the "
+     "picture's pixels (rows from the top; red, green, blue, alpha) and the model's path relative to the file. The "
+     "first lines of the file record the version and the options. Pictures are identical on every machine, so a "
+     "repository can store this file instead of the pictures. `lambent hash models/ --check pictures.hash` lists the "
+     "models whose pictures changed. For details, see `docs/pull-requests.md`."},
     {"glass", "Glass", 0, TOPIC_NO_TABLE,
      "`--material glass` is clear, smooth glass: `white,roughness=0,transmission=1`. You can change this material with "
      "keys: `--material glass,roughness=0.3` blurs the scene behind the glass, `glass,diffuse=0.2/0.8/0.5` tints the "

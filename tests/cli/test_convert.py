@@ -377,7 +377,7 @@ end_header
     def test_errors(self):
         for words, code, says in ((["cube.obj", "x.fbx"], 3, ".glb, .obj, .stl, .ply or .3mf"), (["cube.obj", "x"], 3, "write .glb"),
                                   (["cube.obj", "-"], 1, "selects the format"), (["cube.obj"], 1, "missing argument"),
-                                  (["cube.obj", "a.glb", "b.glb"], 1, "it writes one model"), (["cube.obj", "cube.obj"], 1, "the same file"),
+                                  (["cube.obj", "a.glb", "b.glb"], 1, "the command writes one model"), (["cube.obj", "cube.obj"], 1, "the same file"),
                                   (["missing.obj", "x.glb"], 2, "missing.obj"), (["cube.obj", "no/where/x.glb"], 5, "no/where"),
                                   (["cube.obj", "x.glb", "--samples", "4"], 1, "does not apply")):
             self.bad(code, "convert", *words, says=says)

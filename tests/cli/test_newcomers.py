@@ -50,7 +50,7 @@ class Sentences(Case):
     def test_options(self):
         self.check({
             "cube.obj -c red": (1, "'--color'"), "cube.obj -l point": (1, "'--light'"), "-V": (1, "'--version'"),
-            "-?": (1, "'--help'"), "cube.obj –size 640": (1, "the dash of a text"), "cube.obj —size 640": (1, "the dash of a text"),
+            "-?": (1, "'--help'"), "cube.obj –size 640": (1, "a typographic dash"), "cube.obj —size 640": (1, "a typographic dash"),
             "cube.obj --ao": (1, "needs a value: auto, off, screen or rays"), "cube.obj --turntable -o t.png": (1, "--turntable", "needs a value"),
             "cube.obj --opacity 50%": (1, "50% is 0.5"), "cube.obj --reflection pbr": (1, "'ggx'"), "cube.obj --tone filmic": (1, "'aces'"),
             "cube.obj --tone on": (1, "'auto'"), "cube.obj --unlit": (1, "'--show'"),

@@ -58,7 +58,7 @@ const struct command command_table[] = {
                          (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_SHEET | 1ull << GROUP_CAPTIONS | TAKES_QUIET |
                              TAKES_JSON,
                          .min_operands = 1, .max_operands = 1,
-                         .one_more = "it shows one model in several ways; lambent diff compares pictures",
+                         .one_more = "the command shows one model in several ways; lambent diff compares pictures",
                          .defaults = compare_defaults},
     [COMMAND_explain] =
         {"explain", "MODEL X,Y",
@@ -88,7 +88,8 @@ const struct command command_table[] = {
                       (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_DIFF | TAKES_JSON | TAKES_QUIET | TAKES_MANY |
                           TAKES_TITLE,
                       .min_operands = 2, .max_operands = 2,
-                      .one_more = "it compares two pictures, models or folders of models", .defaults = diff_defaults},
+                      .one_more = "the command compares two pictures, two models or two folders of models",
+                      .defaults = diff_defaults},
     [COMMAND_hash] =
         {"hash", "[MODEL|FOLDER|@LIST|-]...",
          "Write hashes of the models' pictures to a text file (-o), or compare them with such a file (--check).",
@@ -100,7 +101,7 @@ const struct command command_table[] = {
                          ABOUT | 1ull << GROUP_CONVERT | 1ull << GROUP_MODEL | 1ull << GROUP_LIMITS | TAKES_UP |
                              TAKES_THREADS | TAKES_JSON | TAKES_QUIET,
                          .min_operands = 2, .max_operands = 2,
-                         .one_more = "it writes one model: lambent convert MODEL OUT.glb"},
+                         .one_more = "the command writes one model: lambent convert MODEL OUT.glb"},
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
                       "Plot attenuation, spot cones or highlights as curves (PNG or SVG), and print their numbers.",
                       ABOUT | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
@@ -111,7 +112,7 @@ const struct command command_table[] = {
          "Print the lights of a model (or of the rig if the model has no lights) in the format of scene files.",
          ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS | 1ull << GROUP_SHADING |
              1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
-         .min_operands = 1, .max_operands = 1, .one_more = "it prints the lights of one model"},
+         .min_operands = 1, .max_operands = 1, .one_more = "the command prints the lights of one model"},
     [COMMAND_shape] = {"shape", "[NAME]",
                        "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save the "
                        "shape as OBJ, STL or PLY.",
@@ -123,22 +124,24 @@ const struct command command_table[] = {
          "folder.",
          ABOUT | 1ull << GROUP_VIEWER | PICTURE_GROUPS | 1ull << GROUP_LIMITS | TAKES_THREADS | TAKES_QUIET |
              WRITES_NO_FILE,
-         .min_operands = 1, .max_operands = 1, .one_more = "it shows one model, or the models of one folder"},
+         .min_operands = 1, .max_operands = 1, .one_more = "the command shows one model, or the models of one folder"},
     [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0,
-                        .one_more = "it lists all shapes; lambent teapot draws one"},
+                        .one_more = "the command lists all shapes; lambent teapot draws one shape"},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,
-                         .max_operands = 0, .one_more = "it lists all formats"},
+                         .max_operands = 0, .one_more = "the command lists all formats"},
     [COMMAND_looks] = {"looks", "[NAME]", "List the built-in looks (--look), or print the file of one look.", ABOUT,
                        .min_operands = 0, .max_operands = 1},
     [COMMAND_materials] = {"materials", NULL,
                            "List the named materials with their numbers; -o FILE also draws a sheet of them.",
                            ABOUT | 1ull << GROUP_PICTURE | 1ull << GROUP_CAPTIONS | TAKES_JSON, .min_operands = 0,
                            .max_operands = 0,
-                           .one_more = "it lists all materials; lambent teapot --material gold shows one",
+                           .one_more =
+                               "the command lists all materials; lambent teapot --material gold shows one material",
                            .defaults = materials_defaults},
     [COMMAND_config] = {"config", NULL, "Print the current settings, and the name of the settings file.",
                         ABOUT | 1ull << GROUP_SETTINGS | TAKES_JSON, .min_operands = 0, .max_operands = 0,
-                        .one_more = "it prints the settings; write them to the file that it names"},
+                        .one_more =
+                            "the command only prints the settings; to change settings, edit the file that it names"},
     [COMMAND_devices] = {"devices", NULL,
                          "List the devices that can draw on this machine, and explain why other devices cannot.",
                          ABOUT | TAKES_JSON, .min_operands = 0, .max_operands = 0},

@@ -558,7 +558,7 @@ int options_parse(int count, char **words, uint64_t groups, struct options *opti
                 words[operands++] = words[at];
         } else if (has_long_dash(argument) && access(argument, F_OK) != 0) {
             complain(error, LAM_BAD_ARGUMENT,
-                     "found '%.100s', which begins with the dash of a text; options begin with --", argument);
+                     "found '%.100s', which begins with a typographic dash; options begin with --", argument);
             return -1;
         } else if (argument[0] != '-' || argument[1] == 0) {
             if (at > 0 && options->picture.has_size && is_number(argument) && is_number(words[at - 1]) &&

@@ -125,7 +125,7 @@ static void shared_options(const struct command *command)
             continue;
         if (!any)
             printf(
-                "\nShared with pictures of models (lambent --help describes them, lambent help NAME one of them):\n");
+                "\nShared with pictures of models (lambent --help describes them, lambent help NAME describes one):\n");
         any = true;
         snprintf(left, sizeof left, "  %s", group_titles[group]);
         help_row(left, HELP_COLUMN, WIDTH, text);

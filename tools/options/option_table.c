@@ -350,9 +350,9 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. The "
      "exposure also applies to `--color-mode raw`, to float pictures and to the light terms of `--show`. The "
      "background keeps its colour. If the picture uses the lights of a glTF file (candela, lux), the default is "
-     "`auto`. With `auto`, Lambent selects the highest exposure at which 95 % of the covered pixels have a brightness "
-     "of at most 0.8. Lambent tries exposures in steps of a third of a stop. Lambent reports the selected exposure. "
-     "`--exposure 0` keeps the light unchanged.",
+     "`auto`. With `auto`, Lambent computes the exposure at which 95 % of the covered pixels have a luminance of at "
+     "most 0.8. Lambent rounds this exposure to a third of a stop, and reports the result. `--exposure 0` keeps the "
+     "light unchanged.",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "

@@ -28,7 +28,7 @@ help:
 	@echo 'make fuzz       fuzzes every reader and the drawing, a minute each (time=1200 targets="obj ply")'
 	@echo 'make lint       cppcheck and clang-tidy over src, classroom and tools'
 	@echo 'make bench      measures against other programs, into bench/results and docs/speed.md (BENCH=full: everything;'
-	@echo '                LAMBENT_MODELS=FOLDER: rows of its models too)'
+	@echo '                BENCH=large: a file of 5 GB; LAMBENT_MODELS=FOLDER: rows of its models too)'
 	@echo 'make bench-check         counts instructions, beside the recorded ones (part of make test-more)'
 	@echo 'make bench-check-record  records them anew, where they were meant to change'
 	@echo 'make install    installs to $$(DESTDIR)$$(prefix), prefix=$(prefix)'
@@ -114,7 +114,7 @@ bench:
 	@scripts/setup.sh build bench
 	@test -e build-bench/build.ninja || meson setup build-bench --buildtype=release -Dtests=false -Dbench=true
 	@ninja -C build-bench
-	@python3 bench/run.py
+	@python3 bench/$(if $(filter large,$(BENCH)),large.py --write,run.py)
 
 bench-check bench-check-record: $(build)/lambent
 	@scripts/setup.sh test

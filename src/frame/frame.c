@@ -127,13 +127,9 @@ static bool transmits(const struct frame *frame, int material, lam_reflection mo
     return frame_is_physical(model) && frame_layers(frame, frame->materials[material]) & LAYER_TRANSMISSION;
 }
 
-// Returns whether a material blurs or refracts the picture behind it. An index of refraction of 1 (air) or 0 (which
-// admits no light) does not.
-static bool refracts(const struct frame *frame, int material, lam_reflection model)
-{
-    const lam_material *m = frame->materials[material];
-    return transmits(frame, material, model) && m->ior > 1 && (m->roughness > 0 || m->thickness > 0);
-}
+// Returns whether a material that transmits light blurs or refracts the picture behind it. An index of refraction of 1
+// (air) or 0 (which admits no light) does not.
+static bool refracts(const lam_material *m) { return m->ior > 1 && (m->roughness > 0 || m->thickness > 0); }
 
 // Returns whether light passes a material unchanged at every point and on both sides (src/rays/opacity.h).
 static bool is_clear(const struct frame *frame, const lam_mesh *mesh, int material, lam_reflection model)
@@ -146,6 +142,40 @@ static bool is_clear(const struct frame *frame, const lam_mesh *mesh, int materi
     bool whole = m->alpha_mode == LAM_ALPHA_OPAQUE || (m->alpha_mode == LAM_ALPHA_BLEND && m->diffuse.a >= 1);
     return whole && !mesh->colors && transmits(frame, material, model) && m->transmission >= 1 && m->metallic <= 0 &&
            m->diffuse.r >= 1 && m->diffuse.g >= 1 && m->diffuse.b >= 1;
+}
+
+// How a side of a range treats the light behind it; a range has the traits of both sides.
+enum side_trait { SIDE_DIMS = 1, SIDE_TRANSMITS = 2, SIDE_REFRACTS = 4, SIDE_SEEN_THROUGH = 8, SIDE_MASKED = 16 };
+
+// Returns the traits of the sides with one material; `varies` as for sees_through.
+static unsigned side_traits(const struct frame *frame, const lam_mesh *mesh, int material, lam_reflection model,
+                            bool varies)
+{
+    const lam_material *m = frame->materials[material];
+    unsigned traits = is_clear(frame, mesh, material, model) ? 0 : SIDE_DIMS;
+    if (transmits(frame, material, model))
+        traits |= SIDE_SEEN_THROUGH | SIDE_TRANSMITS | (refracts(m) ? SIDE_REFRACTS : 0);
+    if (sees_through(m, varies))
+        traits |= SIDE_SEEN_THROUGH;
+    return traits | (m->alpha_mode == LAM_ALPHA_MASK ? SIDE_MASKED : 0);
+}
+
+// Adds a range of triangles with the traits of its sides to the frame.
+static void add_range(struct frame *frame, struct frame_draw_range range, unsigned traits)
+{
+    lam_output output = frame->settings.output;
+    const bool shows = !output_is_value(output), masked = traits & SIDE_MASKED;
+    range.passes_rays = traits & SIDE_SEEN_THROUGH;
+    range.transmits = shows && traits & SIDE_TRANSMITS;
+    // Pictures of values have no translucent triangles, only masked ones; overdraw counts all of a triangle.
+    range.translucent = range.passes_rays && (shows || (masked && output != LAM_OUTPUT_OVERDRAW));
+    frame->transmits |= range.transmits;
+    frame->refracts |= shows && traits & SIDE_REFRACTS;
+    frame->translucent |= range.translucent;
+    frame->passes_rays |= range.passes_rays;
+    frame->tints_rays |= (traits & SIDE_TRANSMITS) != 0;
+    frame->masked |= range.translucent && masked;
+    frame->ranges[frame->range_count++] = range;
 }
 
 static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_index)
@@ -177,34 +207,19 @@ static void build_ranges(struct frame *frame, const lam_scene *scene, int draw_i
             }
             back = front;
         }
-        draw->clear = draw->clear && is_clear(frame, mesh, front, reflection) &&
-                      (draw->one_sided || is_clear(frame, mesh, back, reflection));
         bool varies = scene_extent(scene, object->mesh)->translucent;
-        bool passes = transmits(frame, front, reflection) || (!draw->one_sided && transmits(frame, back, reflection));
-        bool translucent = passes || sees_through(frame->materials[front], varies) ||
-                           (!draw->one_sided && sees_through(frame->materials[back], varies));
-        bool masks = frame->materials[front]->alpha_mode == LAM_ALPHA_MASK ||
-                     (!draw->one_sided && frame->materials[back]->alpha_mode == LAM_ALPHA_MASK);
-        bool passes_rays = translucent;
-        if (output_is_value(frame->settings.output)) // overdraw counts triangles, not lines
-            translucent = translucent && masks && frame->settings.output != LAM_OUTPUT_OVERDRAW;
-        bool shows = !output_is_value(frame->settings.output);
-        frame->transmits |= passes && shows;
-        frame->refracts |=
-            shows && (refracts(frame, front, reflection) || (!draw->one_sided && refracts(frame, back, reflection)));
-        frame->translucent |= translucent;
-        frame->passes_rays |= passes_rays;
-        frame->tints_rays |= passes;
-        frame->masked |= translucent && masks;
-        frame->ranges[frame->range_count++] = (struct frame_draw_range){draw->first_id + part->first_triangle,
-                                                                        part->triangle_count,
-                                                                        draw_index,
-                                                                        front,
-                                                                        back,
-                                                                        translucent,
-                                                                        reflection,
-                                                                        passes_rays,
-                                                                        passes && shows};
+        unsigned traits = side_traits(frame, mesh, front, reflection, varies);
+        if (!draw->one_sided)
+            traits |= side_traits(frame, mesh, back, reflection, varies);
+        draw->clear = draw->clear && !(traits & SIDE_DIMS);
+        add_range(frame,
+                  (struct frame_draw_range){.first_id = draw->first_id + part->first_triangle,
+                                            .count = part->triangle_count,
+                                            .draw = draw_index,
+                                            .front = front,
+                                            .back = back,
+                                            .reflection = reflection},
+                  traits);
     }
 }
 

@@ -14,32 +14,10 @@
 #include "report.h"
 #include "terminal.h"
 
-static bool check_together(int count, char **models, const struct options *o, lam_error *error)
+#define OF_BATCH(name) "option '--" name "' does not apply to this command; it belongs to batch: lambent batch --jobs -"
+
+static bool check_models(int count, char **models, lam_error *error)
 {
-    if (!job_check_options(o, error))
-        return false;
-    if (!output_name_is_pattern(o->picture.output) && output_is_named(o->picture.output) && count > 1)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--output' names one picture, but there are %d models ('%.60s', '%.60s'%s); "
-                        "name a folder, -o pictures/, or a pattern, -o '{stem}-{view}.png'",
-                        count, models[0], models[1], count > 2 ? " ..." : "");
-    if (o->batch.jobs || o->batch.ahead || o->batch.line_limit_bytes)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--%s' does not apply to this command; it belongs to batch: lambent batch --jobs -",
-                        o->batch.jobs    ? "jobs"
-                        : o->batch.ahead ? "ahead"
-                                         : "line-limit");
-    if (o->picture.save_scene && (count > 1 || o->batch.lists.count))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' works only with a single model, found %s",
-                        o->batch.lists.count ? "a list of models" : "several");
-    if (o->picture.save_scene && strcmp(models[0], "-") == 0)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--save-scene' needs a model with a name; standard input has none");
-    if (o->picture.save_scene && strcmp(o->picture.save_scene, "-") == 0)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' writes a file, expected its name");
-    if ((o->batch.resume || o->batch.skip_same) && !o->batch.journal)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a journal, expected --journal FILE",
-                        o->batch.resume ? "resume" : "skip-same");
     for (int i = 0; i < count; i++) {
         if (!*models[i])
             return complain(error, LAM_BAD_ARGUMENT, "a model's name is empty");
@@ -49,6 +27,12 @@ static bool check_together(int count, char **models, const struct options *o, la
             return complain(error, LAM_BAD_ARGUMENT,
                             "standard input is a terminal, expected a model: lambent - < FILE");
     }
+    return true;
+}
+
+// Prepares pictures in the terminal if there is only one, and refuses to write a picture file to a terminal.
+static bool check_terminal(int count, const struct options *o, lam_error *error)
+{
     bool alone = count == 1 && !o->batch.lists.count && o->batch.view_count <= 1 && o->batch.size_count <= 1 &&
                  !animation_wanted(o);
     if (!terminal_start(o, alone, error))
@@ -56,6 +40,42 @@ static bool check_together(int count, char **models, const struct options *o, la
     if (o->picture.output && strcmp(o->picture.output, "-") == 0 && isatty(STDOUT_FILENO) && !terminal_shows())
         return terminal_refuse("MODEL", error);
     return true;
+}
+
+// One reason to refuse the command line: whether it applies, and the message.
+struct refusal {
+    bool applies;
+    const char *text;
+};
+
+static bool check_together(int count, char **models, const struct options *o, lam_error *error)
+{
+    const struct batch_options *b = &o->batch;
+    const char *scene = o->picture.save_scene;
+    bool one_picture = !output_name_is_pattern(o->picture.output) && output_is_named(o->picture.output);
+    if (!job_check_options(o, error))
+        return false;
+    if (one_picture && count > 1)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--output' names one picture, but there are %d models ('%.60s', '%.60s'%s); "
+                        "name a folder, -o pictures/, or a pattern, -o '{stem}-{view}.png'",
+                        count, models[0], models[1], count > 2 ? " ..." : "");
+    const struct refusal refusals[] = {
+        {b->jobs, OF_BATCH("jobs")},
+        {b->ahead, OF_BATCH("ahead")},
+        {b->line_limit_bytes, OF_BATCH("line-limit")},
+        {scene && b->lists.count, "option '--save-scene' works only with a single model, found a list of models"},
+        {scene && count > 1, "option '--save-scene' works only with a single model, found several"},
+        {scene && count && strcmp(models[0], "-") == 0,
+         "option '--save-scene' needs a model with a name; standard input has none"},
+        {scene && strcmp(scene, "-") == 0, "option '--save-scene' writes a file, expected its name"},
+        {b->resume && !b->journal, "option '--resume' needs a journal, expected --journal FILE"},
+        {b->skip_same && !b->journal, "option '--skip-same' needs a journal, expected --journal FILE"},
+    };
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
+        if (refusals[i].applies)
+            return complain(error, LAM_BAD_ARGUMENT, "%s", refusals[i].text);
+    return check_models(count, models, error) && check_terminal(count, o, error);
 }
 
 // Returns whether --journal requests a journal. With --dry-run, there is nothing to record.

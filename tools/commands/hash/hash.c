@@ -273,6 +273,37 @@ static void head_json(struct json *json, const struct hash_run *run, const char 
     json_text(json, "file_options", run->then.options);
 }
 
+// Writes the hashes and the sheet of old and new pictures, whose number of rows it stores.
+static bool write_results(struct hash_run *run, json_t *const *records, char *options_text, int *rows, lam_error *error)
+{
+    return (!run->options->hash.update || hash_sheet_write(run, records, rows, error)) &&
+           write_file(run, records, options_text, error);
+}
+
+static void say_result(const struct hash_run *run, const struct result *result, struct json *json, bool written,
+                       int rows)
+{
+    if (run->options->report.json) {
+        json_flag(json, "written", written);
+        json_text(json, "sheet", rows ? run->sheet : NULL);
+        json_close(json, '}');
+        putc('\n', json->file);
+    } else if (!run->options->report.quiet && json->file == stdout) {
+        say_summary(run, result);
+        if (written)
+            printf("written to %s%s%s\n", run->path, rows ? "; old and new pictures: " : "", rows ? run->sheet : "");
+    }
+}
+
+// Returns whether a model in the hash file failed, which --failures-ok does not allow.
+static bool lost_models(const struct hash_run *run, json_t *const *records)
+{
+    bool lost = false;
+    for (size_t i = 0; run->checks && i < run->plan.count; i++)
+        lost |= hash_file_find(&run->then, run->names[i]) && !json_object_get(records[i], "pixels");
+    return lost;
+}
+
 static int finish(void *user, json_t *const *records, size_t failed)
 {
     struct hash_run *run = user;
@@ -281,38 +312,24 @@ static int finish(void *user, json_t *const *records, size_t failed)
     struct result result = {0};
     struct json json = {.file = strcmp(run->path, "-") == 0 ? stderr : stdout};
     char *options_text = hash_options_text(o, run->path);
-    bool writes = !run->checks || o->hash.update, blocked = failed && !o->batch.failures_ok;
-    bool ok = (options_text || complain(&error, LAM_LIMIT, "out of memory")) && take_hashes(run, records, &error);
+    const bool writes = !run->checks || o->hash.update, blocked = failed && !o->batch.failures_ok;
     int rows = 0;
-    if (ok && writes && !blocked)
-        ok = (!o->hash.update || hash_sheet_write(run, records, &rows, &error)) &&
-             write_file(run, records, options_text, &error);
+    bool ok = (options_text || complain(&error, LAM_LIMIT, "out of memory")) && take_hashes(run, records, &error) &&
+              (!writes || blocked || write_results(run, records, options_text, &rows, &error));
     if (ok && o->report.json)
         head_json(&json, run, options_text);
     for (int i = 0; ok && i < STATE_COUNT; i++)
         tell_state(run, records, (enum state)i, o->report.json ? &json : NULL, &result);
     free(options_text);
-    bool written = writes && !blocked;
-    if (ok && o->report.json) {
-        json_flag(&json, "written", written);
-        json_text(&json, "sheet", rows ? run->sheet : NULL);
-        json_close(&json, '}');
-        putc('\n', json.file);
-    } else if (ok && !o->report.quiet && json.file == stdout) {
-        say_summary(run, &result);
-        if (written)
-            printf("written to %s%s%s\n", run->path, rows ? "; old and new pictures: " : "", rows ? run->sheet : "");
-    }
-    if (ok && writes && blocked && json.file != stderr) // not if the hashes go to standard output
-        say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok omits them\n", run->path,
-                  failed);
     if (!ok)
         return report_failure(&error, o);
-    bool differs = result.counts[STATE_CHANGED] + result.counts[STATE_MISSING] + result.counts[STATE_NEW];
-    bool lost = false; // a model in the hash file failed, which --failures-ok does not allow
-    for (size_t i = 0; run->checks && i < run->plan.count; i++)
-        lost |= hash_file_find(&run->then, run->names[i]) && !json_object_get(records[i], "pixels");
-    return blocked ? EXIT_SOME_FAILED : run->checks && !o->hash.update && (differs || lost) ? EXIT_DIFFERS : 0;
+    say_result(run, &result, &json, writes && !blocked, rows);
+    if (writes && blocked && json.file != stderr) // not if the hashes go to standard output
+        say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok omits them\n", run->path,
+                  failed);
+    bool differs = result.counts[STATE_CHANGED] + result.counts[STATE_MISSING] + result.counts[STATE_NEW] ||
+                   lost_models(run, records);
+    return blocked ? EXIT_SOME_FAILED : run->checks && !o->hash.update && differs ? EXIT_DIFFERS : 0;
 }
 
 // --- the run

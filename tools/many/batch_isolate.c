@@ -77,7 +77,7 @@ static void draw_here(struct batch *b, struct batch_unit *u)
     lam_device_free(device);
 }
 
-static void work(void *user, struct batch_answer *answer)
+static void work(void *user, struct child_bytes *answer)
 {
     const struct work *w = user;
     struct batch_unit *u = w->unit;
@@ -88,7 +88,7 @@ static void work(void *user, struct batch_answer *answer)
         _exit(1);
     batch_page_thumbnails(w->batch, u);
     struct sent sent = {u->code, u->warnings, u->interrupted, u->out ? strlen(u->out) : 0, u->err ? strlen(u->err) : 0};
-    bool ok = batch_answer_add(answer, &sent, sizeof sent);
+    bool ok = child_bytes_add(answer, &sent, sizeof sent);
     for (int i = 0; ok && i < u->picture_count; i++) {
         char *line = u->is_new[i] && u->records[i] ? journal_line(u->records[i]) : NULL;
         struct sent_picture picture = {
@@ -96,11 +96,11 @@ static void work(void *user, struct batch_answer *answer)
         const lam_bytes *data = u->contents ? &u->contents[i] : NULL;
         picture.data_size = data ? data->size : 0;
         snprintf(picture.class, sizeof picture.class, "%s", u->classes[i] ? u->classes[i] : "");
-        ok = batch_answer_add(answer, &picture, sizeof picture) && batch_answer_add(answer, line, picture.line_size) &&
-             (!data || batch_answer_add(answer, data->data, data->size));
+        ok = child_bytes_add(answer, &picture, sizeof picture) && child_bytes_add(answer, line, picture.line_size) &&
+             (!data || child_bytes_add(answer, data->data, data->size));
         free(line);
     }
-    ok = ok && batch_answer_add(answer, u->out, sent.out_size) && batch_answer_add(answer, u->err, sent.err_size);
+    ok = ok && child_bytes_add(answer, u->out, sent.out_size) && child_bytes_add(answer, u->err, sent.err_size);
     if (!ok)
         _exit(1);
 }
@@ -134,7 +134,7 @@ static bool read_text(struct rest *rest, char **to, size_t size)
 }
 
 // Parses an answer. Returns false if the answer is incomplete.
-static bool read_answer(struct batch_unit *u, const struct batch_answer *answer)
+static bool read_answer(struct batch_unit *u, const struct child_bytes *answer)
 {
     struct rest rest = {answer->data, answer->size};
     struct sent sent;
@@ -199,12 +199,6 @@ static bool has_open(const struct batch_unit *u)
     return open;
 }
 
-static void wait_for_writer(pid_t writer)
-{
-    while (writer > 0 && waitpid(writer, NULL, 0) < 0 && errno == EINTR)
-        continue;
-}
-
 static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int status)
 {
     size_t size = (size_t)u->picture_count * sizeof *u->pictures;
@@ -212,11 +206,11 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
     if (before)
         memcpy(before, u->pictures, size);
     bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && read_answer(u, &process->answer);
-    wait_for_writer(process->writer);
+    child_wait_pid(process->writer);
     if (!whole) {
         if (before)
             memcpy(u->pictures, before, size);
-        batch_remove_parts(u->task.plan, u->task.model, process->writer ? process->writer : process->pid, NULL);
+        batch_remove_parts(u->task.plan, u->task.model, process->writer ? process->writer : process->child.pid, NULL);
         bool cancelled = u->task.job && u->task.job->cancelled;
         u->interrupted |= cancelled;
         if (!interrupted() && !cancelled && has_open(u)) // otherwise the process only made thumbnails
@@ -252,10 +246,10 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
             if (limit_s > 0)
                 process->stop_ms = clock_ms() + limit_s * 1e3 * u->picture_count + grace_ms(limit_s);
             if (b->journal)
-                journal_begin(b->journal, slot, writer ? writer : process->pid, path);
+                journal_begin(b->journal, slot, writer ? writer : process->child.pid, path);
             return true;
         }
-        wait_for_writer(writer);
+        child_wait_pid(writer);
         if (open) {
             if (!error.code)
                 complain(&error, LAM_LIMIT, "%.400s: cannot start a process: %s", path, strerror(errno));
@@ -278,16 +272,16 @@ static void end_processes(struct batch_process *processes, int count, double *si
     *since_ms = first ? clock_ms() : *since_ms;
     bool late = clock_ms() - *since_ms > interrupt_ms;
     for (int i = 0; i < count; i++)
-        if (processes[i].pid > 0 && (first || late))
-            kill(processes[i].pid, late ? SIGKILL : SIGTERM);
+        if (processes[i].child.pid > 0 && (first || late))
+            kill(processes[i].child.pid, late ? SIGKILL : SIGTERM);
 }
 
 // Ends the processes of cancelled jobs.
 static void end_cancelled(const struct batch_unit *units, struct batch_process *processes, int count)
 {
     for (int i = 0; i < count; i++)
-        if (processes[i].pid > 0 && units[i].task.job && units[i].task.job->cancelled)
-            batch_process_kill(&processes[i]);
+        if (processes[i].child.pid > 0 && units[i].task.job && units[i].task.job->cancelled)
+            child_kill(&processes[i].child);
 }
 
 void batch_isolate(struct batch *b)
@@ -305,7 +299,7 @@ void batch_isolate(struct batch *b)
         if (b->jobs)
             batch_jobs_step(b->jobs, running ? 0 : 100);
         for (int i = 0; more && i < b->workers; i++)
-            if (processes[i].pid == 0) {
+            if (processes[i].child.pid == 0) {
                 more = fill_slot(b, &units[i], &processes[i], i);
                 running += more;
             }

@@ -2,20 +2,11 @@
 #ifndef BATCH_PROCESS_H
 #define BATCH_PROCESS_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <sys/types.h>
-
-// The bytes that a process sends back.
-struct batch_answer {
-    char *data; // from malloc
-    size_t size, capacity;
-};
+#include "child.h"
 
 struct batch_process {
-    pid_t pid; // 0 if there is no process
-    int from;
-    struct batch_answer answer;
+    struct child child;
+    struct child_bytes answer;
     double stop_ms; // the clock_ms() at which it will be killed, or 0
     bool stopped;   // the process was killed at that time
     pid_t writer;   // the process that writes files for this process and ends after it, or 0
@@ -23,7 +14,7 @@ struct batch_process {
 
 // Starts `work` in a copy of this process, which must have no other thread. The copy sends back the bytes that `work`
 // adds to the answer. Returns false and sets errno on failure.
-typedef void batch_work(void *user, struct batch_answer *answer);
+typedef void batch_work(void *user, struct child_bytes *answer);
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
 
 // Waits up to `wait_ms` until one of the processes sends data or ends, or until the file `also` (−1 if there is none)
@@ -31,10 +22,6 @@ bool batch_process_start(struct batch_process *process, batch_work *work, void *
 // ended.
 int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status);
 
-void batch_process_kill(struct batch_process *process);
 void batch_process_free(struct batch_process *process);
-
-// Appends bytes. Returns false if memory runs out.
-bool batch_answer_add(struct batch_answer *answer, const void *data, size_t size);
 
 #endif

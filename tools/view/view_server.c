@@ -166,8 +166,8 @@ static void wait_for_something(const struct view *view)
     wait[0] = (struct pollfd){.fd = info ? info->epoll_fd : -1, .events = POLLIN};
     wait[1] = (struct pollfd){.fd = view->watch.file, .events = POLLIN};
     for (int i = 0; i < view->tasks.count; i++)
-        if (view->tasks.processes[i].pid > 0)
-            wait[count++] = (struct pollfd){.fd = view->tasks.processes[i].from, .events = POLLIN};
+        if (view->tasks.processes[i].child.pid > 0)
+            wait[count++] = (struct pollfd){.fd = view->tasks.processes[i].child.from, .events = POLLIN};
     const nfds_t first = count;
     for (struct view_connection *c = view->connections; c && connection_count < CONNECTIONS_MAX; c = c->next)
         if (c->task || (c->listener && c->listener->suspended)) { // the library does not poll the connection

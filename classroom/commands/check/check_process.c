@@ -20,11 +20,12 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "child.h"
 #include "console.h"
 #include "file_io.h"
 #include "interrupt.h"
 
-enum { MAX_BYTES = 1 << 30, WALL_TIMES = 20 };
+enum { MAX_BYTES = 1 << 30, READ_BYTES = 1 << 16, WALL_TIMES = 20 };
 // Exit codes of the drawing process in addition to lam_code: the process ran out of memory, or the driver called
 // exit().
 enum { EXIT_MEMORY = 200, EXIT_DRIVER = 201 };
@@ -38,26 +39,6 @@ enum { EXIT_MEMORY = 200, EXIT_DRIVER = 201 };
 #endif
 
 // --- the drawing process
-
-static bool read_to_end(int from, lam_bytes *bytes)
-{
-    size_t capacity = 0;
-    for (;;) {
-        if (bytes->size == capacity) {
-            capacity = capacity ? 2 * capacity : 1 << 16;
-            void *more = capacity <= MAX_BYTES ? realloc(bytes->data, capacity) : NULL;
-            if (!more)
-                return false;
-            bytes->data = more;
-        }
-        ssize_t n = read(from, (char *)bytes->data + bytes->size, capacity - bytes->size);
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0)
-            return n == 0;
-        bytes->size += (size_t)n;
-    }
-}
 
 // Returns whether the process has run out of memory, that is, whether it cannot even allocate half of the limit. Called
 // if the driver aborts.
@@ -132,9 +113,13 @@ void check_worker(const char *memory)
     int answer = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY);
     if (answer < 0 || nowhere < 0 || dup2(nowhere, STDOUT_FILENO) < 0 || dup2(nowhere, STDERR_FILENO) < 0)
         _exit(LAM_LIMIT); // drivers print to both streams, so both are redirected
-    lam_bytes request = {0}, drawn = {0};
+    struct child_bytes request = {0};
+    lam_bytes drawn = {0};
     lam_error error = {0};
-    bool ok = read_to_end(STDIN_FILENO, &request) || complain(&error, LAM_LIMIT, "out of memory");
+    enum child_read got = CHILD_READ;
+    while (got == CHILD_READ)
+        got = request.size <= MAX_BYTES ? child_read(STDIN_FILENO, &request, READ_BYTES) : CHILD_MEMORY;
+    bool ok = got == CHILD_CLOSED || complain(&error, LAM_LIMIT, "out of memory");
     ok = ok && lam_check_draw(request.data, request.size, NULL, &drawn, &error);
     int code = ok ? 0 : (int)error.code;
     if (!write_all(answer, ok ? drawn.data : error.text, ok ? drawn.size : strlen(error.text)))
@@ -151,11 +136,6 @@ static double now_s(void)
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
-
-struct child {
-    pid_t pid;
-    int to, from; // −1 if closed
-};
 
 // Sets a limit of processor time that the system enforces even if the parent process dies.
 static void bound_time(double limit_s)
@@ -181,33 +161,30 @@ static void become_worker(const char *memory, const char *path)
     execl(path, "lambent", CHECK_WORKER, memory, (char *)NULL);
 }
 
+// The arguments of the drawing process. They are written before it starts, because a copy of a process with threads may
+// only make system calls.
+struct worker {
+    double time_limit_s;
+    const char *path;
+    char memory[32];
+};
+
+static void work(void *user, int from, int to)
+{
+    const struct worker *worker = user;
+    bound_time(worker->time_limit_s);
+    if (dup2(from, STDIN_FILENO) >= 0 && dup2(to, STDOUT_FILENO) >= 0)
+        become_worker(worker->memory, worker->path);
+    _exit(127);
+}
+
 static bool start(struct child *child, const struct check_process *how, lam_error *error)
 {
     const char *path = (const char *)getauxval(AT_EXECFN);
-    char memory[32]; // written before fork(), because other threads may hold locks during fork()
-    snprintf(memory, sizeof memory, "%llu", (unsigned long long)how->memory_limit_bytes);
-    int in[2] = {-1, -1}, out[2] = {-1, -1};
-    *child = (struct child){-1, -1, -1};
-    bool piped = pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0;
-    pid_t parent = getpid();
-    child->pid = piped ? fork() : -1;
-    if (child->pid == 0) {
-        interrupt_with_parent(parent); // the worker inherits this setting
-        bound_time(how->time_limit_s);
-        if (dup2(in[0], STDIN_FILENO) >= 0 && dup2(out[1], STDOUT_FILENO) >= 0)
-            become_worker(memory, path ? path : "lambent");
-        _exit(127);
-    }
-    close(in[0]);
-    close(out[1]);
-    if (child->pid < 0) {
-        int reason = errno;
-        close(in[1]);
-        close(out[0]);
-        return complain(error, LAM_LIMIT, "cannot start the drawing process: %s", strerror(reason));
-    }
-    child->to = in[1];
-    child->from = out[0];
+    struct worker worker = {.time_limit_s = how->time_limit_s, .path = path ? path : "lambent"};
+    snprintf(worker.memory, sizeof worker.memory, "%llu", (unsigned long long)how->memory_limit_bytes);
+    if (!child_start(child, work, &worker))
+        return complain(error, LAM_LIMIT, "cannot start the drawing process: %s", strerror(errno));
     fcntl(child->to, F_SETFL, O_NONBLOCK);
     fcntl(child->from, F_SETFL, O_NONBLOCK);
     return true;
@@ -220,27 +197,8 @@ static void send_some(struct child *child, const lam_bytes *request, size_t *sen
     ssize_t n = write(child->to, (const char *)request->data + *sent, request->size - *sent);
     if (n > 0)
         *sent += (size_t)n;
-    if (*sent == request->size || (n < 0 && errno != EAGAIN && errno != EINTR)) {
-        close(child->to);
-        child->to = -1;
-    }
-}
-
-// Reads the available bytes. Returns false at the end of the stream.
-static bool receive_some(struct child *child, lam_bytes *drawn, size_t *capacity)
-{
-    if (drawn->size == *capacity) {
-        size_t larger = *capacity ? 2 * *capacity : 1 << 20;
-        void *more = larger <= MAX_BYTES ? realloc(drawn->data, larger) : NULL;
-        if (!more)
-            return false;
-        drawn->data = more;
-        *capacity = larger;
-    }
-    ssize_t n = read(child->from, (char *)drawn->data + drawn->size, *capacity - drawn->size);
-    if (n > 0)
-        drawn->size += (size_t)n;
-    return n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
+    if (*sent == request->size || (n < 0 && errno != EAGAIN && errno != EINTR))
+        child_send_end(child);
 }
 
 lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_bytes *drawn, lam_error *error)
@@ -251,8 +209,8 @@ lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_by
     if (!start(&child, how, error))
         return LAM_CHECK_DRAW_FAILED;
     double end = now_s() + WALL_TIMES * how->time_limit_s;
-    size_t sent = 0, capacity = 0;
-    *drawn = (lam_bytes){0};
+    size_t sent = 0;
+    struct child_bytes answer = {0};
     bool open = true, late = false;
     while (open && !late && !interrupted()) {
         struct pollfd wait[2] = {{child.from, POLLIN, 0}, {child.to, POLLOUT, 0}};
@@ -262,16 +220,12 @@ lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_by
         if (child.to >= 0 && wait[1].revents)
             send_some(&child, request, &sent);
         if (wait[0].revents)
-            open = receive_some(&child, drawn, &capacity);
+            open = answer.size <= MAX_BYTES && child_read(child.from, &answer, READ_BYTES) == CHILD_READ;
     }
     if (open)
-        kill(child.pid, SIGKILL);
-    int status = 0;
-    while (waitpid(child.pid, &status, 0) < 0 && errno == EINTR)
-        continue;
-    close(child.from);
-    if (child.to >= 0)
-        close(child.to);
+        child_kill(&child);
+    int status = child_wait(&child);
+    *drawn = (lam_bytes){answer.data, answer.size};
     if (late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
         return LAM_CHECK_DRAW_TIMEOUT;
     if (interrupted()) {

@@ -3,19 +3,16 @@
 #ifndef VIEW_PROCESS_H
 #define VIEW_PROCESS_H
 
-#include <sys/types.h>
-
+#include "child.h"
 #include "view_draw.h"
 
 struct view_process {
-    pid_t pid; // 0 if there is none
-    int to, from;
-    char *model;    // the model of the last request, or NULL
-    void *task;     // the task of the current request; NULL if the process is idle
-    bool cancelled; // the current request is being cancelled
-    double stop_ms; // the clock_ms() at which the process is killed; 0 if never
-    char *received; // the received part of the answer
-    size_t size, capacity;
+    struct child child;
+    char *model;                 // the model of the last request, or NULL
+    void *task;                  // the task of the current request; NULL if the process is idle
+    bool cancelled;              // the current request is being cancelled
+    double stop_ms;              // the clock_ms() at which the process is killed; 0 if never
+    struct child_bytes received; // the received part of the answer
 };
 
 // Starts a process. This process must have no other threads. Returns false and sets errno on failure.

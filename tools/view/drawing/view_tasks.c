@@ -24,7 +24,7 @@ void view_tasks_start(struct view_tasks *tasks, const struct view_files *files, 
     tasks->count = (cores < 1 ? 1 : cores > VIEW_PROCESSES_MAX - 1 ? VIEW_PROCESSES_MAX - 1 : (int)cores) + 1;
     tasks->time_limit_ms = limit_s > 0 ? limit_s * 1e3 + GRACE_MS : 0;
     for (int i = 0; i < VIEW_PROCESSES_MAX; i++)
-        tasks->processes[i] = (struct view_process){.to = -1, .from = -1};
+        tasks->processes[i] = (struct view_process){.child = NO_CHILD};
 }
 
 static void free_task(struct view_tasks *tasks, struct view_task *task)
@@ -52,7 +52,7 @@ static void finish(struct view_tasks *tasks, struct view_task *task, struct view
 static struct view_process *process_of(struct view_tasks *tasks, const struct view_task *task)
 {
     for (int i = 0; i < tasks->count; i++)
-        if (tasks->processes[i].pid > 0 && tasks->processes[i].task == task)
+        if (tasks->processes[i].child.pid > 0 && tasks->processes[i].task == task)
             return &tasks->processes[i];
     return NULL;
 }
@@ -108,11 +108,12 @@ static struct view_process *find_process(struct view_tasks *tasks, const struct 
     int pictures = 0;
     for (int i = 0; i < tasks->count; i++) {
         struct view_process *p = &tasks->processes[i];
-        pictures += p->pid > 0 && p->task && !((const struct view_task *)p->task)->client;
-        if (p->pid > 0 && p->model && task->client && strcmp(p->model, task->words) == 0 && (!p->task || p->cancelled))
+        pictures += p->child.pid > 0 && p->task && !((const struct view_task *)p->task)->client;
+        if (p->child.pid > 0 && p->model && task->client && strcmp(p->model, task->words) == 0 &&
+            (!p->task || p->cancelled))
             return p->task ? NULL : p; // waits for a cancelled process that has loaded the model
-        free_one = !p->pid && !free_one ? p : free_one;
-        waiting = p->pid > 0 && !p->task && !waiting ? p : waiting;
+        free_one = !p->child.pid && !free_one ? p : free_one;
+        waiting = p->child.pid > 0 && !p->task && !waiting ? p : waiting;
     }
     if (!task->client && pictures >= tasks->count - 1)
         return NULL;
@@ -132,7 +133,7 @@ static void fail(struct view_tasks *tasks, struct view_task *task, int status, c
 
 static bool begin(struct view_tasks *tasks, struct view_task *task, struct view_process *process)
 {
-    if (!process->pid && !view_process_start(process, tasks->files, tasks->options))
+    if (!process->child.pid && !view_process_start(process, tasks->files, tasks->options))
         return false;
     task->running = true;
     if (!view_process_ask(process, &task->request, task->words, task)) {
@@ -207,11 +208,11 @@ void view_tasks_step(struct view_tasks *tasks)
     double now = clock_ms();
     for (int i = 0; i < tasks->count; i++) {
         struct view_process *p = &tasks->processes[i];
-        for (int reads = 0; reads < 64 && p->pid > 0 && is_readable(p->from); reads++)
+        for (int reads = 0; reads < 64 && p->child.pid > 0 && is_readable(p->child.from); reads++)
             receive(tasks, p);
-        if (p->pid > 0 && p->task && p->cancelled)
-            kill(p->pid, SIGUSR1); // repeated, since the process may not have read the request yet
-        if (p->pid > 0 && p->task && p->stop_ms > 0 && now > p->stop_ms)
+        if (p->child.pid > 0 && p->task && p->cancelled)
+            kill(p->child.pid, SIGUSR1); // repeated, since the process may not have read the request yet
+        if (p->child.pid > 0 && p->task && p->stop_ms > 0 && now > p->stop_ms)
             lose(tasks, p, "the time limit was reached (--time-limit)");
     }
     begin_waiting(tasks);
@@ -220,7 +221,7 @@ void view_tasks_step(struct view_tasks *tasks)
 void view_tasks_end(struct view_tasks *tasks)
 {
     for (int i = 0; i < tasks->count; i++)
-        if (tasks->processes[i].pid > 0)
+        if (tasks->processes[i].child.pid > 0)
             view_process_end(&tasks->processes[i]);
     while (tasks->first)
         fail(tasks, tasks->first, 503, "the viewer has ended");

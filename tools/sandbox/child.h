@@ -1,0 +1,53 @@
+// child.h: child processes: copies of this process, each connected to it by two pipes.
+#ifndef CHILD_H
+#define CHILD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <sys/types.h>
+
+struct child {
+    pid_t pid;    // 0 if there is no process
+    int to, from; // the pipes to and from the process; −1 if closed
+};
+
+// A struct child without a process.
+#define NO_CHILD ((struct child){0, -1, -1})
+
+// Starts `work` in a copy of this process, which ends with its parent. `work` reads from `from`, writes to `to` and does
+// not return. If this process has other threads, they may hold locks, so `work` may only make system calls. Returns
+// false and sets errno on failure.
+typedef void child_work(void *user, int from, int to);
+bool child_start(struct child *child, child_work *work, void *user);
+
+// Closes the pipe to the process.
+void child_send_end(struct child *child);
+
+// Closes the pipes, waits for the end of the process, and returns its status (see waitpid). `pid` remains.
+int child_wait(struct child *child);
+
+void child_kill(const struct child *child);
+
+// Waits for the end of a process that is not a struct child, or does nothing if `pid` is not positive.
+int child_wait_pid(pid_t pid);
+
+// Received bytes.
+struct child_bytes {
+    char *data; // from malloc
+    size_t size, capacity;
+};
+
+// Makes room for `more` more bytes, or appends bytes. Both return false if memory runs out.
+bool child_bytes_reserve(struct child_bytes *bytes, size_t more);
+bool child_bytes_add(struct child_bytes *bytes, const void *data, size_t size);
+
+enum child_read {
+    CHILD_READ,   // no byte or more was read
+    CHILD_CLOSED, // the other end is closed, or reading failed
+    CHILD_MEMORY, // memory ran out
+};
+
+// Reads once, up to `most` bytes.
+enum child_read child_read(int from, struct child_bytes *bytes, size_t most);
+
+#endif

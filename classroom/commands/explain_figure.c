@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "console.h"
+#include "vectors.h"
 
 enum { INK = 0x222222, GREY = 0x707070, RULE = 0xd8d8d8, WHITE = 0xffffff };
 // the number of arrows, and the panel's size in units
@@ -35,8 +36,6 @@ struct sheet_layout {
     double y; // the position of the next line
 };
 
-static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 static double sum_of(lam_rgb c) { return (double)c.r + (double)c.g + (double)c.b; }
 
 static struct subject find_subject(const lam_explanation *e)
@@ -85,18 +84,18 @@ struct diagram {
     double unit;
 };
 
-static struct point minus(struct point a, struct point b) { return (struct point){a.x - b.x, a.y - b.y}; }
+static struct point difference(struct point a, struct point b) { return (struct point){a.x - b.x, a.y - b.y}; }
 
 // Returns whether an arrow is so short that its vector points towards the viewer.
 static bool is_short(const struct diagram *g, int arrow)
 {
-    return length_of(minus(g->tips[arrow], g->from)) < 9 * g->unit;
+    return length_of(difference(g->tips[arrow], g->from)) < 9 * g->unit;
 }
 
 // Returns the distance between a point and the arrow's line.
 static double distance_of(struct point p, const struct diagram *g, int arrow)
 {
-    struct point way = minus(g->tips[arrow], g->from), to = minus(p, g->from);
+    struct point way = difference(g->tips[arrow], g->from), to = difference(p, g->from);
     double square = way.x * way.x + way.y * way.y, along = square > 0 ? (to.x * way.x + to.y * way.y) / square : 0;
     along = along < 0 ? 0 : along > 1 ? 1 : along;
     return length_of((struct point){to.x - along * way.x, to.y - along * way.y});
@@ -106,7 +105,7 @@ static double distance_of(struct point p, const struct diagram *g, int arrow)
 // earlier letters. If every tried position overlaps, returns the last one, at the largest distance from the tip.
 static struct point find_place(const struct diagram *g, int arrow, const struct point *letters, int count)
 {
-    struct point way = minus(g->tips[arrow], g->from), at = g->tips[arrow];
+    struct point way = difference(g->tips[arrow], g->from), at = g->tips[arrow];
     double length = length_of(way), size = 17 * g->unit;
     struct point along =
         is_short(g, arrow) ? (struct point){0.7071, 0.7071} : (struct point){way.x / length, way.y / length};
@@ -121,7 +120,7 @@ static struct point find_place(const struct diagram *g, int arrow, const struct 
             for (int i = 0; i < ARROWS; i++)
                 clear = clear && (!g->has[i] || distance_of(at, g, i) > 0.7 * size);
             for (int i = 0; i < count; i++)
-                clear = clear && length_of(minus(at, letters[i])) > 1.2 * size;
+                clear = clear && length_of(difference(at, letters[i])) > 1.2 * size;
             if (clear)
                 return at;
         }
@@ -148,7 +147,7 @@ static void draw_letters(const struct diagram *g, struct drawing *d)
 // ring.
 static bool draw_arrow(const struct diagram *g, int arrow, struct drawing *d, lam_error *error)
 {
-    struct point from = g->from, tip = g->tips[arrow], way = minus(tip, from);
+    struct point from = g->from, tip = g->tips[arrow], way = difference(tip, from);
     double length = length_of(way), unit = g->unit;
     uint32_t color = arrows[arrow].color;
     if (is_short(g, arrow))
@@ -345,9 +344,8 @@ static bool put_vectors(const struct subject *s, struct drawing *d, struct sheet
     }
     if (!s->light)
         return true;
-    const double degrees = 180 / 3.14159265358979323846;
     char text[160];
-    double angles[3] = {s->light->theta_rad * degrees, s->light->phi_rad * degrees, s->light->psi_rad * degrees};
+    double angles[3] = {in_degrees(s->light->theta_rad), in_degrees(s->light->phi_rad), in_degrees(s->light->psi_rad)};
     static const char *const names[3] = {"θ(n, l)", "φ(r, v)", "ψ(n, h)"};
     text[0] = 0;
     if (s->threads)

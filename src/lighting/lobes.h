@@ -344,7 +344,7 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 // clang-format on
 
 // The table of the reflection models. The dispatch in C and in GLSL, the keywords of the command line and of scene
-// files, reports, explanations and tests are generated from it. A new model needs an enumerator in lambent/material.h,
+// files, reports, explanations and tests are generated from it. A new model needs an enumerator in lambent/reflection.h,
 // a function above and a row here. If the model has its own parameter, it also needs a member of lam_material and a row
 // of LOBE_PARAMETERS. The columns:
 //     the enumerator without LAM_REFLECTION_

@@ -1,4 +1,4 @@
-// vectors.h: products and differences of vectors, and tests of vectors and colours.
+// vectors.h: products and differences of vectors, tests of vectors and colours, and degrees.
 #ifndef VECTORS_H
 #define VECTORS_H
 
@@ -12,5 +12,6 @@ static inline lam_vec3 cross(lam_vec3 a, lam_vec3 b)
 }
 static inline bool is_zero(lam_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 static inline bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+static inline double in_degrees(double radians) { return radians * (180 / 3.14159265358979323846); }
 
 #endif

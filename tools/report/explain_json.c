@@ -28,10 +28,7 @@ static void index_of(struct json *json, const char *key, int i)
         json_count(json, key, (uint64_t)i);
 }
 
-static void degrees(struct json *json, const char *key, double radians)
-{
-    json_number(json, key, radians * (180 / 3.14159265358979323846));
-}
+static void degrees(struct json *json, const char *key, double radians) { json_number(json, key, in_degrees(radians)); }
 
 // Writes a matrix with the rows ambient, diffuse and specular.
 static void matrix(struct json *json, const char *key, lam_rgb ambient, lam_rgb diffuse, lam_rgb specular)

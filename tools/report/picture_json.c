@@ -4,6 +4,7 @@
 #include <lambent/material.h>
 
 #include "light_place.h"
+#include "vectors.h"
 
 static void answer_camera(struct json *json, const struct job *job)
 {
@@ -16,7 +17,7 @@ static void answer_camera(struct json *json, const struct job *job)
     json_vector(json, "eye", c->eye);
     json_vector(json, "target", c->target);
     json_vector(json, "up", c->up);
-    json_number(json, "fovy_deg", c->fovy_rad * (180 / 3.14159265358979323846));
+    json_number(json, "fovy_deg", in_degrees(c->fovy_rad));
     json_number(json, "ortho", c->ortho_half_height);
     json_vector(json, "pole", pole);
     json_close(json, '}');

@@ -12,6 +12,7 @@
 #include "plan.h"
 #include "sandbox_start.h"
 #include "settings_json.h"
+#include "vectors.h"
 
 // Returns the model's format, or "shape" for a built-in shape.
 static const char *format_of(const lam_scene *scene)
@@ -25,7 +26,7 @@ static const char *format_of(const lam_scene *scene)
 static double degrees(double angle_rad)
 {
     char text[32];
-    snprintf(text, sizeof text, "%.13g", angle_rad * (180 / 3.14159265358979323846));
+    snprintf(text, sizeof text, "%.13g", in_degrees(angle_rad));
     return strtod(text, NULL);
 }
 

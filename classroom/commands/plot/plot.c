@@ -17,6 +17,7 @@
 #include "report.h"
 #include "terminal.h"
 #include "suggest.h"
+#include "vectors.h"
 
 enum { TABLE_STEPS = 100 };
 
@@ -190,7 +191,6 @@ static bool add_attenuation(struct plot *plot, const char *word, lam_error *erro
 // Adds "cutoff=30,exponent=8" or "inner=20,outer=35", with the keys of a light.
 static bool add_spot_light(struct plot *plot, const lam_light *light, const char *word, lam_error *error)
 {
-    const double degrees = 180 / 3.14159265358979323846;
     if (light->outer_rad == 0 && !strstr(word, "cutoff") && !strstr(word, "exponent"))
         return wrong(error, "spot", word, "cutoff=DEGREES,exponent=E or inner=DEGREES,outer=DEGREES");
     struct curve *curve = add_curve(plot, spot_value, error);
@@ -199,11 +199,11 @@ static bool add_spot_light(struct plot *plot, const lam_light *light, const char
     curve->light = *light;
     curve->light.name = curve->light.object = NULL; // owned by the scene
     if (light->outer_rad > 0)
-        snprintf(curve->label, sizeof curve->label, "inner %.5g°, outer %.5g°", (double)light->inner_rad * degrees,
-                 (double)light->outer_rad * degrees);
+        snprintf(curve->label, sizeof curve->label, "inner %.5g°, outer %.5g°", in_degrees((double)light->inner_rad),
+                 in_degrees((double)light->outer_rad));
     else if (light->cutoff_rad > 0)
-        snprintf(curve->label, sizeof curve->label, "cutoff %.5g°, exponent %.5g", (double)light->cutoff_rad * degrees,
-                 (double)light->exponent);
+        snprintf(curve->label, sizeof curve->label, "cutoff %.5g°, exponent %.5g",
+                 in_degrees((double)light->cutoff_rad), (double)light->exponent);
     else
         snprintf(curve->label, sizeof curve->label, "exponent %.5g, no cutoff", (double)light->exponent);
     return true;

@@ -47,7 +47,7 @@ void row_angle(const char *name, double radians, const char *remark)
 {
     row_label(4, name);
     if (radians - radians == 0)
-        printf("%12.5f°   %s\n", radians * (180 / 3.14159265358979323846), remark);
+        printf("%12.5f°   %s\n", in_degrees(radians), remark);
     else
         printf("%13s   %s\n", "none", remark);
 }

@@ -221,61 +221,40 @@ static void print_lights(const lam_explanation *e, const lam_explained_fragment 
 
 static bool same(lam_vec3 a, lam_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-static void print_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
+static void print_environment(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
-    if (p->corner >= 0)
-        printf("\n  corner %d of the triangle is lit\n", p->corner);
-    row_vector(2, "position in the mesh", p->mesh_position, "model units");
-    row_vector(2, "position in the world", p->world_position, "");
-    row_vector(2, "position in eye space", p->position, "");
-    const bool bent = f->values && !same(f->values->mesh_normal, p->n);
-    row_vector(2, "n", p->n,
-               f->flipped       ? "reversed: the back is visible"
-               : bent           ? "bent by a map"
-               : f->face_normal ? "the triangle's"
-               : p->corner >= 0 ? "the corner's"
-               : f->corners < 3 ? ""
-                                : "Σ weight · n of the corners, normalised");
-    row_vector(2, "v", p->v, e->distant_viewer ? "to the eye, infinitely far" : "to the eye");
-    if (!is_zero(p->t) && lam_reflection_describe(f->reflection)->tangents)
-        row_vector(2, "t", p->t, "along the threads");
-    bool colored = p->color.r != 1 || p->color.g != 1 || p->color.b != 1;
-    const char *tinting = f->surface.maps[LAM_MAP_DIFFUSE] ? "texture and vertex colour" : "vertex colour";
-    if (colored)
-        row_color(2, tinting, p->color, "multiplies ambient and diffuse");
-    if (p->layers)
-        explain_layers(p->layers);
-    print_lights(e, f, p);
-    for (int i = 0; i < p->hemisphere_count; i++)
-        print_hemisphere(&p->hemispheres[i], i);
-
-    if (!is_zero(p->reflected)) {
-        printf("\n  environment\n");
-        row_vector(4, "R", p->reflected, "2 (n·v) n − v, the reflected eye vector");
-        row_vector(4, "direction", p->environment_direction, "R in the environment's own axes");
-        row_color(4, "light from there", p->environment_light, "");
-        if (p->environment_scale + p->environment_bias > 0) {
-            char text[100];
-            int level = (int)p->environment_level;
-            int share = (int)((p->environment_level - (float)level) * 100 + 0.5f);
-            snprintf(text, sizeof text, "of the prefiltered environment for the roughness: %d %% of %d, %d %% of %d",
-                     100 - share, level, share, level + 1);
-            row_number(4, "level", (double)p->environment_level, text);
-            row_color(4, "prefiltered", p->prefiltered, "around R, at that level");
-            row_color(4, "irradiance ÷ π", p->irradiance, "above the surface");
-            row_number(4, "scale", (double)p->environment_scale, "");
-            row_number(4, "bias", (double)p->environment_bias, "the lobe's integral is f0 scale + bias");
-            explain_environment_parts(p);
-        } else if (e->reference && f->surface.physical) {
-            char text[100];
-            snprintf(text, sizeof text, "of the integral of the environment's light, by %d directions", e->reference);
-            row_color(4, "diffuse part", p->environment_diffuse, text);
-            row_color(4, "mirrored part", p->environment_specular, "");
-        }
+    if (is_zero(p->reflected))
+        return;
+    printf("\n  environment\n");
+    row_vector(4, "R", p->reflected, "2 (n·v) n − v, the reflected eye vector");
+    row_vector(4, "direction", p->environment_direction, "R in the environment's own axes");
+    row_color(4, "light from there", p->environment_light, "");
+    if (p->environment_scale + p->environment_bias > 0) {
+        char text[100];
+        int level = (int)p->environment_level;
+        int share = (int)((p->environment_level - (float)level) * 100 + 0.5f);
+        snprintf(text, sizeof text, "of the prefiltered environment for the roughness: %d %% of %d, %d %% of %d",
+                 100 - share, level, share, level + 1);
+        row_number(4, "level", (double)p->environment_level, text);
+        row_color(4, "prefiltered", p->prefiltered, "around R, at that level");
+        row_color(4, "irradiance ÷ π", p->irradiance, "above the surface");
+        row_number(4, "scale", (double)p->environment_scale, "");
+        row_number(4, "bias", (double)p->environment_bias, "the lobe's integral is f0 scale + bias");
+        explain_environment_parts(p);
+    } else if (e->reference && f->surface.physical) {
+        char text[100];
+        snprintf(text, sizeof text, "of the integral of the environment's light, by %d directions", e->reference);
+        row_color(4, "diffuse part", p->environment_diffuse, text);
+        row_color(4, "mirrored part", p->environment_specular, "");
     }
+}
 
+static bool is_colored(const lam_explained_point *p) { return p->color.r != 1 || p->color.g != 1 || p->color.b != 1; }
+
+static void print_terms(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
+{
     printf("\n  terms\n");
-    const char *tint = !colored                           ? ""
+    const char *tint = !is_colored(p)                     ? ""
                        : f->surface.maps[LAM_MAP_DIFFUSE] ? ", times texture and vertex colour"
                                                           : ", times the vertex colour";
     char text[200];
@@ -309,6 +288,36 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
     row_color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");
     if (p->result.r != p->sum.r || p->result.g != p->sum.g || p->result.b != p->sum.b)
         row_color(4, "clamped", p->result, "to 0…1, as OpenGL 1 did");
+}
+
+static void print_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
+{
+    if (p->corner >= 0)
+        printf("\n  corner %d of the triangle is lit\n", p->corner);
+    row_vector(2, "position in the mesh", p->mesh_position, "model units");
+    row_vector(2, "position in the world", p->world_position, "");
+    row_vector(2, "position in eye space", p->position, "");
+    const bool bent = f->values && !same(f->values->mesh_normal, p->n);
+    row_vector(2, "n", p->n,
+               f->flipped       ? "reversed: the back is visible"
+               : bent           ? "bent by a map"
+               : f->face_normal ? "the triangle's"
+               : p->corner >= 0 ? "the corner's"
+               : f->corners < 3 ? ""
+                                : "Σ weight · n of the corners, normalised");
+    row_vector(2, "v", p->v, e->distant_viewer ? "to the eye, infinitely far" : "to the eye");
+    if (!is_zero(p->t) && lam_reflection_describe(f->reflection)->tangents)
+        row_vector(2, "t", p->t, "along the threads");
+    const char *tinting = f->surface.maps[LAM_MAP_DIFFUSE] ? "texture and vertex colour" : "vertex colour";
+    if (is_colored(p))
+        row_color(2, tinting, p->color, "multiplies ambient and diffuse");
+    if (p->layers)
+        explain_layers(p->layers);
+    print_lights(e, f, p);
+    for (int i = 0; i < p->hemisphere_count; i++)
+        print_hemisphere(&p->hemispheres[i], i);
+    print_environment(e, f, p);
+    print_terms(e, f, p);
 }
 
 static const char *field_label(const lam_field *field, char text[64])

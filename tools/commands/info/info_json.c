@@ -7,6 +7,7 @@
 
 #include "json.h"
 #include "report.h"
+#include "vectors.h"
 
 // Writes the shortest number that parses to the same float.
 static void json_float(struct json *json, const char *key, float value)
@@ -179,7 +180,7 @@ static void write_camera(struct json *json, const lam_scene *scene, int index)
     if (camera.ortho_half_height > 0)
         json_number(json, "ortho_half_height", camera.ortho_half_height);
     else
-        json_number(json, "fovy_deg", camera.fovy_rad * (180 / 3.14159265358979323846));
+        json_number(json, "fovy_deg", in_degrees(camera.fovy_rad));
     json_close(json, '}');
 }
 

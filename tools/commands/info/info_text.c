@@ -246,7 +246,7 @@ static void print_cameras(const lam_scene *scene)
         if (camera.ortho_half_height > 0)
             printf("orthographic, %.4g high", 2 * camera.ortho_half_height);
         else
-            printf("perspective, %.4g degrees high", camera.fovy_rad * (180 / 3.14159265358979323846));
+            printf("perspective, %.4g degrees high", in_degrees(camera.fovy_rad));
         printf(", at %.4g %.4g %.4g\n", camera.eye.x, camera.eye.y, camera.eye.z);
     }
 }

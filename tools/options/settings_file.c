@@ -32,7 +32,7 @@ static const struct {
 
 enum { GROUPED = sizeof grouped / sizeof *grouped };
 
-struct reader {
+struct settings_parser {
     struct options *options;
     const struct options *before; // the options of the command line and the look
     const char *path, *text;
@@ -68,13 +68,13 @@ static int line_of(const char *text, const char *group, const char *key)
     return 1;
 }
 
-static bool wrong(struct reader *r, const char *group, const char *key, const char *reason)
+static bool wrong(struct settings_parser *r, const char *group, const char *key, const char *reason)
 {
     return complain(r->error, LAM_CANNOT_READ, "%.300s:%d: %s%s%.60s: %.300s", r->path, line_of(r->text, group, key),
                     group ? group : "", group ? "." : "", key, reason);
 }
 
-static bool unknown_key(struct reader *r, const char *group, const char *key)
+static bool unknown_key(struct settings_parser *r, const char *group, const char *key)
 {
     const lam_setting *setting;
     char text[200], keys[100] = "image, environment or a setting of a scene file (docs/settings.md lists them)";
@@ -180,7 +180,7 @@ static bool put_value(FILE *out, const struct option *option, const json_t *valu
 // --- one key
 
 // Returns whether the command line or a look already sets the option, or an option that must match it.
-static bool is_decided(const struct reader *r, const struct option *option)
+static bool is_decided(const struct settings_parser *r, const struct option *option)
 {
     const char *name = option->name, *pair = strcmp(name, "shading") == 0 ? "stage"
                                              : strcmp(name, "stage") == 0 ? "shading"
@@ -196,7 +196,7 @@ static bool is_decided(const struct reader *r, const struct option *option)
            (strcmp(name, "size") == 0 && r->before->batch.size_count);
 }
 
-static bool take_value(struct reader *r, const char *group, const char *key, const struct option *option,
+static bool take_value(struct settings_parser *r, const char *group, const char *key, const struct option *option,
                        const json_t *value)
 {
     char reason[400], *text = r->values, *made = NULL;
@@ -229,7 +229,7 @@ static bool take_value(struct reader *r, const char *group, const char *key, con
 }
 
 // Sets the ground. The kind "color" takes its colour from the key "ground_color".
-static bool take_ground(struct reader *r, const json_t *value)
+static bool take_ground(struct settings_parser *r, const json_t *value)
 {
     const struct option *option = option_find("ground");
     bool color = json_is_string(value) && strcmp(json_string_value(value), "color") == 0;
@@ -252,7 +252,7 @@ static bool is_plain_default(const lam_setting *setting, const json_t *value)
     return false;
 }
 
-static bool take_key(struct reader *r, const char *group, const char *key, const json_t *value)
+static bool take_key(struct settings_parser *r, const char *group, const char *key, const json_t *value)
 {
     char name[NAME_SIZE];
     for (int i = 0; group && i < GROUPED; i++)
@@ -272,7 +272,7 @@ static bool take_key(struct reader *r, const char *group, const char *key, const
     return take_value(r, NULL, key, option_find(name), value);
 }
 
-static bool take_group(struct reader *r, const char *group, json_t *object)
+static bool take_group(struct settings_parser *r, const char *group, json_t *object)
 {
     const char *key;
     json_t *value;
@@ -284,7 +284,7 @@ static bool take_group(struct reader *r, const char *group, json_t *object)
     return true;
 }
 
-static bool take_root(struct reader *r, json_t *root)
+static bool take_root(struct settings_parser *r, json_t *root)
 {
     const char *key;
     json_t *value;
@@ -342,7 +342,7 @@ static char *read_text(const char *path, size_t *length, lam_error *error)
     return NULL;
 }
 
-static bool apply_text(struct reader *r, size_t length)
+static bool apply_text(struct settings_parser *r, size_t length)
 {
     json_error_t reason;
     size_t mark = length >= 3 && memcmp(r->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; // a byte order mark
@@ -380,7 +380,7 @@ bool settings_apply(struct options *options, struct options *before, struct sett
     options->settings.without = before;
     char *text = read_text(source->path, &length, error);
     options->settings.values = text ? malloc(3 * FILE_MAX) : NULL;
-    struct reader reader = {options, before, source->path, text, NULL, options->settings.values, error};
+    struct settings_parser reader = {options, before, source->path, text, NULL, options->settings.values, error};
     bool ok = text && (options->settings.values || complain(error, LAM_LIMIT, "out of memory")) &&
               apply_text(&reader, length);
     free(text);

@@ -18,7 +18,7 @@ struct struct_type {
 
 enum { MAX_STRUCT_TYPES = 16, MAX_MEMBERS = 128 };
 
-struct reader {
+struct declaration_parser {
     struct declarations *d;
     bool vertex; // the text is a vertex shader
     int at;      // index of the current word
@@ -28,14 +28,14 @@ struct reader {
     int member_count;
 };
 
-static const char *word_at(const struct reader *r, int ahead)
+static const char *word_at(const struct declaration_parser *r, int ahead)
 {
     return r->at + ahead < r->d->word_count ? r->d->words[r->at + ahead].text : "";
 }
 
-static bool next_is(const struct reader *r, const char *text) { return strcmp(word_at(r, 0), text) == 0; }
+static bool next_is(const struct declaration_parser *r, const char *text) { return strcmp(word_at(r, 0), text) == 0; }
 
-static bool take(struct reader *r, const char *text)
+static bool take(struct declaration_parser *r, const char *text)
 {
     bool there = next_is(r, text);
     r->at += there;
@@ -43,14 +43,14 @@ static bool take(struct reader *r, const char *text)
 }
 
 // Skips past the bracket that closes the previous one.
-static void skip_to(struct reader *r, const char *open, const char *close)
+static void skip_to(struct declaration_parser *r, const char *open, const char *close)
 {
     for (int depth = 1; r->at < r->d->word_count && depth > 0; r->at++)
         depth += next_is(r, open) - next_is(r, close);
 }
 
 // Parses [N], [] or nothing. If the size is a name, `const int NAME = N` is looked up.
-static int read_count(struct reader *r)
+static int read_count(struct declaration_parser *r)
 {
     int count = 0;
     while (take(r, "[")) {
@@ -94,7 +94,7 @@ static bool add_declaration(struct declarations *d, const struct declaration *it
 }
 
 // Adds a declared name; if its type is a struct of the source, adds each of its members.
-static bool add_expanded(struct reader *r, const struct declaration *item)
+static bool add_expanded(struct declaration_parser *r, const struct declaration *item)
 {
     for (int s = 0; s < r->struct_type_count; s++)
         if (strcmp(r->struct_types[s].name, item->type) == 0) {
@@ -115,7 +115,7 @@ static bool add_expanded(struct reader *r, const struct declaration *item)
 }
 
 // Parses name [count] {, name [count]} ;
-static bool read_names(struct reader *r, struct declaration item, bool as_members)
+static bool read_names(struct declaration_parser *r, struct declaration item, bool as_members)
 {
     while (word_is_name(word_at(r, 0))) {
         item.line = r->d->words[r->at].line;
@@ -138,7 +138,7 @@ static bool read_names(struct reader *r, struct declaration item, bool as_member
 }
 
 // Parses a struct after the keyword `struct`, and stores the struct's name. An unnamed struct gets a unique name.
-static void read_struct(struct reader *r, char name[32])
+static void read_struct(struct declaration_parser *r, char name[32])
 {
     struct struct_type shape = {.first = r->member_count};
     if (next_is(r, "{"))
@@ -165,7 +165,7 @@ static void read_struct(struct reader *r, char name[32])
 }
 
 // Parses { members } [instance]; after the name of a uniform, in or out block.
-static bool read_block(struct reader *r, enum declared kind)
+static bool read_block(struct declaration_parser *r, enum declared kind)
 {
     struct declaration member = {.kind = kind, .in_block = true};
     while (r->at < r->d->word_count && !take(r, "}")) {
@@ -182,7 +182,7 @@ static bool read_block(struct reader *r, enum declared kind)
     return true;
 }
 
-static bool read_statement(struct reader *r)
+static bool read_statement(struct declaration_parser *r)
 {
     struct declaration item = {.kind = -1};
     for (; r->at < r->d->word_count; r->at++) {
@@ -272,7 +272,7 @@ static bool count_words(struct declarations *d)
 bool declarations_read(struct declarations *d, const char *text, bool vertex, lam_error *error)
 {
     *d = (struct declarations){0};
-    struct reader *r = calloc(1, sizeof *r);
+    struct declaration_parser *r = calloc(1, sizeof *r);
     bool ok = r && preprocess(d, text);
     if (r) {
         r->d = d;

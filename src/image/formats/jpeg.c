@@ -14,7 +14,7 @@
 enum { MAX_SCANS = 200 }; // a progressive picture has about ten scans; each one covers the whole picture
 
 // The structs of libjpeg that its callbacks receive, followed by our own members.
-struct reader {
+struct jpeg_decoder {
     struct jpeg_error_mgr errors;
     struct jpeg_progress_mgr progress;
     struct jpeg_decompress_struct jpeg;
@@ -29,7 +29,7 @@ struct reader {
 
 _Noreturn static void give_up(j_common_ptr jpeg)
 {
-    struct reader *reader = (struct reader *)jpeg->err;
+    struct jpeg_decoder *reader = (struct jpeg_decoder *)jpeg->err;
     jpeg->err->format_message(jpeg, reader->message);
     reader->out_of_memory = jpeg->err->msg_code == JERR_OUT_OF_MEMORY;
     longjmp(reader->out, 1);
@@ -49,7 +49,7 @@ static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 // libjpeg calls this function for every row of blocks, in each scan.
 static void monitor(j_common_ptr jpeg)
 {
-    struct reader *reader = (struct reader *)jpeg->err;
+    struct jpeg_decoder *reader = (struct jpeg_decoder *)jpeg->err;
     reader->stopped = !call_should_continue(reader->file->call);
     if (reader->stopped)
         longjmp(reader->out, 1);
@@ -73,7 +73,7 @@ static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
 
 // Charges the coefficients. A file with several scans keeps all of its coefficients in memory before the first row.
 // A coefficient needs two bytes, and there are at most as many coefficients as if all components had full resolution.
-static bool charge_coefficients(struct reader *reader, lam_error *error)
+static bool charge_coefficients(struct jpeg_decoder *reader, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
     struct call_control *call = reader->file->call;
@@ -99,7 +99,7 @@ static void mix_inks(uint8_t *row, size_t width, bool inverted)
 }
 
 // libjpeg may leave this function with longjmp, so the function changes only memory that its pointers point to.
-static bool decode(struct reader *reader, lam_image *image, lam_error *error)
+static bool decode(struct jpeg_decoder *reader, lam_image *image, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
     const struct picture_file *file = reader->file;
@@ -134,7 +134,7 @@ static bool decode(struct reader *reader, lam_image *image, lam_error *error)
     return true;
 }
 
-static bool fail_jump(const struct reader *reader, lam_error *error)
+static bool fail_jump(const struct jpeg_decoder *reader, lam_error *error)
 {
     if (reader->stopped)
         return call_error(reader->file->call, error);
@@ -145,14 +145,14 @@ static bool fail_jump(const struct reader *reader, lam_error *error)
 
 // Calls setjmp, so that libjpeg can return here with longjmp. No local variable of this function changes between the
 // two calls.
-static bool decode_or_jump(struct reader *reader, lam_image *image, lam_error *error)
+static bool decode_or_jump(struct jpeg_decoder *reader, lam_image *image, lam_error *error)
 {
     return setjmp(reader->out) == 0 ? decode(reader, image, error) : fail_jump(reader, error);
 }
 
 static bool jpeg_read_as(bool rgb, const struct picture_file *file, lam_image *image, lam_error *error)
 {
-    struct reader reader;
+    struct jpeg_decoder reader;
     reader.jpeg = (struct jpeg_decompress_struct){.err = jpeg_std_error(&reader.errors)};
     reader.errors.error_exit = give_up;
     reader.errors.emit_message = take_message;

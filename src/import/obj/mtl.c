@@ -13,7 +13,7 @@
 #include <strings.h>
 
 // The state of reading one file.
-struct reader {
+struct mtl_parser {
     struct mtl_set *set;
     struct lam_scene *scene;
     const char *name; // the file's name, for messages
@@ -34,7 +34,7 @@ struct reader {
 
 // Returns the line number of `at`, for warnings. Counting continues from the previous call, so that many warnings need
 // only one pass over the file.
-static size_t line_of(struct reader *reader, const uint8_t *at)
+static size_t line_of(struct mtl_parser *reader, const uint8_t *at)
 {
     if (at < reader->counted_to || !reader->counted_to) {
         reader->counted_to = reader->begin;
@@ -46,7 +46,7 @@ static size_t line_of(struct reader *reader, const uint8_t *at)
 }
 
 // Reads up to `max` numbers and returns their count, or −1 with a warning if there are fewer than `min`.
-static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t *end, float *to, int min, int max)
+static int read_numbers(struct mtl_parser *reader, const uint8_t *at, const uint8_t *end, float *to, int min, int max)
 {
     int count = 0;
     while (count < max) {
@@ -66,7 +66,7 @@ static int read_numbers(struct reader *reader, const uint8_t *at, const uint8_t 
 }
 
 // Clamps a number to a range, and warns if the number is outside this range.
-static float within(struct reader *reader, const uint8_t *at, float x, float low, float high, const char *what)
+static float within(struct mtl_parser *reader, const uint8_t *at, float x, float low, float high, const char *what)
 {
     if (x >= low && x <= high)
         return x;
@@ -77,13 +77,13 @@ static float within(struct reader *reader, const uint8_t *at, float x, float low
 }
 
 // Returns a channel as linear light. Values of 1 or more are not changed, because the sRGB curve ends at 1.
-static float linear(const struct reader *reader, float c)
+static float linear(const struct mtl_parser *reader, float c)
 {
     return reader->raw || c >= 1 ? c : (float)srgb_linear((double)c);
 }
 
 // Reads K… r [g b]; a single number sets all three channels. If the statement must be ignored, warns and returns false.
-static bool read_color(struct reader *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)
+static bool read_color(struct mtl_parser *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)
 {
     at = text_skip_white(at, end);
     if (text_is_word(at, end, "spectral") || text_is_word(at, end, "xyz")) {
@@ -107,7 +107,7 @@ static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
 // Replaces the colour of a material whose colours are all 0, because exporters write such materials by mistake. The new
 // colour is white if a texture supplies the colour. Otherwise it is the neutral grey, with a warning.
-static void replace_black(struct reader *reader, lam_material *m)
+static void replace_black(struct mtl_parser *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
     if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) || !is_black(m->emission))
@@ -124,7 +124,7 @@ static void replace_black(struct reader *reader, lam_material *m)
                shown_name(m->name, shown));
 }
 
-static void note_clear(struct reader *reader)
+static void note_clear(struct mtl_parser *reader)
 {
     char shown[SHOWN_NAME_SIZE];
     // the line of the statement, which only the first warning needs
@@ -135,7 +135,7 @@ static void note_clear(struct reader *reader)
 
 // With the exponent 0, the highlight covers the whole lit area. MeshLab writes Ks 1 1 1 and Ns 0 for materials without
 // a highlight.
-static void remove_wide_highlight(struct reader *reader, lam_material *m)
+static void remove_wide_highlight(struct mtl_parser *reader, lam_material *m)
 {
     if (!reader->exponent || m->shininess > 0 || is_black(m->specular))
         return;
@@ -145,7 +145,7 @@ static void remove_wide_highlight(struct reader *reader, lam_material *m)
 }
 
 // Completes the current material and adds it to the scene.
-static bool close_material(struct reader *reader, lam_error *error)
+static bool close_material(struct mtl_parser *reader, lam_error *error)
 {
     if (!reader->open)
         return true;
@@ -176,7 +176,7 @@ static bool close_material(struct reader *reader, lam_error *error)
                              error);
 }
 
-static bool start_material(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
+static bool start_material(struct mtl_parser *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
 {
     if (!close_material(reader, error))
         return false;
@@ -224,7 +224,8 @@ static const uint8_t *skip_options(const uint8_t *at, const uint8_t *end)
     }
 }
 
-static bool read_map(struct reader *reader, enum lam_map map, const uint8_t *at, const uint8_t *end, lam_error *error)
+static bool read_map(struct mtl_parser *reader, enum lam_map map, const uint8_t *at, const uint8_t *end,
+                     lam_error *error)
 {
     const uint8_t *name = skip_options(at, end), *last = name;
     if (name == end)
@@ -308,7 +309,7 @@ static int statement_of(const uint8_t *at, const uint8_t *end)
 }
 
 // Reads a colour (only the first three numbers of a colour with alpha), or a number, which is clamped to its range.
-static void read_material_field(struct reader *reader, int index, const uint8_t *at, const uint8_t *end)
+static void read_material_field(struct mtl_parser *reader, int index, const uint8_t *at, const uint8_t *end)
 {
     const lam_field *field = lam_material_field(index);
     lam_material *m = &reader->material;
@@ -334,7 +335,7 @@ static void read_material_field(struct reader *reader, int index, const uint8_t 
     reader->d |= field->offset == offsetof(lam_material, diffuse.a);
 }
 
-static bool read_statement(struct reader *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
+static bool read_statement(struct mtl_parser *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
 {
     int statement = statement_of(at, end);
     const uint8_t *word = at;
@@ -394,7 +395,7 @@ bool mtl_read(struct mtl_set *set, const struct import_source *source, struct la
 {
     const struct file_bytes *file = &library->file;
     const char *name = library->shown;
-    struct reader reader = {
+    struct mtl_parser reader = {
         .set = set,
         .scene = scene,
         .name = name,

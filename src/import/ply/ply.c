@@ -15,7 +15,7 @@ static int ply_probe(const uint8_t *bytes, size_t size)
 enum { VERTICES, FACES, STRIPS, EDGES, WANTED };
 static const char *const element_names[WANTED] = {"vertex", "face", "tristrips", "edge"};
 
-struct reader {
+struct ply_import {
     const struct import_source *source;
     struct lam_scene *scene;
     struct arena *scratch;
@@ -26,7 +26,7 @@ struct reader {
     struct ply_table tables[WANTED];
 };
 
-static bool fail_header(const struct reader *reader, const struct ply_element *element, const char *found,
+static bool fail_header(const struct ply_import *reader, const struct ply_element *element, const char *found,
                         const char *expected, lam_error *error)
 {
     return fail_line(error, reader->source, element->line, "element %s %s, expected %s", element->name, found,
@@ -34,7 +34,7 @@ static bool fail_header(const struct reader *reader, const struct ply_element *e
 }
 
 // Edges are drawn only if the integer properties vertex1 and vertex2 refer to their end vertices.
-static void check_edges(struct reader *reader)
+static void check_edges(struct ply_import *reader)
 {
     static const char *const ends[] = {"vertex1", "vertex2"};
     const struct ply_element *edges = reader->elements[EDGES];
@@ -50,7 +50,7 @@ static void check_edges(struct reader *reader)
 }
 
 // Finds the elements and their lists of corners.
-static bool choose_elements(struct reader *reader, lam_error *error)
+static bool choose_elements(struct ply_import *reader, lam_error *error)
 {
     for (int i = 0; i < reader->header.element_count; i++) {
         const struct ply_element *element = &reader->header.elements[i];
@@ -85,7 +85,7 @@ static bool choose_elements(struct reader *reader, lam_error *error)
 }
 
 // Rejects faces and edges without vertices.
-static bool check_vertices(const struct reader *reader, lam_error *error)
+static bool check_vertices(const struct ply_import *reader, lam_error *error)
 {
     bool surface = reader->elements[FACES] || reader->elements[STRIPS];
     if (!reader->elements[VERTICES] && (surface || reader->elements[EDGES]))
@@ -94,7 +94,7 @@ static bool check_vertices(const struct reader *reader, lam_error *error)
     return true;
 }
 
-static struct ply_request request_for(const struct reader *reader, int kind, enum ply_positions_as positions)
+static struct ply_request request_for(const struct ply_import *reader, int kind, enum ply_positions_as positions)
 {
     const struct ply_element *vertices = reader->elements[VERTICES], *element = reader->elements[kind];
     return (struct ply_request){
@@ -106,7 +106,7 @@ static struct ply_request request_for(const struct reader *reader, int kind, enu
     };
 }
 
-static bool read_element(struct reader *reader, const struct ply_element *element, int kind,
+static bool read_element(struct ply_import *reader, const struct ply_element *element, int kind,
                          enum ply_positions_as positions, size_t *at, lam_error *error)
 {
     struct ply_table *table = kind < WANTED ? &reader->tables[kind] : NULL;
@@ -121,7 +121,7 @@ static bool read_element(struct reader *reader, const struct ply_element *elemen
 }
 
 // Warns of text after the last row of the last element.
-static void warn_rest(const struct reader *reader, size_t at)
+static void warn_rest(const struct ply_import *reader, size_t at)
 {
     const struct import_source *source = reader->source;
     const uint8_t *end = source->bytes + source->size, *rest = text_skip_white(source->bytes + at, end);
@@ -133,7 +133,7 @@ static void warn_rest(const struct reader *reader, size_t at)
 }
 
 // Reads the elements in the order of the file, up to the last element that Lambent uses.
-static bool read_elements(struct reader *reader, lam_error *error)
+static bool read_elements(struct ply_import *reader, lam_error *error)
 {
     int last = 0;
     for (int i = 0; i < reader->header.element_count; i++) {
@@ -156,7 +156,7 @@ static bool read_elements(struct reader *reader, lam_error *error)
     return true;
 }
 
-static bool read_positions(struct reader *reader, lam_mesh *mesh, lam_error *error)
+static bool read_positions(struct ply_import *reader, lam_mesh *mesh, lam_error *error)
 {
     struct arena *arena = &reader->scene->arena;
     bool needs_doubles;
@@ -169,7 +169,7 @@ static bool read_positions(struct reader *reader, lam_mesh *mesh, lam_error *err
            ply_positions(reader->source, &reader->tables[VERTICES], arena, mesh, &needs_doubles, error);
 }
 
-static bool read_vertices(struct reader *reader, lam_mesh *mesh, lam_error *error)
+static bool read_vertices(struct ply_import *reader, lam_mesh *mesh, lam_error *error)
 {
     struct ply_attributes own;
     if (!read_positions(reader, mesh, error) ||
@@ -187,7 +187,7 @@ static bool read_vertices(struct reader *reader, lam_mesh *mesh, lam_error *erro
     return true;
 }
 
-static bool build(struct reader *reader, lam_error *error)
+static bool build(struct ply_import *reader, lam_error *error)
 {
     const struct import_source *source = reader->source;
     struct lam_scene *scene = reader->scene;
@@ -231,7 +231,7 @@ static bool ply_load(const struct import_source *source, struct lam_scene *scene
 {
     struct arena scratch;
     arena_start(&scratch, source->call);
-    struct reader reader = {.source = source, .scene = scene, .scratch = &scratch};
+    struct ply_import reader = {.source = source, .scene = scene, .scratch = &scratch};
     bool done = build(&reader, error);
     arena_free(&scratch);
     return done;

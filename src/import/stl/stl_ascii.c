@@ -20,7 +20,7 @@
 #include <float.h>
 #include <string.h>
 
-struct reader {
+struct stl_ascii_parser {
     const struct import_source *source;
     struct lam_scene *scene;
     const uint8_t *start, *at, *end;
@@ -38,7 +38,7 @@ struct reader {
     const uint8_t *first_unclosed, *end_expected;
 };
 
-static bool fail_at(const struct reader *reader, lam_error *error, const char *expected)
+static bool fail_at(const struct stl_ascii_parser *reader, lam_error *error, const char *expected)
 {
     char found[TEXT_FOUND_SIZE];
     return fail_line(error, reader->source, text_line(reader->source->bytes, reader->at),
@@ -46,14 +46,14 @@ static bool fail_at(const struct reader *reader, lam_error *error, const char *e
                      expected);
 }
 
-static bool next_is(struct reader *reader, const char *word)
+static bool next_is(struct stl_ascii_parser *reader, const char *word)
 {
     reader->at = text_skip_white(reader->at, reader->end);
     return text_is_word(reader->at, reader->end, word);
 }
 
 // Skips the next word if it is `word`. Returns whether the next word was skipped.
-static bool accept_word(struct reader *reader, const char *word)
+static bool accept_word(struct stl_ascii_parser *reader, const char *word)
 {
     if (!next_is(reader, word))
         return false;
@@ -61,7 +61,7 @@ static bool accept_word(struct reader *reader, const char *word)
     return true;
 }
 
-static bool expect(struct reader *reader, const char *word, lam_error *error)
+static bool expect(struct stl_ascii_parser *reader, const char *word, lam_error *error)
 {
     if (accept_word(reader, word))
         return true;
@@ -73,7 +73,7 @@ static bool expect(struct reader *reader, const char *word, lam_error *error)
     return fail_at(reader, error, quoted);
 }
 
-static bool read_corner(struct reader *reader, size_t corner, lam_error *error)
+static bool read_corner(struct stl_ascii_parser *reader, size_t corner, lam_error *error)
 {
     for (int axis = 0; axis < 3; axis++) {
         reader->at = text_skip_white(reader->at, reader->end);
@@ -101,7 +101,7 @@ static bool read_corner(struct reader *reader, size_t corner, lam_error *error)
     return true;
 }
 
-static bool read_facet(struct reader *reader, lam_error *error)
+static bool read_facet(struct stl_ascii_parser *reader, lam_error *error)
 {
     if (accept_word(reader, "normal")) {
         for (int i = 0; i < 3 && !next_is(reader, "outer"); i++)
@@ -123,7 +123,7 @@ static bool read_facet(struct reader *reader, lam_error *error)
 
 // Reads a solid's name: the rest of the line, trimmed. In files that consist of a single line, the name ends before
 // "facet normal".
-static void read_name(struct reader *reader, const uint8_t **name, size_t *length)
+static void read_name(struct stl_ascii_parser *reader, const uint8_t **name, size_t *length)
 {
     const uint8_t *line_end = text_line_end(reader->at, reader->end);
     const uint8_t *at = text_skip_white(reader->at, line_end), *stop = at;
@@ -140,7 +140,7 @@ static void read_name(struct reader *reader, const uint8_t **name, size_t *lengt
     reader->at = at;
 }
 
-static bool begin_part(struct reader *reader, const uint8_t *name, size_t length, lam_error *error)
+static bool begin_part(struct stl_ascii_parser *reader, const uint8_t *name, size_t length, lam_error *error)
 {
     if (reader->part_count > 0 && reader->parts[reader->part_count - 1].first_triangle == reader->facets)
         reader->part_count--; // drops a solid without facets
@@ -154,7 +154,7 @@ static bool begin_part(struct reader *reader, const uint8_t *name, size_t length
 
 // Opens a solid at `at` (NULL means there is no statement). If the previous solid is still open, its "endsolid" is
 // missing.
-static void open_solid(struct reader *reader, const uint8_t *at)
+static void open_solid(struct stl_ascii_parser *reader, const uint8_t *at)
 {
     if (reader->solid && reader->unclosed++ == 0) {
         reader->first_unclosed = reader->solid;
@@ -163,7 +163,7 @@ static void open_solid(struct reader *reader, const uint8_t *at)
     reader->solid = at;
 }
 
-static void warn_unclosed(const struct reader *reader)
+static void warn_unclosed(const struct stl_ascii_parser *reader)
 {
     const struct import_source *source = reader->source;
     char found[TEXT_FOUND_SIZE];
@@ -176,7 +176,7 @@ static void warn_unclosed(const struct reader *reader)
                reader->unclosed > 1 ? ", the first of several without it" : "");
 }
 
-static bool read_all(struct reader *reader, lam_error *error)
+static bool read_all(struct stl_ascii_parser *reader, lam_error *error)
 {
     enum { CHECK_INTERVAL = 1024 }; // facets between two checks of the call
     reader->at = reader->start;
@@ -222,7 +222,7 @@ static bool read_all(struct reader *reader, lam_error *error)
 }
 
 // Reads the positions again, as doubles, and rounds them relative to an origin.
-static bool read_doubles(struct reader *reader, struct arena *scratch, double origin[3], lam_error *error)
+static bool read_doubles(struct stl_ascii_parser *reader, struct arena *scratch, double origin[3], lam_error *error)
 {
     size_t numbers = 9 * (size_t)reader->facets;
     reader->exact = arena_array(scratch, numbers, sizeof(double));
@@ -249,7 +249,7 @@ static bool read_doubles(struct reader *reader, struct arena *scratch, double or
 
 bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
-    struct reader reader = {.source = source, .scene = scene, .start = source->bytes};
+    struct stl_ascii_parser reader = {.source = source, .scene = scene, .start = source->bytes};
     reader.end = source->bytes + source->size;
     if (source->size >= 3 && memcmp(reader.start, "\xef\xbb\xbf", 3) == 0)
         reader.start += 3; // a byte order mark

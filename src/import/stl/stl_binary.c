@@ -26,7 +26,7 @@ struct words {
     bool any;                 // whether any word is not 0
 };
 
-struct reader {
+struct stl_binary_reader {
     const struct import_source *source;
     struct row_bytes facets;
     float *positions;
@@ -57,7 +57,7 @@ static void add_word(struct words *words, uint16_t value)
     }
 }
 
-static bool fail_not_finite(const struct reader *reader, size_t first, size_t last, lam_error *error)
+static bool fail_not_finite(const struct stl_binary_reader *reader, size_t first, size_t last, lam_error *error)
 {
     for (size_t i = first; i < last; i++) {
         for (int c = 0; c < 9; c++) {
@@ -75,7 +75,7 @@ static bool fail_not_finite(const struct reader *reader, size_t first, size_t la
 
 static bool read_chunk(void *user, size_t index, const uint8_t *facet, lam_error *error)
 {
-    const struct reader *reader = user;
+    const struct stl_binary_reader *reader = user;
     size_t first, last;
     parallel_rows_range(reader->facets.count, index, &first, &last);
     struct words words = {0};
@@ -98,7 +98,7 @@ static uint8_t five_bits(unsigned value) { return (uint8_t)((value * 255 + 15) /
 static bool color_chunk(void *user, size_t index, const uint8_t *facet, lam_error *error)
 {
     (void)error;
-    const struct reader *reader = user;
+    const struct stl_binary_reader *reader = user;
     size_t first, last;
     parallel_rows_range(reader->facets.count, index, &first, &last);
     for (size_t i = first; i < last; i++, facet += STL_FACET) {
@@ -115,7 +115,7 @@ static bool color_chunk(void *user, size_t index, const uint8_t *facet, lam_erro
 // words are colours. If all of them are zero, the header's colour applies to the whole file instead (*uniform). Without
 // "COLOR=", the words are colours if bit 15 is set in some of them, and the others are zero or all equal (a default
 // value).
-static bool colors_of(struct reader *reader, const struct words *words, bool *uniform)
+static bool colors_of(struct stl_binary_reader *reader, const struct words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";
     enum { KEY = sizeof key - 1 };
@@ -134,7 +134,7 @@ static bool colors_of(struct reader *reader, const struct words *words, bool *un
 }
 
 // A colour of the whole file is stored in the default material, so that options can replace it.
-static bool set_material(struct reader *reader, struct lam_scene *scene, lam_error *error)
+static bool set_material(struct stl_binary_reader *reader, struct lam_scene *scene, lam_error *error)
 {
     bool raw = reader->source->params->color == LAM_COLOR_RAW;
     float rgb[3];
@@ -146,7 +146,7 @@ static bool set_material(struct reader *reader, struct lam_scene *scene, lam_err
     return lam_scene_set_default_material(scene, &material, error);
 }
 
-static bool read_colors(struct reader *reader, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
+static bool read_colors(struct stl_binary_reader *reader, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
     struct words all = {0};
     for (size_t i = 0; i < parallel_rows_count(reader->facets.count); i++) {
@@ -194,7 +194,8 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
 
     struct arena scratch;
     arena_start(&scratch, source->call);
-    struct reader reader = {.source = source, .facets = {.offset = STL_FACETS, .stride = STL_FACET, .count = declared}};
+    struct stl_binary_reader reader = {.source = source,
+                                       .facets = {.offset = STL_FACETS, .stride = STL_FACET, .count = declared}};
     size_t chunks = parallel_rows_count(declared);
     reader.positions = arena_array(&scene->arena, declared, 9 * sizeof(float));
     reader.words = arena_array(&scratch, chunks, sizeof *reader.words);

@@ -7,12 +7,12 @@
 
 enum { TRIANGULAR_MESH = 1, SEQUENTIAL = 0, EDGEBREAKER = 1, HAS_METADATA = 0x8000, METADATA_DEPTH = 16 };
 
-struct reader {
+struct draco_cursor {
     const uint8_t *at, *end;
     bool ok; // false if the bytes ended too early
 };
 
-static const uint8_t *skip(struct reader *r, uint64_t bytes)
+static const uint8_t *skip(struct draco_cursor *r, uint64_t bytes)
 {
     const uint8_t *from = r->at;
     r->ok = r->ok && bytes <= (uint64_t)(r->end - r->at);
@@ -22,20 +22,20 @@ static const uint8_t *skip(struct reader *r, uint64_t bytes)
     return from;
 }
 
-static uint32_t read_u8(struct reader *r)
+static uint32_t read_u8(struct draco_cursor *r)
 {
     const uint8_t *at = skip(r, 1);
     return at ? *at : 0;
 }
 
-static uint32_t read_u32(struct reader *r)
+static uint32_t read_u32(struct draco_cursor *r)
 {
     const uint8_t *at = skip(r, 4);
     return at ? at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24 : 0;
 }
 
 // Reads seven bits per byte, the lowest first.
-static uint32_t read_varint(struct reader *r)
+static uint32_t read_varint(struct draco_cursor *r)
 {
     uint64_t number = 0;
     for (int shift = 0; shift < 35; shift += 7) {
@@ -50,7 +50,7 @@ static uint32_t read_varint(struct reader *r)
     return 0;
 }
 
-static void skip_metadata(struct reader *r, int depth)
+static void skip_metadata(struct draco_cursor *r, int depth)
 {
     r->ok = r->ok && depth < METADATA_DEPTH;
     for (uint32_t entries = read_varint(r); r->ok && entries > 0; entries--) {
@@ -63,7 +63,7 @@ static void skip_metadata(struct reader *r, int depth)
     }
 }
 
-static void skip_all_metadata(struct reader *r)
+static void skip_all_metadata(struct draco_cursor *r)
 {
     for (uint32_t attributes = read_varint(r); r->ok && attributes > 0; attributes--) {
         read_varint(r); // skips the attribute's id
@@ -74,7 +74,7 @@ static void skip_all_metadata(struct reader *r)
 
 bool draco_header_read(const uint8_t *bytes, size_t size, struct draco_claim *out)
 {
-    struct reader r = {.at = bytes, .end = bytes + size, .ok = true};
+    struct draco_cursor r = {.at = bytes, .end = bytes + size, .ok = true};
     *out = (struct draco_claim){0};
     const uint8_t *magic = skip(&r, 5);
     if (!magic || memcmp(magic, "DRACO", 5) != 0)

@@ -79,8 +79,9 @@ static bool fits(size_t kept)
 
 // --- STL
 
-// `word` is the attribute of every third facet.
-static void make_stl(const char *header, unsigned word)
+// `word` is the attribute of every third facet. From facet `shuffled` on, the facets are in an order in which
+// neighbours are far apart.
+static void make_shuffled_stl(const char *header, unsigned word, int shuffled)
 {
     size = 0;
     add_text(header);
@@ -91,10 +92,12 @@ static void make_stl(const char *header, unsigned word)
         for (int i = 0; i < 3; i++)
             add_f32(0);
         for (int c = 0; c < 9; c++)
-            add_f32(position(corner(t, c / 3), c % 3));
+            add_f32(position(corner(t < shuffled ? t : (int)(t * INT64_C(7919) % TRIANGLES), c / 3), c % 3));
         add_u16(t % 3 ? 0 : word);
     }
 }
+
+static void make_stl(const char *header, unsigned word) { make_shuffled_stl(header, word, TRIANGLES); }
 
 static void stl_files(void **state)
 {
@@ -111,6 +114,54 @@ static void stl_files(void **state)
     make_stl("a header", 0);
     add_text("text after the last facet");
     assert_true(load_both("stl"));
+}
+
+static lam_scene *load_stl(int threads, lam_normals normals)
+{
+    lam_error error;
+    const lam_load_params params = {.threads = threads, .normals = normals, .crease_angle_rad = 3.14159};
+    lam_scene *scene = lam_scene_load(path, &params, NULL, &error);
+    assert_non_null(scene);
+    return scene;
+}
+
+// The facets of a large file share vertices, if neighbours are close in the file. The mesh is the same for any number
+// of threads. All corners at a position get the same smooth normal, also if two windows of the file have a vertex there.
+static void stl_vertices(void **state)
+{
+    (void)state;
+    make_stl("a header", 0);
+    write_file();
+    lam_scene *one = load_stl(1, LAM_NORMALS_FILE), *three = load_stl(3, LAM_NORMALS_FILE),
+              *facets = load_stl(3, LAM_NORMALS_FACET);
+    const lam_mesh *mesh = lam_scene_mesh(one, 0);
+    assert_same_mesh(mesh, lam_scene_mesh(three, 0));
+    assert_null(lam_scene_mesh(facets, 0)->indices);
+    assert_in_range(mesh->vertex_count, VERTICES + 1, VERTICES + VERTICES / 8);
+    const float **normals = calloc(VERTICES, sizeof *normals);
+    assert_non_null(normals);
+    for (int t = 0; t < TRIANGLES; t++)
+        for (int k = 0; k < 3; k++) {
+            size_t c = 3 * (size_t)t + (size_t)k;
+            int vertex = corner(t, k);
+            for (int axis = 0; axis < 3; axis++)
+                assert_true(mesh->positions[3 * (size_t)mesh->indices[c] + (size_t)axis] == position(vertex, axis));
+            const float *normal = mesh->normals + 3 * (size_t)mesh->normal_indices[c];
+            if (!normals[vertex])
+                normals[vertex] = normal;
+            assert_memory_equal(normals[vertex], normal, 3 * sizeof *normal);
+        }
+    free(normals);
+    lam_scene_free(one);
+    lam_scene_free(three);
+    lam_scene_free(facets);
+    for (int shuffled = 0; shuffled <= TRIANGLES / 2; shuffled += TRIANGLES / 2) { // all facets, or the second half
+        make_shuffled_stl("a header", 0, shuffled);
+        assert_true(load_both(NULL));
+        lam_scene *scene = load_stl(2, LAM_NORMALS_FILE);
+        assert_null(lam_scene_mesh(scene, 0)->indices);
+        lam_scene_free(scene);
+    }
 }
 
 static void stl_errors(void **state)
@@ -298,8 +349,9 @@ static void memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stl_files),  cmocka_unit_test(stl_errors),     cmocka_unit_test(ply_files),
-        cmocka_unit_test(ply_errors), cmocka_unit_test(can_be_stopped), cmocka_unit_test(memory),
+        cmocka_unit_test(stl_files), cmocka_unit_test(stl_vertices), cmocka_unit_test(stl_errors),
+        cmocka_unit_test(ply_files), cmocka_unit_test(ply_errors),   cmocka_unit_test(can_be_stopped),
+        cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests_name("large files", tests, start, stop);
 }

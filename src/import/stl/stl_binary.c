@@ -18,44 +18,16 @@
 
 #include <string.h>
 
-// Statistics of the attribute words of a chunk.
-struct words {
-    uint32_t marked;          // number of words with bit 15 set
-    uint32_t unmarked_values; // number of different nonzero words without bit 15: 0, 1, or 2 for more than one
-    uint16_t unmarked;        // the first nonzero word without bit 15
-    bool any;                 // whether any word is not 0
-};
-
 struct stl_binary_reader {
     const struct import_source *source;
     struct row_bytes facets;
     float *positions;
-    struct words *words; // one per chunk
+    struct stl_words *words; // one per chunk
     // Members for the pass that reads colours.
     uint8_t *colors;
     uint8_t fallback[4]; // the colour of facets without a colour of their own
     bool magics;
 };
-
-static uint16_t word_of(const uint8_t *facet)
-{
-    return (uint16_t)(facet[STL_ATTRIBUTE] | facet[STL_ATTRIBUTE + 1] << 8);
-}
-
-static void add_word(struct words *words, uint16_t value)
-{
-    if (value == 0)
-        return;
-    words->any = true;
-    if (value & 0x8000) {
-        words->marked++;
-    } else if (words->unmarked_values == 0) {
-        words->unmarked_values = 1;
-        words->unmarked = value;
-    } else if (words->unmarked != value) {
-        words->unmarked_values = 2;
-    }
-}
 
 static bool fail_not_finite(const struct stl_binary_reader *reader, size_t first, size_t last, lam_error *error)
 {
@@ -78,7 +50,7 @@ static bool read_chunk(void *user, size_t index, const uint8_t *facet, lam_error
     const struct stl_binary_reader *reader = user;
     size_t first, last;
     parallel_rows_range(reader->facets.count, index, &first, &last);
-    struct words words = {0};
+    struct stl_words words = {0};
     uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
     float *corners = reader->positions + 9 * first;
     for (size_t i = first; i < last; i++, facet += STL_FACET, corners += 9) {
@@ -87,7 +59,7 @@ static bool read_chunk(void *user, size_t index, const uint8_t *facet, lam_error
         memcpy(corners, bits, sizeof bits);
         for (int c = 0; c < 9; c++)
             nonfinite |= (bits[c] & 0x7fffffff) + 0x00800000;
-        add_word(&words, word_of(facet));
+        stl_add_word(&words, stl_word_of(facet));
     }
     reader->words[index] = words;
     return !(nonfinite & 0x80000000) || fail_not_finite(reader, first, last, error);
@@ -102,7 +74,7 @@ static bool color_chunk(void *user, size_t index, const uint8_t *facet, lam_erro
     size_t first, last;
     parallel_rows_range(reader->facets.count, index, &first, &last);
     for (size_t i = first; i < last; i++, facet += STL_FACET) {
-        unsigned word = word_of(facet);
+        unsigned word = stl_word_of(facet);
         bool own = (word >> 15) != (unsigned)reader->magics;
         uint8_t low = five_bits(word & 31), middle = five_bits(word >> 5 & 31), high = five_bits(word >> 10 & 31);
         uint8_t color[4] = {reader->magics ? low : high, middle, reader->magics ? high : low, 255};
@@ -115,7 +87,7 @@ static bool color_chunk(void *user, size_t index, const uint8_t *facet, lam_erro
 // words are colours. If all of them are zero, the header's colour applies to the whole file instead (*uniform). Without
 // "COLOR=", the words are colours if bit 15 is set in some of them, and the others are zero or all equal (a default
 // value).
-static bool colors_of(struct stl_binary_reader *reader, const struct words *words, bool *uniform)
+static bool colors_of(struct stl_binary_reader *reader, const struct stl_words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";
     enum { KEY = sizeof key - 1 };
@@ -148,13 +120,13 @@ static bool set_material(struct stl_binary_reader *reader, struct lam_scene *sce
 
 static bool read_colors(struct stl_binary_reader *reader, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
-    struct words all = {0};
+    struct stl_words all = {0};
     for (size_t i = 0; i < parallel_rows_count(reader->facets.count); i++) {
-        const struct words *chunk = &reader->words[i];
+        const struct stl_words *chunk = &reader->words[i];
         all.any |= chunk->any;
         all.marked |= chunk->marked;
         if (chunk->unmarked_values)
-            add_word(&all, chunk->unmarked);
+            stl_add_word(&all, chunk->unmarked);
         if (chunk->unmarked_values == 2)
             all.unmarked_values = 2;
     }
@@ -172,6 +144,18 @@ static bool read_colors(struct stl_binary_reader *reader, struct lam_scene *scen
     mesh->colors_format = reader->source->params->color == LAM_COLOR_RAW ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
     mesh->colors_rate = LAM_PER_TRIANGLE;
     return true;
+}
+
+// Reads the facets without sharing their vertices.
+static bool read_corners(struct stl_binary_reader *reader, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
+{
+    size_t facets = reader->facets.count;
+    reader->positions = arena_array(&scene->arena, facets, 9 * sizeof(float));
+    if (!reader->positions)
+        return call_memory_error(reader->source->call, facets * 9 * sizeof(float), error);
+    mesh->positions = reader->positions;
+    mesh->vertex_count = 3 * (uint32_t)facets;
+    return parallel_rows_read(reader->source, &reader->facets, read_chunk, reader, error);
 }
 
 bool stl_load_binary(const struct import_source *source, struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
@@ -197,13 +181,11 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
     struct stl_binary_reader reader = {.source = source,
                                        .facets = {.offset = STL_FACETS, .stride = STL_FACET, .count = declared}};
     size_t chunks = parallel_rows_count(declared);
-    reader.positions = arena_array(&scene->arena, declared, 9 * sizeof(float));
     reader.words = arena_array(&scratch, chunks, sizeof *reader.words);
-    bool done = reader.positions && reader.words;
-    if (!done)
-        call_memory_error(source->call, declared * 9 * sizeof(float), error);
-    done = done && parallel_rows_read(source, &reader.facets, read_chunk, &reader, error) &&
-           read_colors(&reader, scene, mesh, error);
+    bool done = reader.words || call_memory_error(source->call, chunks * sizeof *reader.words, error);
+    done = done && (stl_share_vertices(source, &reader.facets, reader.words, scene, mesh) ||
+                    read_corners(&reader, scene, mesh, error));
+    done = done && read_colors(&reader, scene, mesh, error);
     arena_free(&scratch);
     if (!done)
         return false;
@@ -211,8 +193,6 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
     size_t extra = body - (size_t)declared * STL_FACET;
     if (extra > 0)
         scene_warn(scene, "%s: %zu bytes after the last of %u facets are ignored", source->name, extra, declared);
-    mesh->positions = reader.positions;
-    mesh->vertex_count = 3 * declared;
     mesh->triangle_count = declared;
     return true;
 }

@@ -1,6 +1,7 @@
 """turning_rows.py: measures how quickly the page follows a user who turns a model, with one thread for each processor, in headless Chromium: the
 teapot at 928 × 656, and a ball of 100,000 triangles, alternating with three.js on the software GPU of the same browser. `python3 bench/run.py
-turning` measures only these rows, in two minutes. They need the page (make web); if the page, three.js or Chromium is missing, they report this.
+turning` measures only these rows, in two minutes. They need the page (make web); if the page, three.js or Chromium is missing, they report this. The
+page is first built again from the present sources, so that these rows never measure an older page.
 
 `as shown`: each program with its own settings while the model turns. The page draws one sample for each pixel, and at least half of the width and
 height (web/page/pace.js);
@@ -14,6 +15,7 @@ import shutil
 import statistics
 import struct
 import subprocess
+import sys
 
 import frames
 import measure
@@ -62,14 +64,23 @@ def make_ball(path):
         out.write(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(body)) + struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(body), b"BIN\0") + body)
 
 
+@functools.cache
+def build_page():
+    """Builds the changes of the page since the last `make web`."""
+    if not os.path.exists(os.path.join(PAGE, "page", "page.js")):
+        raise measure.Absent("the page is missing: make web")
+    done = subprocess.run([sys.executable, build.__file__, PAGE], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode:
+        raise measure.Absent("the page cannot be built: " + (done.stdout.strip().splitlines() or ["make web"])[-1])
+
+
 class Page(three_rows.Browser):
     """A context manager for lab.mjs: sends tasks and returns answers."""
 
     name = "the page"
 
     def __enter__(self):
-        if not os.path.exists(os.path.join(PAGE, "page", "page.js")):
-            raise measure.Absent("the page is missing: make web")
+        build_page()
         chromium, modules = shutil.which("chromium"), build.packages(paths.OUT, os.path.join(paths.BENCH, "three"))
         if not chromium or not modules:
             raise measure.Absent("the page: %s is missing" % ("playwright-core" if chromium else "chromium"))

@@ -8,11 +8,11 @@ export class Files {
   list(): string[];
 }
 
-/** A command line that cannot be drawn: the program's own sentence. */
+/** Thrown if a command line cannot be drawn. `message` is the program's error message. */
 export class LambentError extends Error {
-  /** By the program's exit codes: BAD_ARGUMENT, CANNOT_READ, UNSUPPORTED, LIMIT, CANNOT_WRITE; FAILED for others. */
+  /** Corresponds to the program's exit code: BAD_ARGUMENT, CANNOT_READ, UNSUPPORTED, LIMIT or CANNOT_WRITE. FAILED for any other error. */
   readonly code: string;
-  /** The call was asked to end. */
+  /** True if the caller has cancelled the call. */
   readonly cancelled: boolean;
 }
 
@@ -20,9 +20,9 @@ export interface Camera {
   eye: [number, number, number];
   target: [number, number, number];
   up: [number, number, number];
-  /** Full vertical field of view in degrees; counts where `ortho` is 0. */
+  /** Full vertical field of view in degrees. Used only if `ortho` is 0. */
   fovy_deg: number;
-  /** Half the height of an orthographic view in model units; 0: perspective. */
+  /** Half the height of an orthographic view in model units. 0 for a perspective view. */
   ortho: number;
   /** The scene's up axis. */
   pole: [number, number, number];
@@ -39,7 +39,7 @@ export interface Picture {
   camera: Camera;
   /** The bounding sphere of the scene. */
   sphere: { centre: [number, number, number]; radius: number };
-  /** Lights of the model's file light the picture. */
+  /** True if the lights of the model's file light the picture. */
   own_lights: boolean;
   /** The diffuse colour of the first object's material, linear. */
   color: [number, number, number];
@@ -52,16 +52,16 @@ export interface Word {
 }
 
 export interface Option {
-  /** Without the dashes. */
+  /** The option's name without the leading dashes. */
   name: string;
-  /** The title of its group in the help. */
+  /** The title of the option's group in the help. */
   group: string;
-  /** The placeholder of its value; null: it takes none. */
+  /** The placeholder of the option's value. Null if the option has no value. */
   value: string | null;
   default: string | null;
   summary: string;
   details: string | null;
-  /** Other names that people try, separated by spaces. */
+  /** Synonyms for the search, separated by spaces. */
   others: string | null;
   kind: 'any' | 'file' | 'color' | 'material' | 'light' | 'camera' | 'environment' | 'varied' | 'swept';
   repeats: boolean;
@@ -75,40 +75,50 @@ export interface Option {
 export interface Options {
   version: string;
   shapes: string[];
-  /** Of models and scene files that are read: "obj", without the point. */
+  /** File name extensions of the models and scene files that the module reads, without the dot: "obj". */
   endings: string[];
   options: Option[];
 }
 
-/** A part of a module in parts is needed that is not there; this Lambent is of no use any more. */
+/** Thrown if a divided module needs a part that is not loaded. The Lambent that throws it cannot be used afterwards. */
 export class PartMissing extends Error {
-  readonly part: 'rest' | 'more';
+  readonly part: 'rest' | 'more' | 'threads-more';
 }
 
 export class Lambent {
-  /** `parts`: of a module in parts; `memory`: of a module with threads (threads.js); `progress`: gets the share that is drawn, 0 to 1. */
+  /**
+   * @param more.parts the loaded parts of a divided module, besides the first part
+   * @param more.memory the memory of a module with threads (threads.js)
+   * @param more.progress called repeatedly during drawing, with the finished fraction from 0 to 1
+   */
   constructor(module: WebAssembly.Module, files?: Files, more?: { parts?: WebAssembly.Module[]; memory?: WebAssembly.Memory | null; progress?: ((share: number) => void) | null });
-  /** A part of a module in parts. */
+  /** Adds a part of a divided module. */
   complete(part: WebAssembly.Module): void;
   readonly files: Files;
-  /** Limits the memory of reading a model and of drawing it, in bytes each, if the words have no --memory-limit. 0 means no limit. */
+  /**
+   * Limits the memory for reading a model to this number of bytes, and the memory for drawing it to the same number. The limits apply if the words
+   * contain no --memory-limit. 0 means no limit.
+   */
   limitMemory(bytes: number): void;
-  /** The picture of a command line, MODEL [OPTION...]. Throws LambentError. */
+  /** Draws the picture of a command line, MODEL [OPTION...]. Throws a LambentError if the picture cannot be drawn. */
   draw(words: string[]): Picture;
-  /** The bytes of its file: png, jpg, ppm or pfm. */
+  /** Returns the bytes of the picture's file. `ending` is png, jpg, ppm or pfm. */
   save(words: string[], ending: string): Uint8Array;
-  /** The scene file that --save-scene writes. */
+  /** Returns the scene file that --save-scene writes, as bytes. */
   scene(words: string[]): Uint8Array;
-  /** One pixel, in the form of `lambent explain --json`. */
+  /** Returns the explanation of one pixel, as `lambent explain --json` prints it. */
   explain(words: string[], x: number, y: number): any;
-  /** A light's laws: 101 values each, from 0 to `farthest`, and from 0 to 90 degrees. */
+  /**
+   * Returns three curves of a light, with 101 values each: the attenuation at distances from 0 to `farthest`, and the cone and the highlight at angles
+   * from 0 to 90 degrees.
+   */
   curves(words: string[], of: { light: number; farthest: number; shininess: number; reflection: string }): { type: string; attenuation: number[]; spot: number[]; highlight: number[] };
-  /** The picture's lights in the form of a scene file, as `lambent lights` prints them. */
+  /** Returns the picture's lights in the form of a scene file, as `lambent lights` prints them. */
   lights(words: string[]): any;
   /** Returns the model's size and unit, objects with their parts, materials, animations, variants and cameras. */
   contents(words: string[]): any;
   options(): Options;
-  /** The files have changed: the model is read anew. */
+  /** Forgets the model, so that the next call reads it again. Call it after files have changed. */
   forget(): void;
 }
 

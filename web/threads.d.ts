@@ -2,18 +2,21 @@
 import type { Files, Lambent } from './lambent.js';
 
 export interface ThreadedLambent extends Lambent {
-  /** Threads that draw, the caller's among them. */
+  /** The number of drawing threads, including the caller. */
   readonly threads: number;
-  /** Ends the other threads. It must not be called any more. */
+  /** Ends the other threads. The object cannot be used afterwards. */
   end(): void;
 }
 
 /**
- * Opens build-web/threads/web/lambent.wasm. A page must be cross-origin isolated, and call it in a worker, since a drawing waits.
- * @param count threads that are wanted, the caller's among them
- * @param startWorker starts a worker that runs thread.js, of the browser or of node:worker_threads
- * @param progress is called with the share of a drawing that is done, 0 to 1
- * @param parts of a module in parts, those besides the first
+ * Opens the module with threads (build-web/threads/web/lambent.wasm). A page must be cross-origin isolated. It must call this function in a worker, because
+ * drawing blocks the caller.
+ * @param source the bytes of the module, or the compiled module
+ * @param count the wanted number of threads, including the caller
+ * @param startWorker starts a worker that runs thread.js and returns it: a Worker of the browser or of node:worker_threads
+ * @param files files in memory; default: no files
+ * @param progress called repeatedly during drawing, with the finished fraction from 0 to 1
+ * @param parts the loaded parts of a divided module, besides the first part
  */
 export function openThreads(source: BufferSource | WebAssembly.Module, count: number, startWorker: () => unknown, files?: Files,
   progress?: ((share: number) => void) | null, parts?: WebAssembly.Module[]): Promise<ThreadedLambent>;

@@ -1,4 +1,4 @@
-// check_module.c: checks shaders for a page, one after another, drawn by the page's WebGL 2.
+// check_module.c: checks shaders for a page, one after another. The page's WebGL 2 draws them.
 #include "check_module.h"
 
 #include <stdlib.h>
@@ -28,7 +28,7 @@ char *web_texts(uint32_t bytes)
     return module.texts;
 }
 
-// Text `index` of the call. "" means none.
+// Returns text `index` of the call, or "" if the call has no such text.
 static const char *text_of(int index)
 {
     const char *at = module.texts ? module.texts : "", *end = at + module.bytes;
@@ -56,7 +56,7 @@ static bool check(lam_check_params *params, lam_error *error)
         return true;
     if (!web_painter_was_stopped())
         return false;
-    // The stopped work is lost, including the cache.
+    // The stopped work and the cache are lost.
     lam_check_cache_free(module.cache);
     module.cache = NULL;
     module.report = (lam_check_report){.verdict = LAM_CHECK_ENDLESS};

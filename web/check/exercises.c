@@ -1,5 +1,5 @@
-// exercises.c: exercises: shaders in the lecture style, each with one of the known mistakes that `lambent shader
-// --mistake` offers.
+// exercises.c: makes the exercises. An exercise is a shader in the lecture style with one of the mistakes of `lambent
+// shader --mistake`.
 #include <string.h>
 
 #include <lambent/check.h>
@@ -9,7 +9,7 @@
 #include "exercises.h"
 #include "json.h"
 
-// Scenes, of which the first one that contains the requirements of a mistake is used.
+// An exercise uses the first of these scenes that meets the requirements of its mistake.
 static const struct setting {
     lam_light_type lights[2];
     int light_count;
@@ -92,7 +92,8 @@ static void put_texts(struct json *json, const char *key, const lam_shader *shad
     json_close(json, '}');
 }
 
-// Answers with the texts of one setting. Returns false if it lacks a requirement of the mistake, or fails.
+// Prints the texts of one setting. Returns false if the setting does not meet a requirement of the mistake, or if this
+// fails.
 static bool put_exercise(const struct setting *setting, const char *mistake, lam_error *error)
 {
     lam_scene *scene = scene_of(setting, error);

@@ -1,4 +1,4 @@
-// exercises.h: the exercises of the page's shaders: the known mistakes of `lambent shader --mistake`.
+// exercises.h: the exercises of the tab of shaders. They contain the mistakes of `lambent shader --mistake`.
 #ifndef EXERCISES_H
 #define EXERCISES_H
 
@@ -6,7 +6,7 @@
 
 struct json;
 
-// Member "exercises": each mistake's id, its visible effect, and its description.
+// Writes the member "exercises": the id, visible effect and description of each mistake.
 void exercises_list(struct json *json);
 
 // Prints the texts with a mistake, the texts without it, and their highlight. Returns false if no mistake has this id,

@@ -1,5 +1,5 @@
-// painter.c: WebGL 2 as the painter of a check. painter.js draws; this file requests what WebGL supports, with numbers
-// for places and programs. Texts end with a 0.
+// painter.c: the painter of a check with WebGL 2. It calls painter.js, which draws. Numbers identify render targets and
+// programs. Texts end with a 0.
 #include "painter.h"
 
 #include <stdlib.h>
@@ -9,15 +9,15 @@
 
 #define IMPORT(name) __attribute__((import_module("painter"), import_name(#name)))
 
-// Returns the number of a place, or 0 and the reason in `renderer`.
+// Returns the number of a render target. If WebGL is not available, returns 0 and writes the reason to `renderer`.
 int32_t painter_open(int32_t size, char *renderer, int32_t capacity) IMPORT(open);
 void painter_close(int32_t place) IMPORT(close);
-// Returns the number of a program, or 0; bits of `refused`: 1 the vertex shader, 2 the fragment shader. Logs have room
-// for `capacity` bytes.
+// Returns the number of a program, or 0 if it does not compile or link. Bits of `refused` name the shader with errors:
+// 1 is the vertex shader, 2 the fragment shader. Each log has room for `capacity` bytes.
 int32_t painter_compile(int32_t place, const char *vertex, const char *fragment, int32_t *refused, char *vertex_log,
                         char *fragment_log, char *link_log, int32_t capacity) IMPORT(compile);
 int32_t painter_input_count(int32_t program) IMPORT(input_count);
-// `numbers`: the type as a lam_check_type; elements; 1 for an attribute.
+// `numbers` receives the type as a lam_check_type, the number of elements, and 1 for an attribute or 0 for a uniform.
 void painter_input(int32_t program, int32_t index, char *name, int32_t capacity, int32_t *numbers) IMPORT(input);
 void painter_forget(int32_t program) IMPORT(forget);
 void painter_mesh(int32_t place, int32_t number, int32_t vertex_count, int32_t index_count, const float *positions,
@@ -25,7 +25,7 @@ void painter_mesh(int32_t place, int32_t number, int32_t vertex_count, int32_t i
 void painter_value(int32_t program, int32_t input, int32_t first, int32_t count, const float *numbers) IMPORT(value);
 void painter_stream(int32_t program, int32_t input, int32_t components, int32_t vertex_count, const float *numbers)
     IMPORT(stream);
-// 0: drawn; -1: the browser has stopped it; otherwise WebGL's error.
+// Returns 0 if the picture was drawn, -1 if the browser has stopped the drawing, or WebGL's error.
 int32_t painter_draw(int32_t place, int32_t program, int32_t mesh, int32_t index_count, int32_t position,
                      int32_t normal, int32_t tangent, int32_t cull, float *pixels) IMPORT(draw);
 
@@ -42,7 +42,7 @@ static int32_t number_of(const void *handle) { return (int32_t)(uintptr_t)handle
 
 static void *open(void *user, lam_check_language language, int size, char renderer[128], lam_error *error)
 {
-    (void)user, (void)language; // always OpenGL ES
+    (void)user, (void)language; // the language is always that of OpenGL ES
     int32_t place = painter_open(size, renderer, 128);
     if (!place)
         complain(error, LAM_UNSUPPORTED, "%s", renderer);

@@ -1,4 +1,4 @@
-// painter.h: WebGL 2 as the painter of a check.
+// painter.h: the painter of a check with WebGL 2.
 #ifndef PAINTER_H
 #define PAINTER_H
 
@@ -6,7 +6,7 @@
 
 extern const lam_check_painter web_painter;
 
-// Whether the browser has stopped a shader since the last call, and the page's WebGL is lost.
+// Returns whether the browser has stopped a shader since the last call. The page's WebGL context is then lost.
 bool web_painter_was_stopped(void);
 
 #endif

@@ -4,8 +4,8 @@
 
 #include_next <stdlib.h>
 
-// POSIX's function for a file system without links: the absolute path without "." and "..", allocated with malloc, or
-// in a buffer of PATH_MAX bytes.
+// Returns the absolute path without "." and "..", as in POSIX, for a file system without links. The path is in `buffer`
+// (PATH_MAX bytes), or allocated with malloc if `buffer` is NULL.
 char *realpath(const char *path, char *buffer);
 
 #endif

@@ -20,7 +20,7 @@ enum { THREADS_MAX = 64, STACK = 4 << 20 /* as the linker gives the first thread
 
 enum state { STARTING, FREE, TAKEN, GIVEN, DONE };
 
-// It is at the end of the thread's stack, which grows downwards, and before its thread-local variables.
+// This struct lies directly above the thread's stack, which grows downwards, and before its thread-local variables.
 struct thread {
     int state; // an enum state, accessed atomically
     void *(*task)(void *);
@@ -42,7 +42,7 @@ void web_thread_failed(void) WEB_EXPORT(web_thread_failed);
 
 // ---- waiting
 
-// Waits until *at is no longer `value`, or may return early. The first thread checks once a second whether another one
+// Waits until *at is no longer `value`. May return early. The first thread checks once a second whether another thread
 // has failed, and then fails too.
 static void wait_while(int *at, int value)
 {
@@ -54,7 +54,8 @@ static void wait_while(int *at, int value)
 
 static void wake(int *at, unsigned count) { __builtin_wasm_memory_atomic_notify(at, count); }
 
-// A mutex is 0: free, 1: locked, 2: locked, and others may wait (Drepper, Futexes Are Tricky, 2011, section 5).
+// A mutex is 0 if it is free, 1 if it is locked, or 2 if it is locked and other threads may wait for it (Drepper,
+// Futexes Are Tricky, 2011, section 5).
 int pthread_mutex_lock(pthread_mutex_t *mutex)
 {
     int found = 0;
@@ -72,7 +73,8 @@ int pthread_mutex_unlock(pthread_mutex_t *mutex)
     return 0;
 }
 
-// A condition counts its signals: a signal before the wait begins has changed the number.
+// A condition counts its signals. If a signal comes before the wait begins, the number has changed, and there is no
+// wait.
 int pthread_cond_wait(pthread_cond_t *changed, pthread_mutex_t *mutex)
 {
     int signals = __atomic_load_n(changed, __ATOMIC_RELAXED);
@@ -93,8 +95,8 @@ int pthread_cond_broadcast(pthread_cond_t *changed) { return signal_to(changed, 
 
 // ---- threads
 
-// Memory for one more thread; the address is also the start of its stack. NULL if memory is insufficient, or if there
-// are enough threads.
+// Returns memory for one more thread. The thread's stack starts at this address. Returns NULL if memory is
+// insufficient, or if there are THREADS_MAX threads.
 struct thread *web_thread_add(void)
 {
     size_t size = sizeof(struct thread) + __builtin_wasm_tls_size();
@@ -106,7 +108,7 @@ struct thread *web_thread_add(void)
     return threads[thread_count++] = thread;
 }
 
-// Its worker has an instance, and calls web_thread_run next.
+// Called when the thread's worker has an instance and is about to call web_thread_run.
 void web_thread_ready(struct thread *thread) { __atomic_store_n(&thread->state, FREE, __ATOMIC_RELEASE); }
 
 // Not inlined, because the thread-local variables do not exist yet in the caller.
@@ -122,7 +124,7 @@ __attribute__((noinline)) static void run_tasks(struct thread *thread)
     }
 }
 
-// Called by the thread's own instance, whose stack pointer is set. It does not return.
+// Called by the thread's own instance after its stack pointer has been set. It does not return.
 void web_thread_run(struct thread *thread)
 {
     __wasm_init_tls(thread->locals);

@@ -1,4 +1,4 @@
-// host.c: implements the program's system interface within a page: the page interrupts by a flag, and the browser is
+// host.c: implements the program's system interface for a page. The page cancels a call by a flag, and the browser is
 // the sandbox.
 #include "host.h"
 

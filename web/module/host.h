@@ -6,11 +6,12 @@
 
 #define WEB_EXPORT(name) __attribute__((export_name(#name)))
 
-// The flag that ends the running call with LAM_CANCELLED, for a page that shares the module's memory: the page stores 1
-// there. Each call clears it first.
+// The address of the cancel flag. A page that shares the module's memory stores 1 there to end the running call with
+// LAM_CANCELLED. Each call clears the flag when it starts.
 lam_cancel *web_cancel_flag(void) WEB_EXPORT(web_cancel_flag);
 
-// Implemented by the page: gets the completed fraction of a drawing, 0 to 1, at most 20 times a second.
+// Implemented by the page. The module calls it at most 20 times a second, with the finished fraction of a drawing, 0
+// to 1.
 void web_progress(double share) __attribute__((import_module("env"), import_name("web_progress")));
 
 #endif

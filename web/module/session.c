@@ -89,8 +89,8 @@ static bool start(int count, struct options *options, struct job *job, lam_error
         session.device = device_option_make(options, error);
     session.isa = options->work.isa;
     session.threads = options->work.threads;
-    options->work.threads = 1; // the device has the other threads; files are read here, because no other thread has
-                               // them
+    options->work.threads = 1; // the device uses the other threads; files are read on this thread, because no other
+                               // thread has them
     if (!session.environments)
         session.environments = environment_cache_make();
     *job = (struct job){.options = options,
@@ -203,7 +203,7 @@ static double attenuation_value(const lam_light *light, double x)
 }
 static double spot_value(const lam_light *light, double x) { return (double)lam_spot_at(light, radians(x)); }
 
-// The light with this number among the picture's lights listed by an explanation; other types are not listed.
+// Returns the light with this index in an explanation's list, which contains only some types of lights.
 static lam_light light_of(const struct job *job, int number)
 {
     int count = lam_draw_lights(job->scene, job->rig, job->options->draw.ground, NULL, 0);

@@ -10,25 +10,26 @@
 // Memory for the words of the next call. NULL if memory is insufficient.
 char *web_words(uint32_t bytes) WEB_EXPORT(web_words);
 
-// Limits the memory of reading a model and of drawing it, in bytes each, if the words have no --memory-limit. 0, the default, means no limit.
+// Limits the memory for reading a model to this number of bytes, and the memory for drawing it to the same number, if
+// the words contain no --memory-limit. 0, the default, means no limit.
 void web_limit_memory(double bytes) WEB_EXPORT(web_limit_memory);
 
-// Draws the picture of a command line, MODEL [OPTION...]. The model stays loaded until another one is named, or an
-// option changes how it is read. Returns 0, or the program's exit code. web_pixels: RGBA, four bytes for each pixel,
-// rows from the top, valid until the next call.
+// Draws the picture of a command line, MODEL [OPTION...]. The model stays loaded until a call names another model, or
+// contains an option that changes how the model is read. Returns 0, or the program's exit code. web_pixels returns the
+// picture: RGBA, four bytes for each pixel, rows from the top, valid until the next call.
 int web_draw(int count) WEB_EXPORT(web_draw);
 const void *web_pixels(void) WEB_EXPORT(web_pixels);
 
-// Does the same, and writes the file that -o names.
+// Draws the same picture, and writes it to the file that -o names.
 int web_save(int count) WEB_EXPORT(web_save);
 
 // Explains a pixel of that picture, as `lambent explain --json` does.
 int web_explain(int count, int x, int y) WEB_EXPORT(web_explain);
 
-// The curves of one of that picture's lights: `light` counts its point, spot and directional lights, as listed in an
-// explanation. Attenuation from distance 0 to `farthest`, the cone from 0 to 90 degrees, and the highlight of a
-// reflection model, whose word follows the command line's as another one, from 0 to 90 degrees, in the steps of
-// `lambent plot`.
+// Prints three curves of one of that picture's lights, in the steps of `lambent plot`: the attenuation at distances
+// from 0 to `farthest`, and the cone and the highlight at angles from 0 to 90 degrees. `light` is the light's index
+// among the point, spot and directional lights, as listed in an explanation. The word after the command line names the
+// reflection model of the highlight.
 int web_curves(int count, int light, double farthest, double shininess) WEB_EXPORT(web_curves);
 
 // Prints that picture's lights, as `lambent lights` does.

@@ -1,25 +1,25 @@
-// index.d.ts: the types of the package. DrawOptions is made from the program's table of options.
+// index.d.ts: the types of the package. web/npm.py generates DrawOptions from the program's table of options.
 import type { DrawOptions } from './options.js';
 export type { DrawOptions };
 
-/** The kind of an error, by the program's exit codes. */
+/** The kind of an error. It corresponds to the program's exit code. */
 export type ErrorCode = 'BAD_ARGUMENT' | 'CANNOT_READ' | 'UNSUPPORTED' | 'LIMIT' | 'CANNOT_WRITE' | 'FAILED' | 'DISPOSED';
 
-/** A picture that cannot be drawn. `message` is the program's sentence: file, position, found, expected. */
+/** Thrown if a picture cannot be drawn. `message` is the program's error message. */
 export class LambentError extends Error {
   constructor(sentence: string, code?: ErrorCode);
   readonly name: 'LambentError';
   readonly code: ErrorCode;
 }
 
-/** Files in memory, by their absolute path. A model reads the files that it names from there. */
+/** Files in memory, by their absolute path. Models use materials, textures and buffers from these files. */
 export class Files {
-  /** Stores or replaces a file. The bytes are not copied; a text is stored as UTF-8. */
+  /** Stores or replaces a file. The bytes are not copied. A string is stored as UTF-8. */
   set(path: string, content: Uint8Array | ArrayBuffer | ArrayBufferView | string): void;
   get(path: string): Uint8Array | undefined;
   has(path: string): boolean;
   delete(path: string): boolean;
-  /** The paths, sorted. */
+  /** Returns the paths of all files, sorted. */
   list(): string[];
 }
 
@@ -27,9 +27,9 @@ export interface Camera {
   eye: [number, number, number];
   target: [number, number, number];
   up: [number, number, number];
-  /** Full vertical field of view in degrees; counts if `ortho` is 0. */
+  /** Full vertical field of view in degrees. Used only if `ortho` is 0. */
   fovy_deg: number;
-  /** Half the height of an orthographic view in model units; 0: perspective. */
+  /** Half the height of an orthographic view in model units. 0 for a perspective view. */
   ortho: number;
   /** The scene's up axis. */
   pole: [number, number, number];
@@ -38,7 +38,7 @@ export interface Camera {
 export interface Picture {
   width: number;
   height: number;
-  /** RGBA, four bytes for each pixel, rows from the top, as ImageData takes them. */
+  /** RGBA, four bytes for each pixel, rows from the top, as for ImageData. */
   pixels: ReturnType<typeof Uint8ClampedArray.from>;
   triangles: number;
   read_ms: number;
@@ -53,11 +53,11 @@ export type Format = 'png' | 'jpg' | 'ppm' | 'pfm';
 
 export interface CallOptions {
   /**
-   * Aborts the call, which throws the signal's reason. In a worker at any moment; else before the call, and from `onProgress`, since nothing
-   * else runs meanwhile.
+   * Aborts the call. The call then throws the signal's reason. A LambentWorker can be aborted at any time. A Lambent blocks while it draws, so the signal
+   * must be aborted before the call or in `onProgress`.
    */
   signal?: AbortSignal;
-  /** Gets the share that is done, 0 to 1: the first half is reading, the second drawing. At most 20 times a second. */
+  /** Called at most 20 times a second, with the finished fraction from 0 to 1. Reading the model is the first half, and drawing it the second. */
   onProgress?: (share: number) => void;
 }
 
@@ -67,12 +67,12 @@ export interface Described {
   options: { name: string; group: string; value: string | null; default: string | null; summary: string; details: string | null; [more: string]: unknown }[];
 }
 
-/** The argument of `open` and `openWorker`: the module's URL, Response, bytes or compiled module. By default it is the package's own file. */
+/** The module for `open` and `openWorker`: its URL, Response, bytes or compiled module. The default is the file in the package. */
 export type Source = string | URL | Response | BufferSource | WebAssembly.Module | undefined;
 
 type Bytes = ReturnType<typeof Uint8Array.from>;
 
-/** Draws while it is called. `model`: a path of `files` or the name of a shape, with options by name; or the words of a command line. */
+/** Draws pictures and blocks while it draws. `model` is a path in `files` or the name of a built-in shape. `words` are the words of a command line. */
 export class Lambent {
   constructor(module: WebAssembly.Module, files?: Files);
   readonly files: Files;
@@ -80,17 +80,17 @@ export class Lambent {
   draw(model: string, options: DrawOptions | undefined, call: CallOptions & { as: Format }): Bytes;
   draw(words: string[], call?: CallOptions & { as?: 'pixels' }): Picture;
   draw(words: string[], call: CallOptions & { as: Format }): Bytes;
-  /** One pixel, counted from the upper left corner, in the form of `lambent explain --json`. */
+  /** Returns the explanation of one pixel, as `lambent explain --json` prints it. `x` and `y` start at 0 in the upper left corner. */
   explain(model: string | string[], x: number, y: number, options?: DrawOptions): any;
-  /** The picture's lights in the form of a scene file, as `lambent lights` prints them. */
+  /** Returns the picture's lights in the form of a scene file, as `lambent lights` prints them. */
   lights(model: string | string[], options?: DrawOptions): any;
-  /** The options of `draw` as the program's help describes them. */
+  /** Returns the options of `draw` as the program's help describes them, the names of the shapes, and the version. */
   describe(): Described;
   /** Frees the memory. Later calls throw a LambentError with the code DISPOSED. */
   dispose(): void;
 }
 
-/** The same in a worker: calls are answered one after the other. */
+/** Makes the same calls in a worker, one after another. */
 export class LambentWorker {
   readonly files: Files;
   draw(model: string, options?: DrawOptions, call?: CallOptions & { as?: 'pixels' }): Promise<Picture>;
@@ -100,12 +100,12 @@ export class LambentWorker {
   explain(model: string | string[], x: number, y: number, options?: DrawOptions): Promise<any>;
   lights(model: string | string[], options?: DrawOptions): Promise<any>;
   describe(): Promise<Described>;
-  /** Ends the worker, also while it draws: calls that wait are rejected with the code DISPOSED. */
+  /** Ends the worker, even while it draws. Waiting calls are rejected with the code DISPOSED. */
   dispose(): void;
 }
 
-/** `signal` aborts the fetch of the module. */
+/** Loads the module. `signal` aborts the download. */
 export function open(source?: Source | Promise<Source>, how?: { signal?: AbortSignal }): Promise<Lambent>;
 
-/** `worker` makes the worker (of `lambent/worker`), for bundlers that do not find it by its URL. */
+/** Loads the module in a worker. `worker` is a function that creates the worker from `lambent/worker`, for bundlers that do not find its file by its URL. */
 export function openWorker(source?: Source | Promise<Source>, how?: { signal?: AbortSignal; worker?: () => any }): Promise<LambentWorker>;

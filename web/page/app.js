@@ -34,7 +34,7 @@ export const { fetchRest } = worker;
 const viewer = $('served') && import('./served.js').then(({ servedCall }) => servedCall(worker.call));
 const ask = viewer ? async (name, message) => (await viewer)(name, message) : worker.call;
 
-// Calls the worker, after giving it the opened files of the command line's model.
+// Calls the worker. First sends it the opened files of the command line's model.
 export function call(name, message) {
   if (message.words) giveFilesOf(message.words[0], (files) => ask('files', { files }).catch(() => {}));
   return ask(name, message);
@@ -46,15 +46,15 @@ export const view = {
   explained: null, // the program's explanation of a pixel
   camera: null, // the current camera, newer than the picture during a gesture
   sphere: null,
-  moving: false, // a gesture is in progress
-  isIdle: false, // the first drawing has ended
+  moving: false, // true while a gesture is in progress
+  isIdle: false, // true after the first drawing has ended
   shapes: [],
   options: [],
   endings: [], // file name endings of models
   materials: [], // their names
   environments: [],
   missing: [], // paths of the model's missing files
-  refusal: null, // the reason why nothing can be drawn if files are missing; null: there is a picture
+  refusal: null, // the error message if missing files prevent a picture; null: there is a picture
 };
 
 const listeners = new Map();
@@ -67,7 +67,7 @@ export function emit(name) {
   for (const listener of listeners.get(name) ?? []) listener();
 }
 
-// The page keeps files in the root of a tree. Messages show their names without the leading '/', as the command line does.
+// The page stores files under absolute paths. Messages show their names without the leading '/', as the command line does.
 export function plainNames(sentence) {
   const paths = [state.model, ...openedPaths(), ...view.missing].filter((path) => path.startsWith('/'));
   return sentence.replace(/(^|[\s'"(])\//g, (found, before, at) => (paths.some((path) => sentence.startsWith(path, at + before.length)) ? before : found));

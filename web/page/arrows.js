@@ -1,5 +1,5 @@
-// arrows.js: draws the vectors of an explained point as arrows over the picture: n, v, l, r, h, the tangent t of threads, and R if the environment is
-// mirrored. All arrows have the same length in space, a fifth of the picture's height. An arrow that points towards the eye or away from it is shown as a ring.
+// arrows.js: draws the vectors of an explained point as arrows over the picture: n, v, l, r, h, the tangent t of threads, and R if the surface reflects the
+// environment. All arrows have the same length in space, a fifth of the picture's height. An arrow that points towards the eye or away from it is shown as a ring.
 import { view } from './app.js';
 import { project } from './camera.js';
 import { $, svg } from './dom.js';

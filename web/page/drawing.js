@@ -11,9 +11,10 @@ import { finished, isTooLong, started, stopped } from './unfinished.js';
 
 const canvas = $('canvas'), context = canvas.getContext('2d'), pace = new Pace();
 const PATIENCE_MS = 1000, SHOWN_MS = 400, FLAG_MS = 50;
-const REST_MS = 50; // without a step of a gesture, until the full picture is drawn
-const SHORT_MS = 200; // a full picture that takes less is drawn when the pointer rests, even if no flag can end it
-let running = null, wanted = null, model = null, shown = null, whole_ms = 0; // shown: the model of the picture; whole_ms: of the last full picture, without reading
+const REST_MS = 50; // the full picture is drawn if a gesture makes no step for this long
+const SHORT_MS = 200; // a full picture that takes less time is drawn when the pointer rests, even if no flag can end the drawing
+let running = null, wanted = null, model = null;
+let shown = null, whole_ms = 0; // the model of the shown picture; the time of the last full picture, without reading the model
 let resting = 0, sharp = null; // the task of the full picture that was started when the pointer rested
 
 // Returns the words of a quick picture, which has one sample and fewer pixels.
@@ -35,9 +36,9 @@ class Running {
     this.timers.push(setTimeout(act, ms));
   }
 
-  // Ends an outdated drawing by the flag. If this does not succeed, restarts the worker after a second, or after twice the time for reading the model,
-  // whichever is longer. A restarted worker must read the model again. `now` means that the user has pressed Stop. If no flag can end the drawing, the worker
-  // is then restarted at once.
+  // Ends an outdated drawing by the flag. If the drawing does not end, restarts the worker after a second, or after twice the time for reading the model,
+  // whichever is longer. A restarted worker must read the model again. `now` means that the user has pressed Stop. Without a flag, the worker is then
+  // restarted at once.
   end({ now = false } = {}) {
     if (view.giveUpPicture?.() || (this.isEnding && !now)) return;
     this.isEnding = true;
@@ -48,7 +49,7 @@ class Running {
 
   #raise() {
     const flagged = worker.cancel();
-    if (flagged) this.#after(FLAG_MS, () => this.#raise()); // a call that had not started yet has cleared the flag
+    if (flagged) this.#after(FLAG_MS, () => this.#raise()); // a call clears the flag when it starts, so the flag is set repeatedly
     return flagged;
   }
 

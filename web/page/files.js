@@ -89,13 +89,14 @@ function complete(found, taken) {
 const askFiles = () => ((isAnswer = false), $('files').click()), askFolder = () => ((isAnswer = false), $('folder').click());
 const asking = (open) => () => (open(), (isAnswer = true));
 
-// The files that are open and may be the missing ones: the rest of the last answer, and for a scene file those that other models have at its paths.
+// Returns the opened files that may be the missing ones: the remaining files of the last answer and, for a scene file, the files of other models at the
+// missing paths.
 const openFiles = () => new Map([...(isScene(state.model) ? view.missing : []).flatMap((path) => (setOf(path) ? [[path, setOf(path).files.get(path)]] : [])), ...rest]);
 
 // Explains how to add missing files. After opening a link to a local model, or after a reload, explains how to open the model itself.
 on('missing', () => {
   const open = setOf(state.model) ? openFiles() : new Map(), known = companions(view.missing, open);
-  if (known.size) return setTimeout(() => complete(known, open)); // after the present drawing
+  if (known.size) return setTimeout(() => complete(known, open)); // after the current drawing
   const choose = button('chooseFiles', asking(askFiles)), folder = button('openFolder', asking(askFolder)), [model] = state.words;
   const isGone = view.missing.includes(model), sentence = isGone ? text('linkWithout', { file: plain(model) })
     : text(view.missing.some((path) => /\.mtl$/i.test(path)) ? 'missingMaterials' : 'missingFiles', { files: view.missing.map(plain).join(', ') });

@@ -1,5 +1,5 @@
-// handles.js: handles for the lights in the picture: one for the position of each light of --light, one for the aim of a spot, one for its cone. A handle
-// is a button that can be dragged or moved by keys.
+// handles.js: shows handles for the lights in the picture. Each light of --light has a handle for its position. A spot light also has handles for its aim and
+// its cone. A handle is a button that can be dragged or moved by keys.
 import { beginGesture, endGesture, gestureKey, on, say, view } from './app.js';
 import { add, dot, onBall, project, scale, shifted, sub, unit } from './camera.js';
 import { $, element, svg } from './dom.js';

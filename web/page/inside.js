@@ -18,7 +18,7 @@ async function bytesOf(place) {
   return place.dataset.packed === 'gzip' ? new Uint8Array(await unpacked(bytes).arrayBuffer()) : bytes;
 }
 
-// The words of the command line; null: the page contains none. A picture that filled the sender's window fills this one: `size`.
+// Returns the words of the command line, or null if the page contains none. If the picture filled the sender's window, it gets `size`, which fills this window.
 export function insideWords(size) {
   const place = document.getElementById('inside-words'), words = place && JSON.parse(place.textContent);
   return place?.dataset.window ? words.map((word) => (word === place.dataset.window ? size : word)) : words;

@@ -1,4 +1,4 @@
-// later.js: the modules of the page that are fetched on first use, and their tabs.
+// later.js: fetches modules of the page when they are first used, and adds their tabs.
 import { fetchRest, on, refuse, state, view } from './app.js';
 import { $ } from './dom.js';
 import { keepOffline } from './offline.js';

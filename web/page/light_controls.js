@@ -51,7 +51,7 @@ function chosenIn(texts) {
 // The angle of a built-in environment's brightest side in front of the model, in degrees around the up axis, from +X to -Z.
 const BRIGHT = { studio: -90, sky: -47 };
 
-// Metals show the light of their surroundings more than any other light. So a built-in environment turns with the light.
+// Metals reflect mainly their surroundings. Therefore a built-in environment turns with the light.
 export function withTurned(words) {
   const made = new State(words), texts = made.values('light'), i = view.camera ? chosenIn(texts) : -1, bright = BRIGHT[made.values('environment').at(-1)];
   if (i < 0 || bright === undefined || !made.values('material').some(isMetal)) return words;
@@ -60,8 +60,8 @@ export function withTurned(words) {
   return made.withValues('environment-rotation', [String((angle + 720) % 360)]);
 }
 
-// Returns words with a movable light: the program's own lights, written out, or else a new light. If only an environment lit the model, metals keep
-// reflecting it. Other materials get some ambient light, because their unlit side would be black.
+// Returns words with a movable light. The lights that the program has chosen are written as options. If none of them can be moved, a new light is added. If
+// only an environment lit the model, metals keep reflecting it. Other materials get some ambient light, because their unlit side would be black.
 async function words() {
   const read = await readLights(state.words), made = new State(read ? withLights(state.words, read) : state.words), texts = made.values('light');
   if (texts.some(isMovable)) return made.words;
@@ -107,7 +107,7 @@ export function lightControls() {
   };
   function show() {
     const texts = view.camera && view.sphere ? lightsNow() : [], i = texts.length ? chosenIn(texts) : -1, movable = texts.flatMap((one, at) => (isMovable(one) ? [at] : []));
-    choice.disabled = movable.length < 2; // but always there, so that the buttons below it stay in place
+    choice.disabled = movable.length < 2; // not hidden, so that the buttons below it stay in place
     const key = movable.map((at) => nameOf(parseLight(texts[at]), at)).join('\n');
     if (choice.dataset.names !== key) choice.replaceChildren(...(movable.length ? movable.map((at) => new Option(nameOf(parseLight(texts[at]), at), at)) : [new Option(text('lightMain'))]));
     choice.dataset.names = key;

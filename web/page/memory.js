@@ -5,8 +5,7 @@ const device = 2 ** 30 * (globalThis.navigator?.deviceMemory ?? 8);
 const between = (least, bytes, most) => Math.min(Math.max(bytes, least), most);
 
 // The memory limit for reading a model and for drawing it, if the command line contains no --memory-limit. It is a quarter of the machine's memory, as in the
-// program. The module's
-// addresses end at 4 GiB.
+// program. It is at most 2 GB, because a module can address only 4 GiB.
 export const MODULE_BYTES = between(256e6, device / 4, 2e9);
 
 // The size limit of a model's files. During reading, the files are in memory three times.

@@ -1,6 +1,5 @@
 // offline_worker.js: the service worker of the served page. The page starts it after the first picture (offline.js). It stores the page's files in a cache
-// named
-// by the hash of their contents. When a file changes, this script changes too, and the new files replace the old ones together, after all pages with
+// that is named by the hash of their contents. When a file changes, this script changes too. The new files replace the old files together, after all pages with
 // the old files are closed. web/build.py lists the files with their hashes. Files in the browser's own cache are not downloaded again.
 const CACHE = 'lambent-HASH';
 const FILES = {};

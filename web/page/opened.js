@@ -1,6 +1,5 @@
 // opened.js: keeps the opened files. Files that are opened together are a set, so that a model keeps its companions if other files with the same names are
-// opened later.
-// The worker has the files of one set at a time.
+// opened later. The worker has the files of one set at a time.
 import { FILES_BYTES } from './memory.js';
 
 const sets = []; // { files: Map of bytes by path }, the newest last

@@ -21,7 +21,7 @@ const SECTIONS = [
   ['sectionShading', null, [['reflection', 'plainReflection'], ['shading', 'plainShading'], ['show', 'plainShow'], ['shininess', 'plainShininess'], ['normals', 'plainNormals'], ['size', 'plainSize']]],
 ];
 
-const SPHERE = ['sphere', '--size=88x88', '--samples=8'], OWN = '--material=color=#b8b8b8'; // the model's own
+const SPHERE = ['sphere', '--size=88x88', '--samples=8'], OWN = '--material=color=#b8b8b8'; // OWN: shown for the model's own material
 
 // The material of the whole model. Materials of single objects (@NAME) are kept. A metal replaces the model's textures and reflects the studio, which
 // another material removes.
@@ -56,7 +56,7 @@ function looks() {
 function backgrounds() {
   const choices = [['transparent', 'backgroundNone', 'transparent'], ['white', 'backgroundWhite', '#fff'], ['#808080', 'backgroundGrey', '#808080'], ['black', 'backgroundBlack', '#000']]
     .map(([value, key, color]) => ({ value, label: text(key), color }));
-  const own = () => (isScene(state.model) ? null : 'transparent'); // a scene file may set one
+  const own = () => (isScene(state.model) ? null : 'transparent'); // a scene file may set a background
   return swatches({ title: text('sectionBackground'), choices, chosen: () => state.values('background').at(-1) ?? own(), take: (value) => setOption('background', value === own() ? [] : [value]) });
 }
 

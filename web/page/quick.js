@@ -1,4 +1,4 @@
-// quick.js: the first tab, with the most common settings. Its contents are fetched during the first picture.
+// quick.js: the first tab, with the most common settings. Its contents are fetched while the first picture is drawn.
 import { on, refuse } from './app.js';
 import { text } from './strings.js';
 import { addTab } from './tabs.js';

@@ -14,7 +14,8 @@ function pathFrom(folder, name) {
 const HEAD = 1 << 16, START_OF = 1 << 14; // in bytes; this much of a file is searched for names
 const textOf = (bytes, most) => new TextDecoder().decode(bytes.subarray(0, most));
 
-// Returns 3 if the model's materials and textures are there, 2 if its materials are there, 1 if it names no materials, or 0 if it names files that are missing.
+// Returns 3 if the files contain the model's materials and textures, 2 if they contain its materials, 1 if the model names no materials, or 0 if files are
+// missing that it names.
 function completeness(path, files) {
   const folder = folderOf(path), has = (name) => files.has(pathFrom(folder, name));
   if (endingOf(path) === 'obj') {

@@ -1,4 +1,4 @@
-// shader_editor.js: an editor for a shader: CodeMirror, or a plain text field if the page was built without it.
+// shader_editor.js: makes an editor for a shader. It is CodeMirror, or a plain text field if the page was built without CodeMirror.
 import { openCodeMirror } from './check_start.js';
 import { element } from './dom.js';
 

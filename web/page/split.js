@@ -12,7 +12,7 @@ const line = element('div', { id: 'divider', tabIndex: 0, attributes: { role: 's
 const title = element('span'), words = ours('code', '', { id: 'before-command' });
 const bar = element('div', { id: 'split-bar' }, title, ' ', words, ' ',
   button('keepNow', () => keep('beforeKept')), button('swap', () => swap()), button('endSplit', () => toggle()));
-let before = null, share = 50, busy = false, again = false, isNone = false; // isNone: nothing had changed yet
+let before = null, share = 50, busy = false, again = false, isNone = false; // isNone: there is no earlier state
 
 // Returns the kept words with the current view and size.
 function beforeWords() {
@@ -51,13 +51,13 @@ function place(next) {
   line.setAttribute('aria-valuenow', Math.round(share));
 }
 
-// `sentence`: describes the left side.
+// `sentence` describes the left side.
 function show(sentence) {
   isNone = sentence === 'beforeNone';
   title.textContent = text(sentence);
 }
 
-// Compares with the present picture from now on.
+// Keeps the current picture, and compares later pictures with it.
 function keep(sentence) {
   before = state.words;
   show(sentence);

@@ -11,7 +11,7 @@ const OF_FORMULAS = [...Object.keys(FORMULAS), 'u', 'v', 'x', 'y', 'z', 'flip'];
 
 export const isScene = (model) => /\.json$/i.test(model);
 
-// Returns the words with another model, optionally with its formula. Options of the old formula are removed.
+// Returns the words with another model, and with a formula if the model is a formula. Options of the old formula are removed.
 export function withModel(words, name, formula = FORMULAS[name]) {
   const rest = words.slice(1).filter((word) => !OF_FORMULAS.includes(word.slice(2).split('=')[0]));
   return formula ? [name, `--${name}=${formula}`, ...rest] : [name, ...rest];
@@ -20,13 +20,13 @@ export function withModel(words, name, formula = FORMULAS[name]) {
 // Options that determine the view. --camera replaces all of them.
 export const VIEW = ['view', 'azimuth', 'elevation', 'zoom', 'fov', 'projection'];
 
-// The words without some options.
+// Returns the words without some options.
 export const without = (words, ...names) => names.reduce((rest, name) => new State(rest).withValues(name, []), words);
 
-// The words that determine how the model looks, independent of the view.
+// Returns the words that determine how the model looks, independent of the view.
 export const appearance = (words) => without(words, ...VIEW, 'camera', 'size').join('\n');
 
-// Whether a value of --material is a metal, which reflects its surroundings.
+// Returns whether a value of --material is a metal, which reflects its surroundings.
 export const isMetal = (material) => /\bmetallic=1\b/.test(material ?? '');
 
 export class State {

@@ -1,6 +1,5 @@
 // tabs.js: adds and selects the panels beside the picture. addTab(id, label) returns the element that a module fills: #panel-ID, with the tab #tab-ID. `opened`
-// is
-// called with this element when the tab is shown for the first time.
+// is called with this element when the tab is shown for the first time.
 import { $, element } from './dom.js';
 
 const tabs = [];

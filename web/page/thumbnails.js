@@ -1,5 +1,5 @@
-// thumbnails.js: small pictures of choices. A second worker draws them, so that the first keeps the page's model loaded. It starts after the first picture,
-// or after the message that there is none, and ends when all small pictures are drawn.
+// thumbnails.js: draws small pictures of choices. They are drawn by a second worker, so that the first worker keeps the page's model loaded. The second worker
+// is started after the first picture, or after the message that there is no picture. It is ended when all small pictures are drawn.
 import { on, view } from './app.js';
 import { MODULE_BYTES } from './memory.js';
 import { openWorker } from './start.js';

@@ -1,9 +1,9 @@
-// written_lights.js: the picture's lights as options, so that the page can change lights that the program has chosen or read from a file.
+// written_lights.js: writes the picture's lights as options, so that the page can change lights that the program has chosen or read from a file.
 import { call, emit, on, state, view } from './app.js';
 import { lightWords } from './lights.js';
 import { State, appearance } from './state.js';
 
-const MOST = 16; // a file with more lights keeps them for itself
+const MOST = 16; // if a file contains more lights, the page does not change them
 const SMALL = ['96x96'];
 let own = null; // the lights of the model's file, and the words that they were read for
 
@@ -16,7 +16,7 @@ export function withLights(words, { texts, ambient, exposure }) {
   return change('ambient', ambient);
 }
 
-// Returns the lights of the picture. The lights of a glTF file need an automatic exposure. Null: the picture would change, which is checked.
+// Returns the lights of the picture. The lights of a glTF file need an automatic exposure. Returns null if the picture with the written lights differs.
 export async function readLights(words) {
   const { lights, ambient } = await call('lights', { words }), old = await call('draw', { words });
   for (const exposure of [new State(words).values('exposure'), ['auto']]) {
@@ -29,10 +29,10 @@ export async function readLights(words) {
 
 const isOwn = () => view.picture?.own_lights && !state.values('light').length && own?.texts && own.model === state.model;
 
-// The lights that the page can change: the lights of --light, or else the lights of the model's file.
+// Returns the lights that the page can change: the lights of --light if there are any, otherwise the lights of the model's file.
 export const lightsNow = () => (isOwn() ? own.texts : state.values('light'));
 
-// The words in which --light sets these lights.
+// Returns the words in which --light sets these lights.
 export const wordsOfLights = () => (isOwn() ? withLights(state.words, own) : state.words);
 
 export const setLights = (texts, key = null) => state.set(new State(wordsOfLights()).withValues('light', texts), key);

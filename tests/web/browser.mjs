@@ -36,14 +36,14 @@ async function start(words, where) {
   return page;
 }
 
-async function drag(page, from, by, { shift = false, button = 'left' } = {}) {
-  if (shift) await page.keyboard.down('Shift');
+async function drag(page, from, by, { key = null, button = 'left' } = {}) {
+  if (key) await page.keyboard.down(key);
   await page.mouse.move(...from);
   await page.mouse.down({ button });
   await page.mouse.move(from[0] + by[0] / 2, from[1] + by[1] / 2);
   await page.mouse.move(from[0] + by[0], from[1] + by[1]);
   await page.mouse.up({ button });
-  if (shift) await page.keyboard.up('Shift');
+  if (key) await page.keyboard.up(key);
 }
 
 async function middle(page) {
@@ -81,11 +81,11 @@ const GESTURES = [
   }, camera(0, 5 * Math.sin(Math.PI / 4), 5 * Math.cos(Math.PI / 4))],
   ['Shift and drag right by a tenth', async (page) => {
     const at = await middle(page);
-    await drag(page, [at.x, at.y], [at.height / 10, 0], { shift: true });
+    await drag(page, [at.x, at.y], [at.height / 10, 0], { key: 'Shift' });
   }, { eye: [-2 * step, 0, 5], target: [-2 * step, 0, 0] }],
   ['Shift and drag down by a tenth', async (page) => {
     const at = await middle(page);
-    await drag(page, [at.x, at.y], [0, at.height / 10], { shift: true });
+    await drag(page, [at.x, at.y], [0, at.height / 10], { key: 'Shift' });
   }, { eye: [0, 2 * step, 5], target: [0, 2 * step, 0] }],
   ['Home', key('Home'), null],
 ];
@@ -123,7 +123,7 @@ const handle = (part) => (page) => page.locator(`.handle.${part}`);
 const press = (find, name) => async (page) => find(page).press(name);
 const dragHandle = (part, right, up, shift = false) => async (page) => {
   const box = await handle(part)(page).boundingBox(), at = await middle(page);
-  await drag(page, [box.x + 22, box.y + 22], [right * at.height, -up * at.height], { shift });
+  await drag(page, [box.x + 22, box.y + 22], [right * at.height, -up * at.height], { key: shift && 'Shift' });
 };
 const inTab = (tab, act) => async (page) => {
   await page.locator(`#tab-${tab}`).click();
@@ -138,14 +138,17 @@ const WORDS = [
   ['handle of a light: PageUp', POINT, press(handle('position'), 'PageUp'), '--light=point:position=0/0/-0.0804'],
   ['handle of a light: dragged right by a quarter of the height', POINT, dragHandle('position', 0.25, 0), /--light=point:position=0\.6(69|70)\d*\/0\/0$/],
   ['handle of a light: Shift and dragged up by a quarter', POINT, dragHandle('position', 0, 0.25, true), /--light=point:position=0\/0\/-0\.6\d+$/],
-  ['handle of a light: Delete', POINT, press(handle('position'), 'Delete'), null],
+  ['handle of a light: Delete', POINT, press(handle('position'), 'Delete'), '--light=none'],
   ['handle of a spot: where it aims', SPOT, press(handle('aim'), 'ArrowRight'), '--light=spot:position=0/1/0,target=0.0804/0/0,cutoff=20'],
   ['handle of a spot: the edge of its cone', SPOT, press(handle('cone'), 'ArrowRight'), '--light=spot:position=0/1/0,target=0/0/0,cutoff=22'],
   ['handle of a directional light: ArrowRight', SUN, press(handle('position'), 'ArrowRight'), /--light=directional:direction=-0\.0\d+\/0\/-0\.99\d+$/],
   ['button: a point light', null, inTab('lights', click('Add a point light')), '--light=+point:position=-1r/1r/1.2r'],
   ['button: a spot', POINT, inTab('lights', click('Add a spot')), `${POINT} --light=spot:position=0.6r/1.4r/1.2r,cutoff=25`],
   ['button: a directional light', null, inTab('lights', click('Add a directional light')), '--light=+directional:direction=1/-1/-0.5'],
-  ['button: a light is removed', POINT, inTab('lights', click('Remove point 1')), null],
+  ['button: the last light is removed', POINT, inTab('lights', click('Remove point 1')), '--light=none'],
+  ['button: an added light is removed', '--light=+point:position=1r/1r/1r', inTab('lights', click('Remove point 1')), null],
+  ['button: the removed lights are restored', '--light=none', inTab('lights', click('Restore the lights')), null],
+  ['button: a point light in place of none', '--light=none', inTab('lights', click('Add a point light')), '--light=point:position=-1r/1r/1.2r'],
   ['slider: intensity', POINT, inTab('lights', slide('intensity of point 1', 'ArrowRight')), `${POINT},intensity=1.05`],
   ['slider: attenuation', POINT, inTab('lights', slide('attenuation c of point 1', 'ArrowRight')), `${POINT},attenuation=1/0/0.01`],
   ['slider: cone', SPOT, inTab('lights', slide('cutoff of spot 1', 'ArrowLeft')), '--light=spot:position=0/1/0,target=0/0/0,cutoff=19'],
@@ -153,6 +156,10 @@ const WORDS = [
   ['choice: reflection', null, inTab('quick', (page) => page.locator('#quick-reflection').selectOption('phong')), '--reflection=phong'],
   ['choice: a term', null, inTab('quick', (page) => page.locator('#quick-show').selectOption('diffuse')), '--show=diffuse'],
   ['switch: wireframe', null, inTab('quick', (page) => page.locator('#quick-wireframe').check()), '--wireframe'],
+  ['Ctrl and drag right by a tenth: surroundings', '--environment=studio', async (page) => {
+    const at = await middle(page);
+    await drag(page, [at.x, at.y], [at.height / 10, 0], { key: 'Control' });
+  }, /^lambent .* --environment=studio --environment-rotation=1[78](\.\d+)?$/],
   ['a click pins', POINT, async (page) => page.mouse.click((await middle(page)).x + 30, (await middle(page)).y), ''],
   ['Enter pins the middle', POINT, key('Enter'), ''],
   ['Alt+ArrowLeft moves the pinned point', POINT, key('Alt+ArrowLeft'), ''],
@@ -167,7 +174,7 @@ async function words() {
     await page.evaluate((hash) => (location.hash = hash), fragment([...START, ...(light ? [light] : [])]));
     await settled(page, `before ${label}`);
     const before = await commandOf(page);
-    if (light) await until(page, () => document.querySelector('.handle'));
+    if (/position|direction/.test(light)) await until(page, () => document.querySelector('.handle'));
     await act(page);
     await settled(page, label);
     const text = await commandOf(page), rest = wanted === '' ? light : wanted;
@@ -373,6 +380,11 @@ async function compared() {
   ok(!(await commandOf(page)).includes('flat'), 'before and now: swapped', await commandOf(page));
   await page.locator('#compare').click();
   ok((await page.locator('#before').count()) === 0, 'before and now: it ends');
+  await page.locator('#compare').click();
+  await until(page, () => document.getElementById('before')?.dataset.drawn);
+  await page.locator('#model').selectOption('cube');
+  await settled(page, 'another model');
+  ok((await page.locator('#before').count()) === 0 && (await page.locator('#compare').getAttribute('aria-pressed')) === 'false', 'before and now: another model ends it');
   await page.close();
 }
 
@@ -674,7 +686,7 @@ async function sequence(page, seed) {
   for (let i = 0, count = 4 + pick(6); i < count; i++) {
     const at = await middle(page), act = pick(12);
     acts.push(act);
-    if (act < 3) await drag(page, [at.x, at.y], [pick(200) - 100, pick(160) - 80], { shift: act === 2 });
+    if (act < 3) await drag(page, [at.x, at.y], [pick(200) - 100, pick(160) - 80], { key: act === 2 && 'Shift' });
     else if (act === 3) (await page.mouse.move(at.x, at.y), await page.mouse.wheel(0, pick(400) - 200));
     else if (act === 4) await page.locator('#canvas').press(['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight', '+', '-', 'Shift+ArrowLeft', 'Home'][pick(8)]);
     else if (act === 5) await page.locator('#model').selectOption(shapes[pick(3)]);

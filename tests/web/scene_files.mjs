@@ -67,6 +67,14 @@ async function sceneLights({ open, origin, models, said }) {
   await settled(page, 'a handle');
   ok(/--light=point:position=2\/3\/4,name=desk --light=spot:position=0\/3\/3,direction=(?!0\/0\/-1)/.test(await commandOf(page)), 'a handle moves a light of the scene', await commandOf(page));
   await said(page);
+  await page.locator('#tab-lights').click();
+  for (const name of ['desk', 'spot 1']) await page.getByRole('button', { name: `Remove ${name}`, exact: true }).click();
+  await settled(page, 'no lights');
+  ok(/ --light=none /.test(`${await commandOf(page)} `) && (await page.locator('.lights li').count()) === 1, 'the lights of a scene stay away after the last one is removed', await commandOf(page));
+  await page.getByRole('button', { name: 'Restore the lights' }).click();
+  await settled(page, 'lights again');
+  await until(page, () => document.querySelectorAll('.handle').length === 4);
+  ok(!/--light/.test(await commandOf(page)), 'the lights of the scene are restored', await commandOf(page));
   await page.context().close();
 }
 
@@ -94,4 +102,30 @@ async function sceneFiles({ open, origin, models }) {
   await page.context().close();
 }
 
-export const sceneParts = (shared) => ({ sceneOptions: () => sceneOptions(shared), sceneLights: () => sceneLights(shared), sceneFiles: () => sceneFiles(shared) });
+// The controls show the settings of a scene file. A flag that the file sets cannot be removed.
+async function sceneSettings({ open, origin, models }) {
+  const page = await open(origin + fragment(['teapot', '--size=96x96'])), exposure = page.locator('#quick-exposure'), shadows = page.locator('#quick-shadows');
+  await drawn(page, 'the model before');
+  const path = join(models, 'set.json');
+  writeFileSync(path, scene({ image: { size: [120, 90], exposure: 1.5, background: [0.5, 0.2, 0.1] }, shadows: true, shading: 'flat', ao: 'off', environment: { builtin: 'sky', rotation: 40 } }));
+  await opened(page, path);
+  await settled(page, 'a scene with settings');
+  await until(page, () => document.getElementById('quick-exposure').value === '1.5');
+  ok((await shadows.isChecked()) && (await shadows.isDisabled()), 'the shadows of a scene are shown');
+  const shown = (name) => page.locator(`#quick-${name}`).evaluate((one) => one.selectedOptions?.[0].textContent ?? (one.value || one.placeholder));
+  const texts = Object.fromEntries(await Promise.all(['shading', 'ao', 'size', 'background', 'environment-rotation'].map(async (name) => [name, await shown(name)])));
+  ok(JSON.stringify(texts) === '{"shading":"(flat)","ao":"(off)","size":"120x90","background":"0.5/0.2/0.1","environment-rotation":"40"}', 'other settings of a scene are shown', JSON.stringify(texts));
+  ok((await commandOf(page)) === 'lambent set.json', 'the settings of a scene are not written as options', await commandOf(page));
+  await exposure.focus();
+  await exposure.press('ArrowRight');
+  await settled(page, 'exposure');
+  ok((await commandOf(page)) === 'lambent set.json --exposure=1.6', "a slider starts at the scene's value", await commandOf(page));
+  await page.locator('#undo').click();
+  await settled(page, 'undone');
+  await page.locator('#model').selectOption('cube');
+  await settled(page, 'another model');
+  ok((await exposure.inputValue()) === '0' && !(await shadows.isChecked()) && (await shadows.isEnabled()) && (await shown('shading')) !== '(flat)', 'another model has the defaults again');
+  await page.context().close();
+}
+
+export const sceneParts = (shared) => ({ sceneSettings: () => sceneSettings(shared), sceneOptions: () => sceneOptions(shared), sceneLights: () => sceneLights(shared), sceneFiles: () => sceneFiles(shared) });

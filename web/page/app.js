@@ -8,6 +8,7 @@
 //   on('missing', f)  the list of missing files of the model has changed: view.missing
 //   on('idle', f)     no drawing is in progress or waiting: view.isIdle
 //   on('lights', f)   the lights of the model's file were read (written_lights.js)
+//   on('settings', f)  the settings of the scene file were read (own_settings.js)
 //   on('fit', f)      the picture has another position or size in the page
 //   on('explained', f)  view.explained has changed: another point, or other numbers of the same point
 import { $ } from './dom.js';
@@ -53,6 +54,7 @@ export const view = {
   endings: [], // file name endings of models
   materials: [], // their names
   environments: [],
+  settings: new Map(), // the values that the scene file gives to options, by the options' names
   missing: [], // paths of the model's missing files
   refusal: null, // the error message if missing files prevent a picture; null: there is a picture
 };

@@ -1,6 +1,6 @@
-// gestures.js: turns, pans and zooms the view by mouse, touch and keyboard. Each gesture writes the option --camera.
-import { endGesture, state, view } from './app.js';
-import { around, orbit, pan, zoom } from './camera.js';
+// gestures.js: turns, pans and zooms the view by mouse, touch and keyboard. These gestures write the option --camera. Another gesture turns the environment.
+import { beginGesture, endGesture, gestureKey, state, view } from './app.js';
+import { around, decimal, orbit, pan, zoom } from './camera.js';
 import { $ } from './dom.js';
 import { explainAt } from './later.js';
 import { move } from './move.js';
@@ -12,6 +12,13 @@ const pointers = new Map();
 function turn(right, up) {
   if (!state.values('camera').length) view.camera = around(view.camera, view.sphere, canvas.width / canvas.height);
   move(orbit(view.camera, right, up, view.camera.pole, view.sphere.centre));
+}
+
+// Turns the environment about the up axis.
+function turnSurroundings(degrees) {
+  const name = 'environment-rotation', before = Number(state.values(name).at(-1) ?? view.settings.get(name) ?? 0);
+  beginGesture();
+  state.set(state.withValues(name, [decimal((before + degrees + 360) % 360, 2)]), gestureKey());
 }
 
 canvas.addEventListener('pointerdown', (event) => {
@@ -33,6 +40,8 @@ canvas.addEventListener('pointermove', (event) => {
     move(zoom(pan(view.camera, x / 2 / size, -y / 2 / size), factor));
   } else if (event.shiftKey || event.buttons & 6) {
     move(pan(view.camera, x / size, -y / size));
+  } else if (event.ctrlKey) {
+    turnSurroundings((x / size) * 180);
   } else {
     turn((-x / size) * Math.PI, (y / size) * Math.PI);
   }

@@ -5,7 +5,7 @@ import { add, dot, onBall, project, scale, shifted, sub, unit } from './camera.j
 import { $, element, svg } from './dom.js';
 import { coneEdge, lightText, movedTo, nameOf, parseLight, placeOf, withCone } from './lights.js';
 import { text } from './strings.js';
-import { lightsNow, setLights } from './written_lights.js';
+import { lightsNow, removeLight, setLights } from './written_lights.js';
 
 const canvas = $('canvas'), overlay = $('overlay'), lines = $('overlay-lines');
 const PARTS = { position: 'handlePosition', aim: 'handleAim', cone: 'handleCone' };
@@ -71,7 +71,7 @@ function makeHandle(i, part) {
   handle.onkeydown = (event) => {
     const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [0, 0, 1], PageDown: [0, 0, -1] }[event.key];
     const step = event.shiftKey ? 0.005 : 0.03;
-    if (event.key === 'Delete') remove(i);
+    if (event.key === 'Delete') removeLight(i);
     else if (arrow && part === 'cone') turnCone(i, (arrow[0] || arrow[1] || arrow[2]) * (event.shiftKey ? 0.25 : 2));
     else if (arrow) moveHandle(i, part, ...arrow.map((part) => part * step));
     else return;
@@ -84,10 +84,6 @@ function makeHandle(i, part) {
 function turnCone(i, degrees) {
   const light = parseLight(texts[i]), place = placeOf(light, view.camera, view.sphere);
   rewrite(i, withCone(light, (place.cone ?? 90) + degrees));
-}
-
-function remove(i) {
-  setLights(lightsNow().filter((_, at) => at !== i));
 }
 
 // --- in the picture

@@ -63,9 +63,9 @@ export function withTurned(words) {
 // Returns words with a movable light. The lights that the program has chosen are written as options. If none of them can be moved, a new light is added. If
 // only an environment lit the model, metals keep reflecting it. Other materials get some ambient light, because their unlit side would be black.
 async function words() {
-  const read = await readLights(state.words), made = new State(read ? withLights(state.words, read) : state.words), texts = made.values('light');
+  const read = await readLights(state.words), made = new State(read ? withLights(state.words, read) : state.words), texts = made.values('light'), rest = texts.filter((one) => one !== 'none');
   if (texts.some(isMovable)) return made.words;
-  const lit = made.withValues('light', [...texts, newLight('directional', texts, texts.length)]), [name, value] = state.values('material').some(isMetal) ? ['environment', 'studio'] : ['ambient', '0.25'];
+  const lit = made.withValues('light', [...rest, newLight('directional', texts, rest.length)]), [name, value] = state.values('material').some(isMetal) ? ['environment', 'studio'] : ['ambient', '0.25'];
   return made.values(name).length ? lit : new State(lit).withValues(name, [value]);
 }
 

@@ -4,17 +4,14 @@ import { gestureKey, on, refuse, say, state, view } from './app.js';
 import { curvesOf } from './curves.js';
 import './explaining.js';
 import { $, button, element, ours } from './dom.js';
-import { lightText, nameOf, newLight, parseLight } from './lights.js';
+import { lightText, nameOf, parseLight } from './lights.js';
 import { slider } from './slider.js';
 import { text } from './strings.js';
-import { lightsNow, readLights, setLights, withLights } from './written_lights.js';
+import { addLight, lightsNow, readLights, removeLight, setLights, withLights } from './written_lights.js';
 
 const place = $('panel-lights'), list = element('ul', { className: 'lights' });
 const adders = ['point', 'spot', 'directional'].map((type) =>
-  button({ point: 'addPoint', spot: 'addSpot', directional: 'addDirectional' }[type], () => {
-    const values = lightsNow();
-    setLights([...values, newLight(type, values, values.length)]);
-  }));
+  button({ point: 'addPoint', spot: 'addSpot', directional: 'addDirectional' }[type], () => addLight(type)));
 const mine = button('mineLights', makeMine), highlight = element('div');
 place.append(element('p', { className: 'hint', textContent: text('lightsHint') }), element('div', { className: 'buttons' }, ...adders, mine), list, highlight);
 
@@ -56,8 +53,8 @@ function explainedLight(pixel, i, texts) {
 const wordsOf = (one) => state.withValues('light', [one.replace(/^\+/, '')]);
 
 function showLight(one, i) {
-  const light = parseLight(one), remover = button('removeLight', () => setLights(lightsNow().filter((_, at) => at !== i)));
-  remover.setAttribute('aria-label', text('removeNamed', { light: nameOf(light, i) }));
+  const light = parseLight(one), isNone = light.type === 'none', remover = button(isNone ? 'restoreLights' : 'removeLight', () => removeLight(i));
+  if (!isNone) remover.setAttribute('aria-label', text('removeNamed', { light: nameOf(light, i) }));
   const curves = element('div', { className: 'curves-of' });
   curves.refresh = () => {
     const now = lightsNow()[i];

@@ -54,6 +54,7 @@ function fill() {
 }
 if (view.options.length) fill();
 else on('ready', fill);
-on('words', () => {
-  if (!view.moving) panel?.show(state);
-});
+for (const name of ['words', 'settings'])
+  on(name, () => {
+    if (!view.moving) panel?.show(state);
+  });

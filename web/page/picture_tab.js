@@ -91,5 +91,5 @@ place.append(optionNames());
 function show() {
   if (!view.moving) for (const row of rows) row.show(state.values(row.option.name));
 }
-on('words', show);
+for (const name of ['words', 'settings']) on(name, show);
 show();

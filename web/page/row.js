@@ -1,6 +1,7 @@
 // row.js: a control for an option of the program's table: its name, value and description.
 import { gestureKey, on, state, view } from './app.js';
 import { element, ours } from './dom.js';
+import { ownValue } from './own_settings.js';
 import { Picker, hexOf } from './picker.js';
 import { showNumber, slider } from './slider.js';
 import { FORMULAS, VIEW, withModel, without } from './state.js';
@@ -45,10 +46,10 @@ export class Row {
     this.slider.querySelector('input').id = this.label.htmlFor;
   }
 
-  // Without a value, the colour of the model is shown.
+  // Without a value, the colour of the scene file or of the model is shown.
   #showColor(values) {
     const own = this.option.name === 'color' && view.picture ? hexOf(view.picture.color) : '';
-    this.picker?.show(values.at(-1) ?? (own || this.option.default || ''));
+    this.picker?.show(values.at(-1) ?? ownValue(this.option.name) ?? (own || this.option.default || ''));
   }
 
   matches(wanted) {
@@ -57,13 +58,13 @@ export class Row {
   }
 
   show(values) {
-    const key = values.join('\n');
+    const own = ownValue(this.option.name), key = JSON.stringify([values, own]);
     if (this.shown === key) return;
     this.shown = key;
     this.reset.hidden = !values.length;
     this.label.classList.toggle('given', values.length > 0);
     this.#showColor(values);
-    if (this.slider) return showNumber(this.slider, values.length && isFinite(values.at(-1)) ? values.at(-1) : this.standard);
+    if (this.slider) return showNumber(this.slider, [values.at(-1), own].find((value) => value !== null && isFinite(value)) ?? this.standard);
     const focused = this.inputs.contains(document.activeElement);
     const shown = this.option.repeats ? [...values, null] : [values.length ? values.at(-1) : null];
     this.inputs.replaceChildren(...shown.map((value, i) => this.#control(value, i, values)), ...(this.picker ? [this.picker.input] : []));
@@ -79,7 +80,7 @@ export class Row {
   }
 
   #control(value, i, values) {
-    const o = this.option, words = this.#words();
+    const o = this.option, words = this.#words(), own = ownValue(o.name), standard = own ?? o.default;
     const take = (value) => {
       const next = [...values];
       if (value === '') next.splice(i, 1);
@@ -88,10 +89,11 @@ export class Row {
     };
     let control;
     if (!o.value) {
-      control = element('input', { type: 'checkbox', checked: value !== null });
+      // An option cannot remove a flag of the scene file.
+      control = element('input', { type: 'checkbox', checked: value !== null || own === 'on', disabled: own === 'on', title: own === 'on' ? text('setByScene') : '' });
       control.onchange = () => this.change(control.checked ? [''] : []);
     } else if (words && (value === null || words.some((word) => word.name === value))) {
-      control = element('select', { translate: false }, new Option(o.default ? `(${o.default})` : '—', ''), ...words.map((word) => {
+      control = element('select', { translate: false }, new Option(standard ? `(${standard})` : '—', ''), ...words.map((word) => {
         const choice = new Option(word.name, word.name);
         choice.title = word.summary ?? '';
         return choice;
@@ -99,7 +101,7 @@ export class Row {
       control.value = value ?? '';
       control.onchange = () => take(control.value);
     } else {
-      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: this.hint, translate: false });
+      control = element('input', { type: o.number && (value === null || isFinite(value)) ? 'number' : 'text', value: value ?? '', placeholder: own ?? this.hint, translate: false });
       if (control.type === 'number') {
         control.step = o.whole ? 1 : 'any';
         if (o.min !== undefined) Object.assign(control, { min: o.min, max: o.max });

@@ -92,10 +92,11 @@ export function toggle() {
     begin();
     line.focus();
   } else {
+    const hasFocus = [line, bar].some((one) => one.contains(document.activeElement));
     before = null;
     for (const one of [kept, line, bar]) one.remove();
     fit();
-    $('compare').focus();
+    if (hasFocus) $('compare').focus();
   }
 }
 
@@ -117,6 +118,7 @@ line.onkeydown = (event) => {
 };
 
 addEventListener('keydown', (event) => event.key === 'Escape' && before && $('working').hidden && !document.querySelector('dialog[open]') && toggle());
+on('words', () => before && before[0] !== state.model && toggle()); // another model has no earlier state
 on('picture', () => {
   if (!before) return;
   if (isNone && appearance(before) !== appearance(state.words)) show('before');

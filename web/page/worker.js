@@ -82,6 +82,8 @@ const calls = {
   lights: ({ words }) => lambent.lights(words),
   scene: ({ words }) => lambent.scene(words),
   contents: ({ words }) => lambent.contents(words),
+  // Returns the bytes of a file.
+  file: ({ path }) => lambent.files.get(path).slice(),
   // Returns the files from which the last picture's model was read, as [path, bytes].
   used: () => [...lambent.files.used].filter((path) => lambent.files.get(path)).map((path) => [path, lambent.files.get(path).slice()]),
 };

@@ -1,6 +1,6 @@
 // written_lights.js: writes the picture's lights as options, so that the page can change lights that the program has chosen or read from a file.
 import { call, emit, on, state, view } from './app.js';
-import { lightWords } from './lights.js';
+import { lightWords, newLight } from './lights.js';
 import { State, appearance } from './state.js';
 
 const MOST = 16; // if a file contains more lights, the page does not change them
@@ -36,6 +36,19 @@ export const lightsNow = () => (isOwn() ? own.texts : state.values('light'));
 export const wordsOfLights = () => (isOwn() ? withLights(state.words, own) : state.words);
 
 export const setLights = (texts, key = null) => state.set(new State(wordsOfLights()).withValues('light', texts), key);
+
+// Removes a light. "none" keeps the lights away that would return without any light: the lights of the model's file, or of the program. Removing "none"
+// restores them.
+export function removeLight(i) {
+  const texts = lightsNow(), rest = texts.filter((_, at) => at !== i), replaced = texts[i] !== 'none' && !texts[i].startsWith('+');
+  setLights(replaced && rest.every((one) => one.startsWith('+')) ? ['none', ...rest] : rest);
+}
+
+// Adds a light and removes "none".
+export function addLight(type) {
+  const texts = lightsNow(), rest = texts.filter((one) => one !== 'none');
+  setLights([...rest, newLight(type, texts, rest.length)]);
+}
 
 // Reads the lights of a file when its picture is shown, and again when an option may have changed them.
 async function readOwn() {

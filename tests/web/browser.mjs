@@ -87,6 +87,10 @@ const GESTURES = [
     const at = await middle(page);
     await drag(page, [at.x, at.y], [0, at.height / 10], { key: 'Shift' });
   }, { eye: [0, 2 * step, 5], target: [0, 2 * step, 0] }],
+  ['Ctrl and drag right by half the height, without an environment', async (page) => {
+    const at = await middle(page);
+    await drag(page, [at.x, at.y], [at.height / 2, 0], { key: 'Control' });
+  }, camera(-5, 0, 0)],
   ['Home', key('Home'), null],
 ];
 

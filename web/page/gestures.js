@@ -14,6 +14,8 @@ function turn(right, up) {
   move(orbit(view.camera, right, up, view.camera.pole, view.sphere.centre));
 }
 
+const hasEnvironment = () => (state.values('environment').at(-1) ?? view.settings.get('environment') ?? 'none') !== 'none';
+
 // Turns the environment about the up axis.
 function turnSurroundings(degrees) {
   const name = 'environment-rotation', before = Number(state.values(name).at(-1) ?? view.settings.get(name) ?? 0);
@@ -40,7 +42,7 @@ canvas.addEventListener('pointermove', (event) => {
     move(zoom(pan(view.camera, x / 2 / size, -y / 2 / size), factor));
   } else if (event.shiftKey || event.buttons & 6) {
     move(pan(view.camera, x / size, -y / size));
-  } else if (event.ctrlKey) {
+  } else if (event.ctrlKey && hasEnvironment()) {
     turnSurroundings((x / size) * 180);
   } else {
     turn((-x / size) * Math.PI, (y / size) * Math.PI);

@@ -2,7 +2,7 @@
 import { call, emit, on, state, view } from './app.js';
 import { isScene } from './state.js';
 
-const OBJECTS = ['lambent', 'camera', 'materials', 'objects', 'lights', 'image', 'environment'];
+const NOT_SETTINGS = ['lambent', 'materials', 'objects', 'lights'];
 let model = null, content = '';
 
 function textOf(value, name) {
@@ -12,8 +12,9 @@ function textOf(value, name) {
 
 // Returns the values of a scene file's settings by the names of their options. A flag has the value 'on' or 'off'.
 export function settingsOf({ image = {}, environment, camera, ...settings }) {
-  const found = { ...settings, ...image, environment_rotation: environment?.rotation, projection: camera?.ortho ? 'orthographic' : undefined };
-  return new Map(Object.entries(found).filter(([name, value]) => value !== undefined && !OBJECTS.includes(name))
+  const surroundings = environment && { environment: environment.builtin ?? environment.equirectangular ?? environment.faces, environment_rotation: environment.rotation };
+  const found = { ...settings, ...image, ...surroundings, projection: camera?.ortho ? 'orthographic' : undefined };
+  return new Map(Object.entries(found).filter(([name, value]) => value !== undefined && !NOT_SETTINGS.includes(name))
     .map(([name, value]) => [name.replaceAll('_', '-'), textOf(value, name)]));
 }
 

@@ -150,17 +150,16 @@ static char *read_escape(struct parser *p, char *to)
     return put_utf8(to, unit);
 }
 
-// Decodes the string at an opening quote. The caller frees the result with free(). Returns NULL on error.
-static char *read_text(struct parser *p, size_t *length)
+// A string: bytes of the file, or, if it contains escapes or characters outside ASCII, a decoded copy.
+struct text {
+    const char *at;
+    size_t length;
+    char *copy; // the copy, freed with free(); otherwise NULL
+};
+
+// Decodes the characters from p->at to `close` into `to`. Returns the end, or NULL on error.
+static char *decode_text(struct parser *p, const char *close, char *to)
 {
-    const char *start = p->at++, *close = p->at;
-    while (close < p->end && *close != '"')
-        close += *close == '\\' ? 2 : 1;
-    if (close >= p->end)
-        return fail_at(p, start, "a string without its closing quote"), NULL;
-    char *text = malloc((size_t)(close - p->at) + 1), *to = text;
-    if (!text)
-        return fail_memory(p->error, (size_t)(close - p->at) + 1), NULL;
     while (to && p->at < close) {
         int step = *p->at == '\\' ? 0 : lam_utf8_length(p->at, (size_t)(close - p->at));
         if (step == 0 && *p->at == '\\') {
@@ -174,14 +173,32 @@ static char *read_text(struct parser *p, size_t *length)
             p->at += step;
         }
     }
-    if (!to) {
-        free(text);
-        return NULL;
+    return to;
+}
+
+// Reads the string at an opening quote. Returns false on error.
+static bool read_text(struct parser *p, struct text *text)
+{
+    const char *start = p->at++, *close = p->at;
+    bool plain = true;
+    for (; close < p->end && *close != '"'; close += *close == '\\' ? 2 : 1)
+        plain &= *close >= 0x20 && *close < 0x7f && *close != '\\';
+    if (close >= p->end)
+        return fail_at(p, start, "a string without its closing quote");
+    *text = (struct text){p->at, (size_t)(close - p->at), NULL};
+    if (!plain) {
+        text->at = text->copy = malloc(text->length + 1);
+        if (!text->copy)
+            return fail_memory(p->error, text->length + 1);
+        const char *end = decode_text(p, close, text->copy);
+        if (!end) {
+            free(text->copy);
+            return false;
+        }
+        text->length = (size_t)(end - text->copy);
     }
-    *to = 0;
-    *length = (size_t)(to - text);
     p->at = close + 1;
-    return text;
+    return true;
 }
 
 // --- values
@@ -268,33 +285,42 @@ static json_t *read_list(struct parser *p, int depth)
     return drop(list);
 }
 
-static void fail_twice(struct parser *p, const char *start, const char *key)
+static bool fail_twice(struct parser *p, const char *start, const char *key)
 {
-    char text[128];
-    snprintf(text, sizeof text, "the key '%.60s' is given twice", key);
-    fail_at(p, start, text);
+    char sentence[128];
+    snprintf(sentence, sizeof sentence, "the key '%.60s' is given twice", key);
+    return fail_at(p, start, sentence);
+}
+
+// Adds a value, which `object` then owns. `key` ends with a zero byte. Returns false on error.
+static bool add_value(struct parser *p, json_t *object, const char *start, const char *key, json_t *value)
+{
+    size_t keys = json_object_size(object);
+    if (json_object_set_new_nocheck(object, key, value) != 0)
+        return fail_memory(p->error, strlen(key));
+    return json_object_size(object) > keys || fail_twice(p, start, key);
 }
 
 // Reads one pair of key and value.
 static bool read_pair(struct parser *p, json_t *object, int depth)
 {
-    size_t length;
+    struct text key;
     skip_space(p);
     const char *start = p->at;
     if (p->at == p->end || *p->at != '"')
         return fail_found(p, "a key in quotes");
-    char *key = read_text(p, &length);
-    if (!key)
+    if (!read_text(p, &key))
         return false;
-    json_t *value = NULL;
-    if (json_object_get(object, key))
-        fail_twice(p, start, key);
-    else if (!accept(p, ':'))
-        fail_found(p, "':'");
-    else
-        value = read_value(p, depth);
-    bool ok = value && (json_object_set_new_nocheck(object, key, value) == 0 || fail_memory(p->error, length));
-    free(key);
+    char room[32], *name = key.copy ? key.copy : key.length < sizeof room ? room : malloc(key.length + 1);
+    if (!name)
+        return fail_memory(p->error, key.length + 1);
+    if (name != key.copy)
+        memcpy(name, key.at, key.length);
+    name[key.length] = 0;
+    json_t *value = accept(p, ':') ? read_value(p, depth) : (fail_found(p, "':'"), NULL);
+    bool ok = value && add_value(p, object, start, name, value);
+    if (name != room)
+        free(name);
     return ok;
 }
 
@@ -317,12 +343,11 @@ static json_t *read_object(struct parser *p, int depth)
 
 static json_t *read_string(struct parser *p)
 {
-    size_t length;
-    char *text = read_text(p, &length);
-    if (!text)
+    struct text text;
+    if (!read_text(p, &text))
         return NULL;
-    json_t *value = json_stringn_nocheck(text, length);
-    free(text);
+    json_t *value = json_stringn_nocheck(text.at, text.length);
+    free(text.copy);
     return value ? value : no_memory(p, NULL);
 }
 

@@ -1,6 +1,7 @@
 // main.c: finds the command, parses its options, and runs it.
 #include "command.h"
 
+#include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -116,8 +117,18 @@ static int run(int count, char **words)
     return code;
 }
 
+// By default, glibc keeps small freed blocks in lists, and searches all of them whenever a large block becomes free. A
+// glTF file with 2 MB of JSON would need 12 % more processor time.
+static void merge_freed_blocks(void)
+{
+#ifdef __GLIBC__
+    mallopt(M_MXFAST, 0);
+#endif
+}
+
 int main(int count, char **words)
 {
+    merge_freed_blocks();
     if (count == 3 && strcmp(words[1], CHECK_WORKER) == 0)
         check_worker(words[2]);
     signal(SIGXFSZ, SIG_IGN); // if a file exceeds the size limit, the write fails

@@ -320,6 +320,15 @@ static bool uses_physical(const struct frame *frame)
     return frame->settings.reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->settings.reflection);
 }
 
+// Returns the built-in studio. The first scene makes it, and the frame keeps it for later scenes, because preparing its
+// light takes longer than a small picture.
+static const lam_environment *studio_of(struct frame *frame, const lam_scene *scene, lam_error *error)
+{
+    if (!frame->studio)
+        frame->studio = cube_share(lazy_environment_studio(scene->studio, error));
+    return frame->studio;
+}
+
 // Sets the environment, and the matrix from directions in eye space to the environment's axes. This matrix transforms
 // eye space to world space, then the scene's up axis to +Y (as the fitted camera does), then applies the inverse of the
 // environment's rotation.
@@ -331,7 +340,7 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
         uses_physical(frame) &&
         (shows_environment(frame->settings.output) || frame->settings.output == LAM_OUTPUT_REFLECTION ||
          (lamp && lam_output_is_light(frame->settings.output))) &&
-        !(frame->environment = lazy_environment_studio(scene->studio, error)))
+        !(frame->environment = studio_of(frame, scene, error)))
         return false;
     double s = math_sin(scene->environment_rotation_rad), c = math_cos(scene->environment_rotation_rad);
     for (int j = 0; j < 3; j++) {
@@ -593,4 +602,6 @@ void frame_free(struct frame *frame)
     buffer_free(&frame->storage);
     buffer_free(&frame->strokes);
     buffer_free(&frame->ground.memory);
+    lam_environment_free(frame->studio);
+    frame->studio = NULL;
 }

@@ -12,6 +12,8 @@
 #include <lambent/device.h>
 #include <lambent/words.h>
 
+#include "device_type.h"
+
 enum { WIDTH = 96, HEIGHT = 48 };
 
 static lam_material physical(float r, float g, float b, float metallic, float roughness)
@@ -80,10 +82,10 @@ static lam_scene *two_spheres(const lam_material *left, const lam_material *righ
     return scene;
 }
 
-static void draw(const lam_scene *scene, lam_reflection reflection, float out[HEIGHT][WIDTH][4])
+static void draw_with(lam_device *device, const lam_scene *scene, lam_reflection reflection,
+                      float out[HEIGHT][WIDTH][4])
 {
     lam_error error;
-    lam_device *device = lam_device_cpu(NULL, &error);
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){0, 0, 9};
     lam_image image;
@@ -92,6 +94,12 @@ static void draw(const lam_scene *scene, lam_reflection reflection, float out[HE
     assert_true(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     memcpy(out, image.pixels, sizeof(float) * HEIGHT * WIDTH * 4);
     lam_image_free(&image);
+}
+
+static void draw(const lam_scene *scene, lam_reflection reflection, float out[HEIGHT][WIDTH][4])
+{
+    lam_device *device = lam_device_cpu(NULL, NULL);
+    draw_with(device, scene, reflection, out);
     lam_device_free(device);
 }
 
@@ -122,6 +130,32 @@ static void test_two_kinds_in_one_scene(void **state)
     draw(scene, LAM_REFLECTION_BLINN_PHONG, picture[3]);
     assert_memory_equal(picture[2], picture[3], sizeof picture[2]);
     lam_scene_free(scene);
+}
+
+// A device keeps the studio of its first scene without lights. Pictures of later scenes, which need its light for other
+// roughnesses, are the same as those of a new device.
+static void test_kept_studio(void **state)
+{
+    (void)state;
+    lam_material metal = physical(1, 0.7f, 0.3f, 1, 0.3f), dull = physical(0.2f, 0.7f, 0.3f, 0, 0.9f);
+    const lam_material *right[] = {&metal, &dull, &metal};
+    lam_scene *scenes[3];
+    lam_device *device = lam_device_cpu(NULL, NULL);
+    const lam_environment *studio = NULL;
+    for (int i = 0; i < 3; i++) {
+        scenes[i] = two_spheres(&metal, right[i]);
+        lam_scene_clear_lights(scenes[i]);
+        draw_with(device, scenes[i], LAM_REFLECTION_AUTO, picture[0]);
+        assert_non_null(device->frame.environment);
+        assert_true(!studio || device->frame.environment == studio);
+        studio = device->frame.environment;
+        draw(scenes[i], LAM_REFLECTION_AUTO, picture[1]);
+        assert_memory_equal(picture[0], picture[1], sizeof picture[0]);
+        if (i > 0)
+            lam_scene_free(scenes[i - 1]); // after the next scene is drawn, so that their addresses differ
+    }
+    lam_scene_free(scenes[2]);
+    lam_device_free(device);
 }
 
 static void test_unlit(void **state)
@@ -230,6 +264,7 @@ int main(void)
         cmocka_unit_test(test_as_classic),
         cmocka_unit_test(test_and_back),
         cmocka_unit_test(test_two_kinds_in_one_scene),
+        cmocka_unit_test(test_kept_studio),
         cmocka_unit_test(test_unlit),
         cmocka_unit_test(test_back_of_the_other_kind),
         cmocka_unit_test(test_leaning_normals),

@@ -180,7 +180,7 @@ struct frame {
     float ambient[3]; // La_global + Σ La of all lights (gl1: of lights without a position only)
 
     const lam_environment *environment; // may be NULL
-    lam_environment *studio; // the built-in studio, kept from the first frame that uses it; owned, NULL before
+    lam_environment *studio;    // the built-in studio, kept from the first frame that uses it; owned, NULL before
     bool environment_lights;    // whether the environment lights a range with a physical model (environment_light.h)
     float to_environment[3][3]; // from eye space to the environment's axes
 

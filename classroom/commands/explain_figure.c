@@ -177,8 +177,8 @@ static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *
     return spot;
 }
 
-// Computes the tips of all arrows with this length in the picture, starting at the shaded point. Returns false if a tip
-// is outside the picture.
+// Computes where the tips of all arrows lie in the picture if each arrow starts at the shaded point and has this
+// length. Returns false if a tip is outside the picture.
 static bool find_tips(const struct explain_figure *f, const struct subject *s, double length, double margin,
                       struct point tips[ARROWS])
 {

@@ -20,15 +20,15 @@ struct stroke_view {
     size_t point_corners;          // corners of a point's polygon
 };
 
-// Sets the width of lines and the size of points from the settings. Without a size, points are larger in larger
-// pictures and if there are fewer of them: at least 3 pixels, and at least 8 for fewer than 100 points.
+// Sets the width of lines and the size of points from the settings. If no size is set, the size of points grows with
+// the picture and shrinks with the number of points. The minimum is 3 pixels, or 8 pixels for fewer than 100 points.
 void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene, const struct frame *frame);
 
 // Returns the number of triangles per line or point of a mesh.
 size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners);
 
-// Moves a near plane that was fitted to the scene forward, so that it does not cut lines and points, which are nearer
-// than their vertices.
+// Moves a near plane that was fitted to the scene towards the eye, so that the plane does not clip lines and points,
+// which can extend nearer to the eye than their vertices.
 void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera, const struct stroke_view *view,
                         int height, double *near_plane);
 

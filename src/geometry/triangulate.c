@@ -5,9 +5,9 @@
 // can be inside an ear. Such corners are stored in a tree of boxes over their Morton order. Therefore a test takes
 // about √count steps even for long thin ears, for any distribution of the corners.
 //
-// Decisions are exact. The corners are projected along the largest axis of the polygon's normal and snapped to
-// integers, with 2^30 steps along the longer side. The grid is finer than a float, and a cross product fits into 64
-// bits.
+// Decisions are exact. The corners are projected along the axis of the normal's largest component and snapped to
+// integers, with 2^30 steps along the longer side of their bounding box. The grid is finer than a float, and a cross
+// product fits into 64 bits.
 #include "triangulate.h"
 
 #include <string.h>

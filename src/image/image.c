@@ -45,8 +45,8 @@ bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format
         return fail(error, LAM_LIMIT, "image: %d×%d pixels, expected at largest %d×%d", width, height, MAX_SIDE,
                     MAX_SIDE);
     uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format) + more; // below 2³⁷
-    // The system may grant more memory than it has, and then kills the process that uses it. At most half of the memory
-    // is used, because drawing and encoding also need memory.
+    // The system may grant more memory than is available, and later kill the process when the process uses that memory.
+    // At most half of the memory is used, because drawing and encoding also need memory.
     void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? get_pixels((size_t)bytes) : NULL;
     if (!pixels)
         return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which is not available", width,

@@ -19,7 +19,7 @@ struct json_reader {
     size_t size;
 };
 
-// A value's position in the file, objects[1].material.shininess, stored from the innermost member outwards.
+// A value's position in the file, such as objects[1].material.shininess, stored from the innermost member outwards.
 struct place {
     const struct place *within; // NULL means the file itself
     const char *key;            // NULL means an element of a list

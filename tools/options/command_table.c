@@ -199,7 +199,7 @@ const struct example examples[] = {
      "reads the model from standard input and writes the picture to standard output", false},
     {"lambent koala.obj -o koala.html", "writes a web page on which you can turn the model (after `make web`)", false},
     {"lambent view koala.obj",
-     "shows the model in the browser, and the new model when the file changes (after `make web`)", false},
+     "shows the model in the browser, and reloads it when the file changes (after `make web`)", false},
     {"lambent view models/", "shows a gallery of the folder (after `make web`)", false},
     {"lambent koala.obj --turntable 36 --fps 12", "writes an animated PNG of the turning model", false},
     {"lambent koala.obj --sweep light.azimuth=0..360 -o 'light-{frame}.png'",

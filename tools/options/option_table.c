@@ -293,7 +293,7 @@ struct option option_table[OPTIONS_MAX] = {
      .also_in = IN_SHEET},
     {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
      "A pixel on a slanted surface covers a long, narrow area of the texture. A single texture sample blurs the whole "
-     "area. With N samples along the area, textures look up to N times as sharp.",
+     "area. With N samples along this area, textures can appear up to N times as sharp.",
      .others = "anisotropic anisotropic-filtering"},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
      "Lambent draws the lines of OBJ (`l`), PLY (`edge`) and glTF files with the same width at every distance. Lambent "
@@ -468,7 +468,7 @@ struct option option_table[OPTIONS_MAX] = {
      "each number, the position is relative to the centre of the model's bounding sphere, in radii of this sphere. The "
      "default is `1r/2r/3r`, or `1r/-3r/2r` with Z up. `position=x/y/z/0` is a directional light that shines from this "
      "direction. `direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` is the point at "
-     "which the light aims. By default, a directional light travels along 0/0/-1, and a spot aims at the model's "
+     "which the light aims. By default, a directional light shines along 0/0/-1, and a spot aims at the model's "
      "centre. `frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the frame of the "
      "scene. `camera` is the frame of the eye: x points right, y points up, and the eye looks along -z. In this frame, "
      "a light without a position is at the eye. `view` uses the axes of the eye, with the origin at the middle of the "

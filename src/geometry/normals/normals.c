@@ -30,7 +30,7 @@ struct numbering {
     struct visible_normals made;
     struct rank_bitset first_corners;
     float (*normals)[3]; // indexed by number
-    uint32_t *indices;   // per corner: first elements of `made`, later numbers
+    uint32_t *indices;   // per corner: initially an index into `made`, later the final number
     size_t corners;
 };
 

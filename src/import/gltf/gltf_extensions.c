@@ -1,4 +1,4 @@
-// gltf_extensions.c: checks the extensions that a file uses, and reports their support.
+// gltf_extensions.c: checks the extensions that a file uses, and reports which of them are supported.
 #include "gltf_extensions.h"
 
 #include "gltf_json.h"

@@ -1,4 +1,4 @@
-// gltf_extensions.h: checks the extensions that a file uses, and reports their support.
+// gltf_extensions.h: checks the extensions that a file uses, and reports which of them are supported.
 #ifndef GLTF_EXTENSIONS_H
 #define GLTF_EXTENSIONS_H
 

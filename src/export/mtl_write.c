@@ -133,7 +133,7 @@ static void lose(struct exporting *e, const lam_material *m)
                     "layers of physical materials are omitted (coats, sheen, films, glass): MTL does not support them");
     const lam_texture_map *color = m->maps[LAM_MAP_DIFFUSE];
     if (m->alpha_mode == LAM_ALPHA_OPAQUE && color && !color->texture->opaque)
-        export_lose(e, "the alpha of pictures of opaque materials becomes opacity: MTL cannot ignore it");
+        export_lose(e, "the alpha channels of opaque materials' textures become opacity: MTL cannot ignore alpha");
     if (m->alpha_mode == LAM_ALPHA_MASK && (m->diffuse.a < 1 || m->maps[LAM_MAP_OPACITY] || color))
         export_lose(e, "masked materials become blended materials: MTL has no threshold");
     if (kr.r > 0 || kr.g > 0 || kr.b > 0 || m->roughness_angle_rad != d.roughness_angle_rad || m->fibre)

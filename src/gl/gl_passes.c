@@ -20,7 +20,7 @@ static void to_clip(const struct gl_frame *f, const struct frame_draw *draw, flo
 {
     const float(*m)[4] = draw->pixel;
     double left = f->left + (double)f->sample_x, top = f->top + (double)f->sample_y;
-    for (int j = 0; j < 4; j++) { // OpenGL's matrices are stored by columns
+    for (int j = 0; j < 4; j++) { // OpenGL matrices are stored in column-major order
         double w = (double)m[3][j];
         out[4 * j] = (float)(((double)m[0][j] - left * w) * (2.0 / f->width) - w);
         out[4 * j + 1] = (float)(((double)m[1][j] - top * w) * (2.0 / f->height) - w);

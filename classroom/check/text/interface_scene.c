@@ -45,8 +45,8 @@ static lam_rgb *light_color(struct reference_light *light, enum light_term term)
 }
 
 // Sets the strength of a term to the fixed value if the shader declares no name for the strength. A scene switches a
-// term off by the strength 0. In that case the term's colour becomes black instead or, if the shader has no such
-// colour, the colours of the lights. `color` is NULL, or `lit` is false, if the shader has no such colour.
+// term off by setting its strength to 0. In that case the term's colour becomes black instead or, if the shader does
+// not have this colour, the colours of the lights. Without this colour, `color` is NULL or `lit` is false.
 static void fix_strength(struct reference_scene *s, const struct default_number *fixed, float *strength, lam_rgb *color,
                          bool lit, enum light_term term)
 {
@@ -140,8 +140,8 @@ static void keep_brightness(const struct reference_scene *s, const float before[
     light->specular = (lam_rgb){light->specular.r * k, light->specular.g * k, light->specular.b * k};
 }
 
-// A point light also gets an axis, because shaders of spots normalize the axis. The axis points towards the model, so
-// that every lit point is in front of the light.
+// A point light also gets an axis, because the shaders of spotlights normalize the axis. The axis points towards
+// the model, so that every lit point is in front of the light.
 static void set_axis(struct reference_light *light, lam_vec3 target)
 {
     lam_vec3 to_light = light->to_light;
@@ -279,7 +279,8 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
         }
 }
 
-// Sets the contents of maps. The numbers of the scene do not change: they are the products of factor and texel.
+// Sets the contents of maps. The scene's values do not change, because each value is the product of
+// a factor and a texel.
 static void adapt_maps(const struct shader_interface *r, struct reference_scene *s)
 {
     // for lighting in the vertex shader, the texels of maps with a factor are 1

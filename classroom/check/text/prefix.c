@@ -1,4 +1,4 @@
-// prefix.c: adds a contract's prefix to the texts of a program.
+// prefix.c: adds a contract's prefix to the shader sources of a program.
 #include "prefix.h"
 
 #include <stdio.h>

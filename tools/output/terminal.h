@@ -24,7 +24,7 @@ bool terminal_start(const struct options *options, bool alone, lam_error *error)
 // Returns whether pictures are shown in the terminal.
 bool terminal_shows(void);
 
-// Reports that a picture cannot be written to standard output because it is a terminal without pictures. Returns false.
+// Reports that a picture cannot be written to standard output, which is a terminal that cannot show it. Returns false.
 bool terminal_refuse(const char *command, lam_error *error);
 
 // terminal_probe.c: detects the terminal's capabilities from the environment and from its answers. Waits at most half a

@@ -197,8 +197,8 @@ static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_
     }
 }
 
-// Returns the fan for a corner of a degenerate triangle: the fan of the first triangle with an area that shares an edge
-// with it, or else the fan of corner `otherwise`.
+// Returns the fan for a corner of a degenerate triangle: the fan of the first non-degenerate triangle that shares an
+// edge with this triangle, or else the fan of corner `otherwise`.
 static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count, uint32_t i, uint32_t otherwise)
 {
     enum { EXAMINED_MAX = 64 }; // limits the time for a million such corners at one position

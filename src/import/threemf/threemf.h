@@ -143,7 +143,7 @@ void threemf_package_close(struct threemf *file);
 // Reads a part of the archive in chunks. `name` may begin with '/'.
 typedef bool threemf_chunk_fn(void *user, const void *bytes, size_t size, bool last);
 bool threemf_package_read(struct threemf *file, const char *name, threemf_chunk_fn *take, void *user);
-// Reads a whole part into memory of the scratch arena.
+// Reads a whole part into memory allocated from the scratch arena.
 bool threemf_package_read_whole(struct threemf *file, const char *name, const uint8_t **bytes, size_t *size);
 
 // --- the model

@@ -1,4 +1,4 @@
-// diff_draw.c: draws an old and a new model with one camera and measures the difference of their pictures.
+// diff_draw.c: draws an old and a new model with one camera and measures the difference between the pictures.
 #include "diff.h"
 
 #include <math.h>

@@ -176,7 +176,7 @@ static bool check_finite(struct gltf *gltf, const struct place *place, const str
     return true;
 }
 
-// Returns whether the elements are contiguous, like arrays of 4-byte numbers.
+// Returns whether the elements are stored contiguously, as in an array of 4-byte numbers.
 static bool in_place(const struct gltf_accessor *a, int component)
 {
     return a->data && a->component == component && a->stride == 4 * (size_t)a->width && !a->sparse_count &&

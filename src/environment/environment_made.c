@@ -65,12 +65,13 @@ static void sky_row(int face, int t, float *texels)
     }
 }
 
-// The studio for physical materials is a cubic room around the origin. The brightest lamp, at the ceiling, lights the
-// tops of objects, which cast short soft shadows on a ground. A large lamp in front and above lights the sides that
-// face the viewer. A dim lamp at the right lights the third side, so that the three visible faces of a cube differ.
-// Metals mirror a bright horizon between a dark floor and dim walls. The lamp behind the object brightens the rims of
-// black objects. A horizontal white surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face
-// of the cube map is a wall of the room.
+// The studio for physical materials is a cubic room around the origin. The lamps are small and bright, so that a clear
+// coat mirrors a few clear highlights, and its colour stays saturated between them. The brightest lamp, at the ceiling,
+// lights the tops of objects, which cast short soft shadows on a ground. A tall lamp in front lights the sides that
+// face the viewer. A tall lamp at the right lights the third side less, so that the three visible faces of a cube
+// differ. The lamp behind the object is high: it lights rounded tops and the rims of black objects. Metals mirror a
+// bright horizon between a dark floor and dim walls, and a large dim lamp at the left. A horizontal white surface
+// receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face of the cube map is a wall of the room.
 struct lamp {
     double intensity;
     struct rgb color;
@@ -79,16 +80,16 @@ struct lamp {
 };
 #define WHITE {{1.00, 0.97, 0.92}}
 #define COOL  {{0.82, 0.90, 1.00}}
-static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {6.5, WHITE, -0.3, 0.1, 0.3, 0.36},
+static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {14, WHITE, -0.3, 0.1, 0.2, 0.24},
                                                   [LAM_FACE_NX] = {0.5, WHITE, 0.24, 0.48, 0.2, 0.56},
-                                                  [LAM_FACE_PX] = {0.85, COOL, -0.3, -0.1, 0.65, 0.25},
-                                                  [LAM_FACE_PZ] = {1.4, WHITE, -0.18, 0.36, 0.6, 0.71},
-                                                  [LAM_FACE_NZ] = {2.7, COOL, 0.3, 0.35, 0.42, 0.4}};
+                                                  [LAM_FACE_PX] = {10, COOL, -0.3, -0.02, 0.12, 0.22},
+                                                  [LAM_FACE_PZ] = {13.5, WHITE, -0.2, 0.26, 0.13, 0.24},
+                                                  [LAM_FACE_NZ] = {17, COOL, -0.12, 0.75, 0.3, 0.11}};
 
 // Returns 1 if |x| is below `half_width`, and 0 beyond it, with a soft edge between them.
 static double soft_edge(double x, double half_width)
 {
-    const double edge = 0.06;
+    const double edge = 0.03;
     return ramp(-half_width - edge, -half_width, x < 0 ? x : -x);
 }
 
@@ -96,10 +97,10 @@ static double soft_edge(double x, double half_width)
 // horizon there is a bright band.
 static struct rgb wall_at(double height)
 {
-    static const struct rgb floor_color = {{0.085, 0.0825, 0.08}}, wall = {{0.055, 0.0567, 0.0633}},
-                            horizon = {{0.71, 0.735, 0.75}};
+    static const struct rgb floor_color = {{0.085, 0.0825, 0.08}}, wall = {{0.066, 0.068, 0.076}},
+                            horizon = {{0.426, 0.441, 0.45}};
     struct rgb light = mix(floor_color, wall, ramp(-1, 0.2, height));
-    double band = ramp(-0.18, 0.12, height) - ramp(0.12, 0.42, height);
+    double band = ramp(-0.42, 0, height) - ramp(0, 0.36, height);
     for (int i = 0; i < 3; i++)
         light.c[i] += band * horizon.c[i];
     return light;

@@ -1,6 +1,7 @@
-// frame_brighten.c: computes by how much the studio is brightened for a dark model. Photographers light a black product
-// more strongly than a white one, because otherwise only its outline would be visible. The amount depends only on the
-// colours of the surfaces, not on the view: all pictures of a model have the same exposure.
+// frame_brighten.c: computes by how much the studio is brightened for a dark model, or dimmed for a white one.
+// Photographers light a black product more strongly than a white one, because otherwise only its outline would be
+// visible. A white product on a white page needs less light, or its seams and edges vanish. The amount depends only on
+// the colours of the surfaces, not on the view: all pictures of a model have the same exposure.
 #include "frame.h"
 
 #include "linear.h"
@@ -16,6 +17,11 @@
 #define RATE   0.8
 #define MOST   2.5
 #define WHITE  1.0
+
+// A model is white if its whole surface is matt or plastic, with a luminance of at least PAPER and without textures or
+// colours of vertices. Its exposure decreases by DIM stops.
+#define PAPER 0.9
+#define DIM   (5.0 / 6)
 
 enum { SAMPLES = 4096, BINS = 256, STEPS = 6 }; // the number of sampled triangles, of bins, and of steps per stop
 
@@ -137,12 +143,34 @@ static bool is_bright(const struct frame *frame)
     return true;
 }
 
+// Returns whether the whole model is white: physical, neither metal nor glass, and without textures.
+static bool is_white(const struct frame *frame)
+{
+    int surfaces = 0;
+    for (int i = 0; i < frame->range_count; i++) {
+        const struct frame_draw_range *range = &frame->ranges[i];
+        const struct frame_draw *draw = &frame->draws[range->draw];
+        const lam_material *m = frame->materials[range->front];
+        if (draw->ground)
+            continue;
+        surfaces++;
+        if (draw->strokes || !frame_is_physical(range->reflection) || m->metallic > 0 || m->transmission > 0)
+            return false;
+        if (m->maps[LAM_MAP_DIFFUSE] || draw->mesh->colors ||
+            luminance((double)m->diffuse.r, (double)m->diffuse.g, (double)m->diffuse.b) < PAPER)
+            return false;
+    }
+    return surfaces > 0;
+}
+
 double frame_brighten_stops(const struct frame *frame, const lam_scene *scene)
 {
     struct luminances sum = {.all = 0};
     const uint32_t step = frame->triangle_count / SAMPLES + 1;
-    if (!applies(frame, scene) || is_bright(frame))
+    if (!applies(frame, scene))
         return 0;
+    if (is_bright(frame))
+        return is_white(frame) ? -DIM : 0;
     for (int i = 0; i < frame->range_count; i++) {
         const struct frame_draw_range *range = &frame->ranges[i];
         const struct frame_draw *draw = &frame->draws[range->draw];

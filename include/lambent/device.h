@@ -224,8 +224,8 @@ typedef enum lam_specular_aa {
     LAM_SPECULAR_AA_COUNT
 } lam_specular_aa;
 
-// Lights dark models with up to 2.5 stops more light, so that more than their outline is visible. The base colours of
-// the surfaces determine the amount, so it is the same for every view of a model (docs/lighting/tone.md).
+// Lights dark models with up to 2.5 stops more light, so that more than their outline is visible, and white physical
+// models with 5/6 stop less. The base colours determine the amount for all views of a model (docs/lighting/tone.md).
 typedef enum lam_brighten {
     // On for scenes from model files in the studio's light, with their own colours and without lights or emission. Off
     // with LAM_COLOR_RAW, and on a ground of LAM_GROUND_CHECKER or LAM_GROUND_COLOR.
@@ -351,7 +351,7 @@ typedef struct lam_draw_params {
     // ON fails with LAM_BAD_ARGUMENT together with LAM_OCCLUSION_RAYS or without Phong shading.
     lam_cavity cavity;
     lam_specular_aa specular_aa; // ON without Phong shading fails with LAM_BAD_ARGUMENT
-    lam_brighten brighten;       // more light for dark models
+    lam_brighten brighten;       // more light for dark models, less for white ones
     LAM_RESERVED(13);
 } lam_draw_params;
 
@@ -395,7 +395,7 @@ typedef struct lam_frame_report {
     double edges_ms;
     uint64_t edges_drawn; // edges inside the picture, hidden ones included
     uint64_t edge_rays;   // from points of edges to the eye
-    double brightened;    // stops that a dark model was brightened by (lam_brighten)
+    double brightened;    // stops that a dark model was brightened by; negative for a white model (lam_brighten)
     LAM_RESERVED(4);
 } lam_frame_report;
 

@@ -79,8 +79,8 @@ struct frame_light {
     double radius;
 };
 
-// Returns by how many stops a dark model is brightened (lam_brighten). Call this function after the frame's draws are
-// built.
+// Returns by how many stops a dark model is brightened, or a negative number for a white model (lam_brighten). Call
+// this function after the frame's draws are built.
 struct frame;
 double frame_brighten_stops(const struct frame *frame, const lam_scene *scene);
 

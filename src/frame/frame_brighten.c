@@ -18,8 +18,8 @@
 #define MOST   2.5
 #define WHITE  1.0
 
-// A model is white if its whole surface is matt or plastic, with a luminance of at least PAPER and without textures or
-// colours of vertices. Its exposure decreases by DIM stops.
+// A model is white if all its materials are physical, without metal or glass, and have a base colour with a luminance
+// of at least PAPER, without a texture or colours of vertices. Its exposure decreases by DIM stops.
 #define PAPER 0.9
 #define DIM   (5.0 / 6)
 
@@ -143,7 +143,7 @@ static bool is_bright(const struct frame *frame)
     return true;
 }
 
-// Returns whether the whole model is white: physical, neither metal nor glass, and without textures.
+// Returns whether the whole model is white. See PAPER.
 static bool is_white(const struct frame *frame)
 {
     int surfaces = 0;

@@ -47,7 +47,9 @@ class Default(Case):
         for ending in ("obj", "stl"):
             self.good("shape", "cube", "-q", "-o", "part." + ending)
             self.given.add("part." + ending)
-        for model in ("part.obj", "part.stl", "white.json"):
+        self.good("convert", "white.json", "white.glb", "-q")
+        self.given.add("white.glb")
+        for model in ("part.obj", "part.stl", "white.json", "white.glb"):
             for azimuth in range(15, 76, 15):
                 words = (model, "-s", "64", "--azimuth", azimuth)
                 normals, picture = self.png(*words, "--show", "normals"), self.png(*words)
@@ -105,6 +107,30 @@ class Default(Case):
         self.assertGreater(max(draw()[2][1::4]), 2 * max(draw("--brighten", "off")[2][1::4]))
         explained = json.loads(self.good("explain", "black.obj", "24,24", "-s", "48", "--json").stdout)
         self.assertAlmostEqual(explained["exposure"], 2 ** black, places=4)
+
+    def test_white_models_get_less_light(self):
+        """On a white page, edges of white physical models would vanish. Their exposure is the same from every side."""
+        for name, material in (("white", {}), ("cream", {"diffuse": [0.85] * 3}), ("metal", {"metallic": 1}), ("glass", {"transmission": 1}),
+                               ("lamp", {"emission": [0.1] * 3})):
+            objects = [{"shape": "torus-knot", "material": {"diffuse": [0.98] * 3, "metallic": 0, "roughness": 0.5, **material}}]
+            (self.folder / f"{name}.json").write_text(json.dumps({"lambent": 1, "objects": objects}))
+            self.good("convert", f"{name}.json", f"{name}.glb", "-q")
+            self.given |= {f"{name}.json", f"{name}.glb"}
+        objects += [{"shape": "cube", "material": {"diffuse": [0.5] * 3, "metallic": 0}}]
+        del objects[0]["material"]["emission"]
+        (self.folder / "both.json").write_text(json.dumps({"lambent": 1, "objects": objects}))
+        self.good("convert", "both.json", "both.glb", "-q")
+        self.good("shape", "torus-knot", "-q", "-o", "classic.obj")
+        self.given |= {"both.json", "both.glb", "classic.obj"}
+        stops = lambda *words: [float(s) for s in re.findall(r"exposure lowered by ([0-9.]+) stops for a white model", self.good(*words, "-s", "32", "-v", "-o", "v-{view}.png").stderr.decode())]
+        self.assertEqual(stops("white.glb", "--view", "back,top"), [0.833] * 2)
+        self.given |= {path.name for path in self.folder.glob("v*.png")}
+        for words in (["cream.glb"], ["metal.glb"], ["glass.glb"], ["lamp.glb"], ["both.glb"], ["classic.obj"], ["white.json"], ["white.glb", "--exposure", "0"],
+                      ["white.glb", "--color", "white"], ["white.glb", "--light", "point"], ["white.glb", "--look", "classic"], ["white.glb", "--brighten", "off"]):
+            self.assertEqual(stops(*words), [], words)
+        draw = lambda *words: self.png("white.glb", "-s", "48", *words)
+        self.assertEqual(draw(), draw("--exposure", -5 / 6))
+        self.assertLess(draw()[2][1::4], draw("--brighten", "off")[2][1::4])
 
     def test_named_metals_mirror_the_studio(self):
         """The name of a metal alone means the physical metal under the default lights, and the row of the classic table under other lights."""

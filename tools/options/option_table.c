@@ -352,7 +352,7 @@ struct option option_table[OPTIONS_MAX] = {
      "background keeps its colour. If the picture uses the lights of a glTF file (candela, lux), the default is "
      "`auto`. With `auto`, Lambent computes the exposure at which 95 % of the covered pixels have a luminance of at "
      "most 0.8. Lambent rounds this exposure to a third of a stop, and reports the result. `--exposure 0` keeps the "
-     "light unchanged.",
+     "light unchanged, also for dark and white models (`--brighten`).",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
@@ -528,9 +528,10 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "specular-antialiasing toksvig glitter fireflies no-specular-aa"},
     {"brighten", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
      "A black model needs more light than a white model; otherwise, only the outline of the black model is visible. If "
-     "the base colours of a "
-     "model file are dark, Lambent brightens the studio by up to 2.5 stops. `--exposure 0`, `--color` and `--material` "
-     "disable this adjustment. For the rule, see `docs/lighting/tone.md`.",
+     "the base colours of a model file are dark, Lambent brightens the studio by up to 2.5 stops. If a physically based "
+     "model is white and has no textures, Lambent dims the studio by 5/6 stop, so that edges and holes are visible on a "
+     "white page. `--exposure 0`, `--color` and `--material` disable both adjustments. For the rules, see "
+     "`docs/lighting/tone.md`.",
      .others = "auto-exposure dark-models"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
     {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},

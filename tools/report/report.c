@@ -105,6 +105,8 @@ void report_table(const struct job *job)
         say_plain("exposure %.10g stops, selected for this picture\n", job->draw.exposure);
     if (frame->brightened > 0)
         say_plain("exposure raised by %.3g stops for a dark model\n", frame->brightened);
+    if (frame->brightened < 0)
+        say_plain("exposure lowered by %.3g stops for a white model\n", -frame->brightened);
     if (job->draw.output == LAM_OUTPUT_DEPTH)
         say_plain("depth    %.7g to %.7g\n", frame->depth_near, frame->depth_far);
     if (frame->ground)

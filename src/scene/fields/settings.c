@@ -132,7 +132,7 @@ static const lam_setting rows[] = {
     {"specular_aa", MEMBER(WORD, specular_aa), WORDS_OF(specular_aa_words), .expected = "lam_specular_aa",
      .summary = "Reduce glitter on bumpy physical materials: auto, off or on."},
     {"brighten", MEMBER(WORD, brighten), WORDS_OF(brighten_words), .expected = "lam_brighten",
-     .summary = "Light dark models with a brighter studio: auto or off."},
+     .summary = "Light dark models with a brighter studio, white models with a dimmer one: auto or off."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
      .expected = "more than 0, up to 10",
      .summary = "The largest distance at which surfaces occlude, as a fraction of half the diagonal of the scene's "

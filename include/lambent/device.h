@@ -395,7 +395,8 @@ typedef struct lam_frame_report {
     double edges_ms;
     uint64_t edges_drawn; // edges inside the picture, hidden ones included
     uint64_t edge_rays;   // from points of edges to the eye
-    double brightened;    // stops that a dark model was brightened by; negative for a white model (lam_brighten)
+    // Stops that a dark model was brightened by (lam_brighten); negative for a white model.
+    double brightened;
     LAM_RESERVED(4);
 } lam_frame_report;
 

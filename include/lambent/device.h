@@ -156,7 +156,8 @@ typedef enum lam_output {
 // primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has formulas,
 // sources and plots). Tone curves apply to 8-bit pictures; float pictures store the light itself.
 typedef enum lam_tone {
-    // KHRONOS_NEUTRAL if the frame shows a physical material, otherwise NONE.
+    // KHRONOS_NEUTRAL if the frame shows a physical material, CONTRAST if the studio lights a grey curved model or a
+    // terrain, otherwise NONE.
     LAM_TONE_AUTO = 0,
     LAM_TONE_NONE,     // no curve: each channel is clipped at 1
     LAM_TONE_REINHARD, // x / (1 + x) for each channel (Reinhard et al., 2002)
@@ -166,6 +167,8 @@ typedef enum lam_tone {
     // Keeps colours up to 0.8 apart from a small offset; compresses and desaturates brighter colours (Khronos PBR
     // Neutral).
     LAM_TONE_KHRONOS_NEUTRAL,
+    // 0.4 (x / 0.4)^2 for each channel: shades of grey differ more than with NONE.
+    LAM_TONE_CONTRAST,
     LAM_TONE_COUNT
 } lam_tone;
 
@@ -425,6 +428,11 @@ LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_
 // copies the first `capacity` of them to `lights`, which may be NULL. `ground`: as in lam_scene_rig_lights. Names are
 // valid until the scene changes.
 LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light *lights, int capacity);
+
+// Returns params->tone, or LAM_TONE_CONTRAST if that is LAM_TONE_AUTO and the light of params->rig selects CONTRAST. If
+// your program adds the lights of lam_scene_rig_lights to the scene itself, call this function before and draw with its
+// curve: the result is the picture that LAM_TONE_AUTO gives with the rig.
+LAM_API lam_tone lam_draw_tone(const lam_scene *scene, const lam_draw_params *params);
 
 // Returns the report of the device's last frame; all zero before the first frame.
 LAM_API void lam_device_report(const lam_device *device, lam_frame_report *report);

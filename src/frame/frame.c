@@ -258,14 +258,24 @@ static void leave_facets(struct frame *frame)
 
 // The radius of cavity shading, relative to half the diagonal of the scene's box.
 #define CAVITY_RADIUS 0.05
+// The radius with the tone curve LAM_TONE_CONTRAST, which shows narrow valleys if the frame has at least FINE triangles.
+// With fewer triangles, dark lines would appear between them.
+#define CONTRAST_CAVITY_RADIUS 0.02
+enum { FINE = 16384 };
 
-// Returns whether a texture colours the drawn surfaces.
-static bool has_color_maps(const struct frame *frame)
+// Returns whether cavity shading lightens ridges: unless a texture colours the drawn surfaces, or a classic material is
+// white, on which lighter ridges would be broad white stripes.
+static bool lightens_ridges(const struct frame *frame)
 {
-    for (int i = 0; i < frame->range_count; i++)
-        if (frame->materials[frame->ranges[i].front]->maps[LAM_MAP_DIFFUSE])
-            return true;
-    return false;
+    for (int i = 0; i < frame->range_count; i++) {
+        const lam_material *m = frame->materials[frame->ranges[i].front];
+        const lam_mesh *mesh = frame->draws[frame->ranges[i].draw].mesh;
+        bool white = !m->physical && !(mesh && mesh->colors) && m->diffuse.r > 0.9f && m->diffuse.g > 0.9f &&
+                     m->diffuse.b > 0.9f;
+        if (m->maps[LAM_MAP_DIFFUSE] || white)
+            return false;
+    }
+    return true;
 }
 
 // Selects the method of ambient occlusion. Call this function after the lights are set.
@@ -303,8 +313,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     double half = lam_scene_bounds(scene, &low, &high) ? 0.5 * v3_length(v3_sub(high, low)) : 0;
     frame->occlusion_radius =
         settings->occlusion > LAM_OCCLUSION_OFF ? rounded(setting_number(settings, "ao_radius") * half) : 0;
-    frame->cavity_radius = cavity ? rounded(CAVITY_RADIUS * half) : 0;
-    frame->ridges = !has_color_maps(frame);
+    frame->cavity_radius = cavity ? rounded((frame->deepens ? CONTRAST_CAVITY_RADIUS : CAVITY_RADIUS) * half) : 0;
     if (frame->cavity_radius > 0 && settings->occlusion == LAM_OCCLUSION_OFF)
         settings->occlusion = LAM_OCCLUSION_SCREEN;
     if (!(half > 0))
@@ -373,11 +382,16 @@ static bool build_draws(struct frame *frame, const lam_scene *scene, const struc
     return true;
 }
 
-static void set_tone(struct frame *frame, bool physical)
+static void set_tone(struct frame *frame, const lam_scene *scene, bool physical)
 {
     lam_draw_params *settings = &frame->settings;
+    if (!physical)
+        settings->tone = lam_draw_tone(scene, settings);
     if (!settings->tone)
         settings->tone = physical && settings->color != LAM_COLOR_RAW ? LAM_TONE_KHRONOS_NEUTRAL : LAM_TONE_NONE;
+    const bool contrast = settings->tone == LAM_TONE_CONTRAST;
+    frame->deepens = contrast && frame->triangle_count >= FINE;
+    frame->ridges = !contrast && lightens_ridges(frame);
     if (!lam_output_is_light(settings->output))
         settings->tone = LAM_TONE_NONE;
 }
@@ -462,11 +476,11 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         physical |= frame_is_physical(frame->ranges[i].reflection);
     if (frame->ground.kind && !add_ground(frame, frame->triangle_count, physical, &view, &pixel, call, error))
         return false;
-    set_tone(frame, physical);
     frame->environment_lights = physical && frame->environment && shows_environment(frame->settings.output);
     leave_normals(frame);
     // If the materials that the environment would light are lit by a classic model, the studio rig lights them.
     bool by_rig = settings->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
+    set_tone(frame, scene, physical);
     if (!frame_lights_build(frame, scene, by_rig ? LAM_RIG_STUDIO : settings->rig,
                             output_is_one_light(frame->settings.output) ? settings->output_light : -1, &view, error))
         return false;

@@ -23,6 +23,11 @@
 #define PAPER 0.9
 #define DIM   (5.0 / 6)
 
+// The colours of textures are rarely white. Textured models of classic materials with flat faces are brightened until
+// 98 % of the surface have at most this luminance, so that the lightest texels look nearly white on faces that the key
+// light reaches.
+#define LIGHTEST 1.7
+
 enum { SAMPLES = 4096, BINS = 256, STEPS = 6 }; // the number of sampled triangles, of bins, and of steps per stop
 
 // A histogram of triangle area by the luminance of the base colour: bin b is for sqrt(luminance) = b / BINS.
@@ -163,6 +168,19 @@ static bool is_white(const struct frame *frame)
     return surfaces > 0;
 }
 
+// Returns whether the model is drawn with textures of classic materials, in the light for flat faces.
+static bool is_painted(const struct frame *frame, const lam_scene *scene)
+{
+    bool textured = false;
+    for (int i = 0; i < frame->range_count; i++) {
+        const lam_material *material = frame->materials[frame->ranges[i].front];
+        if (material->physical)
+            return false;
+        textured |= material->maps[LAM_MAP_DIFFUSE] != NULL;
+    }
+    return textured && !frame->settings.ground && scene_form(scene) == FORM_FLAT;
+}
+
 double frame_brighten_stops(const struct frame *frame, const lam_scene *scene)
 {
     struct luminances sum = {.all = 0};
@@ -187,5 +205,8 @@ double frame_brighten_stops(const struct frame *frame, const lam_scene *scene)
         more = bright * math_exp2(half * half / RATE) < BRIGHT && white * math_exp2((steps + 1.0) / STEPS) < WHITE;
         steps += more;
     }
+    double lightest = is_painted(frame, scene) ? percentile(&sum, 0.98) : LIGHTEST;
+    while (lightest > 0 && steps < (int)(MOST * STEPS) && lightest * math_exp2((steps + 1.0) / STEPS) < LIGHTEST)
+        steps++;
     return (double)steps / STEPS;
 }

@@ -68,6 +68,15 @@ FN vec3 khronos_neutral_tone(vec3 c)
     return pick3(peak < NEUTRAL_START, base, bright);
 }
 
+// The contrast of programs that display light without encoding it: about the light itself as the encoded value. Each
+// channel c becomes pivot (c / pivot)^2, which leaves the pivot as it is.
+#define CONTRAST_PIVOT 0.4f
+
+FN vec3 contrast_tone(vec3 c)
+{
+    return scale3(vec3_of(c.x * c.x, c.y * c.y, c.z * c.z), num_of(1.0f / CONTRAST_PIVOT));
+}
+
 // Clamps the argument of a tone curve: not below 0, not infinite.
 FN num tone_limit(num x) { return min_of(positive(x), num_of(1.0e6f)); }
 
@@ -83,7 +92,8 @@ FN vec3 saturate3(vec3 c) { return vec3_of(saturate(c.x), saturate(c.y), saturat
     X(REINHARD, reinhard_tone, "reinhard", "x / (1 + x), each channel by itself") \
     X(ACES, aces_tone, "aces", "film-like contrast: Hill's fit of ACES") \
     X(AGX, agx_tone, "agx", "soft contrast, bright colours fade to white: AgX") \
-    X(KHRONOS_NEUTRAL, khronos_neutral_tone, "khronos-neutral", "colours as they are, highlights compressed")
+    X(KHRONOS_NEUTRAL, khronos_neutral_tone, "khronos-neutral", "colours as they are, highlights compressed") \
+    X(CONTRAST, contrast_tone, "contrast", "0.4 (x / 0.4)^2, each channel by itself")
 // clang-format on
 
 // AUTO and NONE clip at 1.

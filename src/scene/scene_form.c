@@ -4,6 +4,8 @@
 #include "linear.h"
 #include "up_axis.h"
 
+#include <lambent/material.h>
+
 // A scene is a terrain if it is open and its area faces up: the vertical component of the sum of all area vectors must
 // be more than FACING times the whole area. A closed surface faces all sides equally, so its sum is 0. A level plane is
 // not a terrain, because light from the side would show nothing on it.
@@ -139,32 +141,4 @@ enum scene_form scene_form(const struct lam_scene *scene)
     if (sum.facing > FACING * sum.all && sum.facing < LEVEL * sum.all)
         return FORM_TERRAIN;
     return take_fullest(&sum) < FLAT * sum.all ? FORM_CURVED : FORM_FLAT;
-}
-
-static void set_diffuse(lam_light *light, float diffuse) { light->diffuse = (lam_rgb){diffuse, diffuse, diffuse}; }
-
-// A curved model is lit from near the eye, so that outlines are dark and small slopes visible. At most, a point reflects
-// 0.9·1.33 (key) + 0.07 (sky) = 1.27 times ka or kd. A terrain is lit from below the view's axis, because light from
-// above brightens all slopes alike: level ground is dark, and slopes that face the viewer are bright.
-int rig_suit_form(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, enum scene_form form)
-{
-    if (form == FORM_FLAT)
-        return count;
-    lights[2] = lights[3]; // no rim light
-    lam_light *key = &lights[0], *fill = &lights[1], *sky = &lights[2];
-    if (form == FORM_CURVED) {
-        key->position = v3(-1.1, 1.1, 2.75);
-        key->specular = (lam_rgb){0.6f, 0.6f, 0.6f};
-        key->occluded = 1;
-        set_diffuse(key, 0.9f);
-        set_diffuse(fill, 0.03f);
-        sky->sky = (lam_rgb){0.07f, 0.07f, 0.07f};
-    } else {
-        key->position = v3(-1.0, -0.7, 2.9);
-        set_diffuse(key, 1.2f);
-        set_diffuse(fill, 0.05f);
-        sky->sky = (lam_rgb){0.03f, 0.03f, 0.03f};
-    }
-    sky->ground = (lam_rgb){0.02f, 0.02f, 0.02f};
-    return 3;
 }

@@ -201,9 +201,6 @@ enum scene_form {
 // computer, and in each frame of an animation. `scene` may be NULL.
 enum scene_form scene_form(const struct lam_scene *scene);
 
-// Changes the lights of the studio for a form, and returns their number, which is `count` for flat faces.
-int rig_suit_form(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, enum scene_form form);
-
 // Returns whether a mesh consists of lines or points. Functions that compute normals or follow surfaces skip such
 // meshes.
 static inline bool mesh_is_strokes(const lam_mesh *mesh) { return mesh->line_count || mesh->point_count; }

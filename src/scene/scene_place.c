@@ -1,4 +1,4 @@
-// scene_place.c: the bounding sphere and transforms of a whole scene, and the positions of a rig's lights.
+// scene_place.c: the bounding sphere and the transforms of a whole scene.
 #include "scene_internal.h"
 
 #include "fail.h"
@@ -142,51 +142,4 @@ bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, double a
     bool ok = transform_objects(scene, &whole, error);
     float_state_leave(state);
     return ok;
-}
-
-bool scene_lit_by_environment(const struct lam_scene *scene)
-{
-    if (scene->lights.count)
-        return false;
-    int physical = 0, classic = 0;
-    for (int i = scene->materials.count ? 0 : -1; i < scene->materials.count; i++) {
-        const lam_material *material = i < 0 ? scene->default_material : lam_scene_material(scene, i);
-        physical += material->physical && !material->unlit;
-        classic += !material->physical && !material->unlit;
-    }
-    return physical && !classic;
-}
-
-// Moves a light of a rig, which is defined for a scene of radius 1, to its position in this scene.
-static void place_rig_light(const lam_scene *scene, lam_light *light)
-{
-    lam_vec3 low, high, centre = v3(0, 0, 0);
-    double radius = 0;
-    if (light->type != LAM_LIGHT_POINT && light->type != LAM_LIGHT_SPOT)
-        return;
-    if (light->frame == LAM_FRAME_WORLD)
-        lam_scene_sphere(scene, -1, &centre, &radius);
-    // uses half the diagonal of the bounding box, which needs no pass over the vertices
-    else if (scene && lam_scene_bounds(scene, &low, &high))
-        radius = 0.5 * v3_length(v3_sub(high, low));
-    if (radius == 0)
-        radius = 1;
-    if (light->frame == LAM_FRAME_WORLD)
-        light->position = from_y_up(lam_scene_up(scene), light->position);
-    light->position = v3_add(centre, v3_scale(light->position, radius));
-    light->radius = (float)((double)light->radius * radius);
-    light->attenuation.linear = (float)((double)light->attenuation.linear / radius);
-    light->attenuation.quadratic = (float)((double)light->attenuation.quadratic / (radius * radius));
-}
-
-int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light lights[LAM_RIG_LIGHTS_MAX])
-{
-    if (rig == LAM_RIG_AUTO)
-        rig = lam_scene_light_count(scene) || scene_lit_by_environment(scene) ? LAM_RIG_NONE : LAM_RIG_STUDIO;
-    int count = lam_rig_lights(rig, lights);
-    if (rig == LAM_RIG_STUDIO && !ground)
-        count = rig_suit_form(lights, count, scene_form(scene));
-    for (int i = 0; i < count; i++)
-        place_rig_light(scene, &lights[i]);
-    return count;
 }

@@ -654,21 +654,29 @@ static bool find_folder(struct scene_writer *w, const char *path, char folder[PA
            fail(w->error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%.200s': %s", path, given, strerror(errno));
 }
 
+// Sets the tone curve that the rig selects, because the written lights no longer select it.
+static void set_tone(const struct scene_writer *w, lam_picture_settings *settings)
+{
+    settings->draw.tone = lam_draw_tone(w->scene, &settings->draw);
+    settings->present |= settings->draw.tone ? LAM_SETTING_TONE : 0;
+}
+
 static bool encode(struct scene_writer *w, const lam_picture_settings *settings, const char *path, lam_bytes *out)
 {
     static const lam_picture_settings none;
     char folder[PATH_MAX];
-    settings = settings ? settings : &none;
+    lam_picture_settings own = settings ? *settings : none;
+    set_tone(w, &own);
     if (!find_folder(w, path, folder))
         return false;
     json_t *root = json_object();
     put(w, root, "lambent", json_integer(1));
-    bool ok = put_settings(w, root, settings);
+    bool ok = put_settings(w, root, &own);
     lam_up up = lam_scene_up(w->scene);
     if (up != LAM_UP_Y && up != LAM_UP_AUTO)
         put(w, root, "up", word(up_words, (int)up));
     ok = ok && put_objects(w, root);
-    put_lights(w, root, settings->draw.rig, settings->draw.ground);
+    put_lights(w, root, own.draw.rig, own.draw.ground);
     ok = memory_or(w, ok) && scene_print(root, out, w->error);
     json_decref(root);
     return ok;
@@ -711,6 +719,9 @@ bool lam_lights_encode(const lam_scene *scene, lam_rig rig, bool ground, lam_byt
     uint64_t state = float_state_enter();
     json_t *root = json_object();
     put(&writer, root, "lambent", json_integer(1));
+    lam_picture_settings settings = {.draw = {.rig = rig, .ground = ground}};
+    set_tone(&writer, &settings);
+    put_image(&writer, root, &settings);
     put_lights(&writer, root, rig, ground);
     bool ok = memory_or(&writer, root != NULL) && scene_print(root, out, error);
     json_decref(root);

@@ -149,7 +149,7 @@ ok(refusal(['cube', '--implicit=x', '--size=64']) === "option '--implicit' belon
 
 // The lights of a picture, converted to options, draw the same picture.
 for (const words of [['teapot'], ['torus-knot', '--rig=three-point', '--shadows'], ['cube', '--rig=headlight']]) {
-  const all = [...words, '--size=64'], { lights } = lambent.lights(all), own = [...all.filter((word) => !word.startsWith('--rig')), ...lights.map((light) => `--light=${lightWords(light)}`)];
+  const all = [...words, '--size=64'], { lights, image } = lambent.lights(all), own = [...all.filter((word) => !word.startsWith('--rig')), ...lights.map((light) => `--light=${lightWords(light)}`), `--tone=${image?.tone ?? 'auto'}`];
   ok(lights.length > 0 && Buffer.compare(lambent.save(all, 'png'), lambent.save(own, 'png')) === 0, `the lights as words: ${words.join(' ')}`);
 }
 

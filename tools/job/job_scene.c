@@ -112,9 +112,12 @@ static bool apply_sides(const struct options *o, lam_scene *scene, lam_error *er
 
 // --- the rig
 
-static bool add_rig(const struct job *job, lam_error *error)
+// Adds the lights of the rig to the scene, and selects their tone curve.
+static bool add_rig(struct job *job, lam_error *error)
 {
     lam_light lights[LAM_RIG_LIGHTS_MAX];
+    lam_draw_params draw = draw_params_of(job->options, job->rig);
+    job->own.draw.tone = lam_draw_tone(job->scene, &draw);
     int count = lam_scene_rig_lights(job->scene, job->rig, job->options->draw.ground, lights);
     for (int i = 0; i < count; i++)
         if (lam_scene_add_light(job->scene, &lights[i], error) < 0)

@@ -172,12 +172,14 @@ static const struct choice up_words[] = {{"auto", LAM_UP_AUTO, "z for STL and 3M
 static char reflection_summary[400], output_summary[200];
 
 static const struct choice tone_words[] = {
-    {"auto", LAM_TONE_AUTO, "khronos-neutral for pictures with physical materials, otherwise none"},
+    {"auto", LAM_TONE_AUTO,
+     "khronos-neutral for physical materials, contrast for grey scans, figures and terrains, otherwise none"},
     {"none", LAM_TONE_NONE, "no curve: each channel is clipped at 1"},
     {"reinhard", LAM_TONE_REINHARD, "x / (1 + x) for each channel"},
     {"aces", LAM_TONE_ACES, "film-like contrast (Hill's fit of ACES)"},
     {"agx", LAM_TONE_AGX, "soft contrast; bright colours fade to white"},
     {"khronos-neutral", LAM_TONE_KHRONOS_NEUTRAL, "unchanged colours, compressed highlights"},
+    {"contrast", LAM_TONE_CONTRAST, "0.4 (x / 0.4)^2 for each channel"},
     {NULL, 0, NULL}};
 
 static const struct choice look_words[] = {
@@ -354,11 +356,12 @@ struct option option_table[OPTIONS_MAX] = {
      "most 0.8. Lambent rounds this exposure to a third of a stop, and reports the result. `--exposure 0` keeps the "
      "light unchanged, also for dark and white models (`--brighten`).",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
-    {"tone", 0, GROUP_PICTURE, "CURVE", "auto", "The tone curve: none, reinhard, aces, agx or khronos-neutral.",
+    {"tone", 0, GROUP_PICTURE, "CURVE", "auto",
+     "The tone curve: none, reinhard, aces, agx, khronos-neutral or contrast.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
-     "with physical materials. For all other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips "
-     "light at 1. Floating-point pictures store the light without the curve. For the formulas, see "
-     "`docs/lighting/tone.md`.",
+     "with physical materials, and `contrast` for grey scans, figures and terrains that the studio's lights light. For "
+     "all other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. Floating-point "
+     "pictures store the light without the curve. For the formulas, see `docs/lighting/tone.md`.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
      FIELD(draw.tone)},
     {"show", 0, GROUP_PICTURE, "QUANTITY", "the picture",

@@ -7,20 +7,21 @@ const MOST = 16; // if a file contains more lights, the page does not change the
 const SMALL = ['96x96'];
 let own = null; // the lights of the model's file, and the words that they were read for
 
-// `lights`: { texts, ambient, exposure } of readLights.
-export function withLights(words, { texts, ambient, exposure }) {
+// `lights`: { texts, ambient, exposure, tone } of readLights.
+export function withLights(words, { texts, ambient, exposure, tone }) {
   const change = (name, values) => (words = new State(words).withValues(name, values));
   change('rig', []);
   change('light', texts);
   change('exposure', exposure);
+  if (tone) change('tone', [tone]);
   return change('ambient', ambient);
 }
 
 // Returns the lights of the picture. The lights of a glTF file need an automatic exposure. Returns null if the picture with the written lights differs.
 export async function readLights(words) {
-  const { lights, ambient } = await call('lights', { words }), old = await call('draw', { words });
+  const { lights, ambient, image } = await call('lights', { words }), old = await call('draw', { words });
   for (const exposure of [new State(words).values('exposure'), ['auto']]) {
-    const made = { texts: lights.map(lightWords), ambient: ambient.some((x) => x > 0) ? [ambient.join('/')] : [], exposure };
+    const made = { texts: lights.map(lightWords), ambient: ambient.some((x) => x > 0) ? [ambient.join('/')] : [], exposure, tone: image?.tone };
     const now = await call('draw', { words: withLights(words, made) });
     if (now.pixels.every((byte, i) => byte === old.pixels[i])) return made;
   }

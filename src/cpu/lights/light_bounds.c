@@ -242,8 +242,9 @@ bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const
             fill_group(&w, g, count);
     }
     fill_materials(&w, count, capacity, frame, materials);
-    // No tone curve is steeper than linear light, except the two sigmoid curves.
-    float steep = frame->settings.tone == LAM_TONE_ACES || frame->settings.tone == LAM_TONE_AGX ? 4.0f : 1.0f;
+    // No tone curve is steeper than linear light, except these three.
+    lam_tone tone = frame->settings.tone;
+    float steep = tone == LAM_TONE_ACES || tone == LAM_TONE_AGX || tone == LAM_TONE_CONTRAST ? 4.0f : 1.0f;
     float slope = steep * (frame->settings.color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;
     *table = (struct light_bounds){
         .count = count,

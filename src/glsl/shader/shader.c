@@ -403,6 +403,8 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     without.shadows |= without.ground != LAM_GROUND_NONE; // a ground implies shadows, and is not a draw of the scene
     without.ground = LAM_GROUND_NONE;
     without.brighten = LAM_BRIGHTEN_OFF;
+    if (!without.tone && params && params->style == LAM_SHADER_STYLE_LECTURE)
+        without.tone = LAM_TONE_NONE; // lecture shaders have no tone curve
     if (!frame_build(&m->frame, m->scene, camera, &without, m->width, m->height, &call, error) ||
         !choose(m, draw, object, params, error))
         return false;

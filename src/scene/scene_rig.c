@@ -1,0 +1,165 @@
+// scene_rig.c: the lights of a rig in a scene: their positions, the changes for the scene's form and materials, and
+// their tone curve.
+#include "scene_internal.h"
+
+#include "linear.h"
+#include "up_axis.h"
+
+#include <lambent/device.h>
+#include <lambent/material.h>
+
+// The light greys that are lit for contrast: the smallest kd, and the kd whose brightest points are displayed nearly
+// white.
+#define GREY_MIN   0.3f
+#define GREY_SHOWN 0.62
+
+bool scene_lit_by_environment(const struct lam_scene *scene)
+{
+    if (scene->lights.count)
+        return false;
+    int physical = 0, classic = 0;
+    for (int i = scene->materials.count ? 0 : -1; i < scene->materials.count; i++) {
+        const lam_material *material = i < 0 ? scene->default_material : lam_scene_material(scene, i);
+        physical += material->physical && !material->unlit;
+        classic += !material->physical && !material->unlit;
+    }
+    return physical && !classic;
+}
+
+// Returns the largest kd of the materials if all are a grey of at least GREY_MIN without textures, and no mesh has
+// colours; otherwise 0.
+static double grey_reflectance(const struct lam_scene *scene)
+{
+    double largest = 0;
+    for (int i = scene->materials.count ? 0 : -1; i < scene->materials.count; i++) {
+        const lam_material *m = i < 0 ? scene->default_material : lam_scene_material(scene, i);
+        bool grey = m->diffuse.r == m->diffuse.g && m->diffuse.g == m->diffuse.b && m->emission.r == 0 &&
+                    m->emission.g == 0 && m->emission.b == 0;
+        if (!grey || !(m->diffuse.r >= GREY_MIN) || m->physical || m->unlit || m->maps[LAM_MAP_DIFFUSE])
+            return 0;
+        largest = (double)m->diffuse.r > largest ? (double)m->diffuse.r : largest;
+    }
+    for (int i = 0; i < scene->objects.count; i++)
+        if (scene_mesh(scene, scene_object(scene, i)->mesh)->colors)
+            return 0;
+    return largest;
+}
+
+// Returns whether only the studio lights the scene, and for contrast (LAM_TONE_CONTRAST): a curved model or a terrain, of
+// which all materials are a light grey without textures, and no mesh has colours. `ground`: as in lam_scene_rig_lights.
+static bool suits_contrast(const struct lam_scene *scene, lam_rig rig, bool ground)
+{
+    bool studio = rig == LAM_RIG_STUDIO || (rig == LAM_RIG_AUTO && !scene_lit_by_environment(scene));
+    return studio && !ground && !scene->lights.count && grey_reflectance(scene) > 0 && scene_form(scene) != FORM_FLAT;
+}
+
+static lam_rgb grey(double value) { return (lam_rgb){(float)value, (float)value, (float)value}; }
+
+// Lights a grey model for LAM_TONE_CONTRAST: the key light is next to the eye and equally strong everywhere. For terrains
+// it comes from below the view's axis (suit_scene). The lights are dimmed for materials with a kd above GREY_SHOWN, so
+// that no part of them is displayed as plain white.
+static void suit_contrast(lam_light *key, lam_light *fill, lam_light *sky, enum scene_form form, double reflectance)
+{
+    const double share = reflectance > GREY_SHOWN ? GREY_SHOWN / reflectance : 1;
+    const bool curved = form == FORM_CURVED;
+    key->position = curved ? v3(-0.2, 0.3, 3.1) : v3(-0.5, -0.55, 3.0);
+    key->attenuation = (lam_attenuation){1, 0, 0};
+    key->diffuse = grey((curved ? 0.88 : 1) * share);
+    key->specular = grey(0.2 * share);
+    key->occluded = 1;
+    fill->diffuse = grey(0.03 * share);
+    sky->sky = grey((curved ? 0.11 : 0.04) * share);
+    sky->ground = grey(0.02 * share);
+}
+
+// Returns whether most materials reflect no light of the sky, because ka is 0 and kd is not.
+static bool lacks_ambient(const struct lam_scene *scene)
+{
+    int count = 0;
+    for (int i = 0; i < scene->materials.count; i++) {
+        const lam_material *m = lam_scene_material(scene, i);
+        bool reflects = m->ambient.r > 0 || m->ambient.g > 0 || m->ambient.b > 0;
+        count += !reflects && (m->diffuse.r > 0 || m->diffuse.g > 0 || m->diffuse.b > 0);
+    }
+    return 2 * count > scene->materials.count;
+}
+
+// A curved model is lit from near the eye, so that outlines are dark and small slopes visible. At most, a point reflects
+// 0.9·1.33 (key) + 0.07 (sky) = 1.27 times ka or kd. A terrain is lit from below the view's axis, because light from
+// above brightens all slopes alike: level ground is dark, and slopes that face the viewer are bright. Returns the number
+// of lights, which is `count` for flat faces.
+static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const struct lam_scene *scene)
+{
+    enum scene_form form = scene_form(scene);
+    if (form == FORM_FLAT) {
+        if (scene && lacks_ambient(scene)) { // the fill and the rim light replace the light of the sky
+            lights[1].diffuse = grey(0.24);
+            lights[2].diffuse = grey(0.8);
+        }
+        return count;
+    }
+    lights[2] = lights[3]; // no rim light
+    lam_light *key = &lights[0], *fill = &lights[1], *sky = &lights[2];
+    double reflectance = grey_reflectance(scene);
+    if (reflectance > 0) {
+        suit_contrast(key, fill, sky, form, reflectance);
+    } else if (form == FORM_CURVED) {
+        key->position = v3(-1.1, 1.1, 2.75);
+        key->specular = grey(0.6);
+        key->occluded = 1;
+        key->diffuse = grey(0.9);
+        fill->diffuse = grey(0.03);
+        sky->sky = grey(0.07);
+        sky->ground = grey(0.02);
+    } else {
+        key->position = v3(-1.0, -0.7, 2.9);
+        key->diffuse = grey(1.2);
+        fill->diffuse = grey(0.05);
+        sky->sky = grey(0.03);
+        sky->ground = grey(0.02);
+    }
+    return 3;
+}
+
+// Moves a light of a rig, which is defined for a scene of radius 1, to its position in this scene.
+static void place_rig_light(const lam_scene *scene, lam_light *light)
+{
+    lam_vec3 low, high, centre = v3(0, 0, 0);
+    double radius = 0;
+    if (light->type != LAM_LIGHT_POINT && light->type != LAM_LIGHT_SPOT)
+        return;
+    if (light->frame == LAM_FRAME_WORLD)
+        lam_scene_sphere(scene, -1, &centre, &radius);
+    // uses half the diagonal of the bounding box, which needs no pass over the vertices
+    else if (scene && lam_scene_bounds(scene, &low, &high))
+        radius = 0.5 * v3_length(v3_sub(high, low));
+    if (radius == 0)
+        radius = 1;
+    if (light->frame == LAM_FRAME_WORLD)
+        light->position = from_y_up(lam_scene_up(scene), light->position);
+    light->position = v3_add(centre, v3_scale(light->position, radius));
+    light->radius = (float)((double)light->radius * radius);
+    light->attenuation.linear = (float)((double)light->attenuation.linear / radius);
+    light->attenuation.quadratic = (float)((double)light->attenuation.quadratic / (radius * radius));
+}
+
+int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light lights[LAM_RIG_LIGHTS_MAX])
+{
+    if (rig == LAM_RIG_AUTO)
+        rig = lam_scene_light_count(scene) || scene_lit_by_environment(scene) ? LAM_RIG_NONE : LAM_RIG_STUDIO;
+    int count = lam_rig_lights(rig, lights);
+    if (rig == LAM_RIG_STUDIO && !ground)
+        count = suit_scene(lights, count, scene);
+    for (int i = 0; i < count; i++)
+        place_rig_light(scene, &lights[i]);
+    return count;
+}
+
+lam_tone lam_draw_tone(const lam_scene *scene, const lam_draw_params *params)
+{
+    bool classic =
+        params->reflection == LAM_REFLECTION_AUTO || !lam_reflection_describe(params->reflection)->microfacet;
+    bool contrast =
+        classic && params->color != LAM_COLOR_RAW && scene && suits_contrast(scene, params->rig, params->ground);
+    return params->tone || !contrast ? params->tone : LAM_TONE_CONTRAST;
+}

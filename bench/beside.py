@@ -43,7 +43,7 @@ def listed():
 
 def draw_ours(program, path, out):
     """Draws a model, and returns what Lambent prints of it as JSON."""
-    done = contact_sheet.run(program, path, "-s", SIDE, "-b", "white", "-o", out, "--json")
+    done = contact_sheet.run(program, path, "-s", 2 * SIDE, "-b", "white", "-o", out, "--json")
     if done.returncode:
         sys.exit("beside.py: %s" % done.stderr.decode().strip())
     return json.loads(done.stdout)

@@ -113,7 +113,7 @@ def section(program, contract, meaning):
     built_ins = contract.get("built_ins")
     if built_ins:
         yield ""
-        yield "Built in: " + ", ".join("`%s`" % word for word in built_ins) + "."
+        yield "Built-in GLSL names: " + ", ".join("`%s`" % word for word in built_ins) + "."
     fixed = contract.get("undeclared", {})
     if fixed:
         yield ""

@@ -75,18 +75,18 @@ OWNER/REPOSITORY/PATH, and run this command, which writes this page:
 
     python3 tests/check/public.py FOLDER --program build/lambent --page docs/check/public.md
 
-The command fails in these cases:
+The command fails in any of these cases:
 
-- A correct shader differs, or a wrong shader passes.
+- A correct shader gets the verdict `differs`, or a wrong shader passes.
 - The check gives a verdict on a shader that was labelled as impossible to judge.
-- The check reports as certain a mistake that the shader does not contain.
-- Fewer than 70 %% of the pairs get a verdict.
+- The check reports, without reservation, a mistake that the shader does not contain.
+- The check gives a verdict for fewer than 70 %% of the pairs.
 
 | label | right verdict | wrong verdict | no verdict |
 |---|--:|--:|--:|
 %s
 
-%d of %d pairs get a verdict (%.0f %%).
+The check gives a verdict for %d of %d pairs (%.0f %%).
 
 | repository | fragment shader | label | verdict | names | comment |
 |---|---|---|---|---|---|

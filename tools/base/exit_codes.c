@@ -8,15 +8,15 @@ const struct exit_code exit_codes[] = {
     {1, LAM_BAD_ARGUMENT, "usage", "the command line is wrong"},
     {2, LAM_CANNOT_READ, "cannot-read", "a model cannot be read or is not valid in its format"},
     {3, LAM_UNSUPPORTED, "unsupported", "a format, an instruction set or a feature is not supported"},
-    {4, LAM_LIMIT, "limit", "a limit was exceeded: time, memory, or the size of a picture on this machine"},
+    {4, LAM_LIMIT, "limit", "a limit was exceeded, such as time, memory or the size of a picture"},
     {5, LAM_CANNOT_WRITE, "cannot-write",
      "the output cannot be written, or would overwrite a file that lambent did not write"},
     {EXIT_DIFFERS, -1, NULL,
-     "`diff`: the pictures differ by more than the tolerance; `hash --check`: pictures differ from the file; `check`: "
-     "the shader does not pass"},
+     "`diff`: the pictures differ by more than the tolerance; `hash --check`: pictures differ from the hashes in the "
+     "file; `check`: the shader does not pass"},
     {EXIT_SOME_FAILED, -1, NULL,
      "`batch`, `diff` of folders, `hash`: some pictures failed (0 with `--failures-ok`); the messages and the journal "
-     "name them; `journal`: some pictures failed or are missing"},
+     "name these pictures; `journal`: some pictures failed or are missing"},
     {EXIT_CRASHED, -1, "crashed", "`--isolate`: the process that drew the model ended without a result"},
     {130, LAM_CANCELLED, "cancelled", "interrupted (Ctrl-C); no partial files remain"},
     {0, -1, NULL, NULL},

@@ -24,9 +24,9 @@ const struct topic topics[] = {
      "line and answers each job (`docs/worker.md`)."},
     {"viewer", "The viewer", BIT(VIEWER), TOPIC_NO_TABLE,
      "`lambent view bunny.obj` shows a model in the browser, and updates the picture when the model file changes. "
-     "`lambent view models/` shows a gallery of a folder. The viewer requires a page. To build the page, run `make "
-     "web` once in Lambent's source folder. Lambent serves the page only on 127.0.0.1, at an address with a secret "
-     "token. Press Ctrl-C to stop the viewer. For details, see `docs/view.md`."},
+     "`lambent view models/` shows a gallery of a folder. The viewer requires a web page. To build this page, run "
+     "`make web` once in Lambent's source folder. Lambent serves the page only on 127.0.0.1, at an address with a "
+     "secret token. Press Ctrl-C to stop the viewer. For details, see `docs/view.md`."},
     {"formats", "Model formats", 0, TOPIC_NO_TABLE,
      "`lambent formats` lists the formats that Lambent reads and writes. `docs/formats.md` describes how Lambent draws "
      "each element of each format.\n3MF (`.3mf`): a ZIP archive for 3D printing, with units, components, colours, "
@@ -74,16 +74,16 @@ const struct topic topics[] = {
      "three times as large. For a picture of one term, `--sheet terms` sets the coefficients of the other terms to "
      "black. `--sheet ambient` sets the ambient coefficient of the default material."},
     {"explain", "Explaining a pixel", 0, TOPIC_NO_TABLE,
-     "`lambent explain MODEL X,Y` accepts the options of a picture and prints the calculation of one pixel. X is the "
-     "pixel's column and Y is its row, counted from 0 at the top left corner. For each visible triangle, Lambent "
-     "prints the samples, the object, the position in the triangle, the vectors n, v and t, and the material. For each "
-     "light, Lambent prints the colours (rows ambient, diffuse, specular), the vectors l, r and h, and the distance. "
-     "Lambent also prints three angles: between n and l, between r and v, and between n and h. The attenuation and "
-     "spot factors, the base and exponent of the highlight, and the diffuse and specular terms of the light follow. At "
-     "the end, Lambent prints the terms and their sum, the weighted sum of the triangles over the background, the "
-     "encoding and the bytes. Vectors are in eye space. The numbers are bit-identical to the numbers behind the "
-     "picture. For the formulas, see `docs/lighting.md`. `--json` prints the same numbers on one line. `-o figure.svg` "
-     "draws the numbers as a figure."},
+     "`lambent explain MODEL X,Y` accepts the same options as `lambent render` and prints the calculation of one "
+     "pixel. X is the pixel's column and Y is its row, counted from 0 at the top left corner. For each visible "
+     "triangle, Lambent prints the samples, the object, the position in the triangle, the vectors n, v and t, and the "
+     "material. For each light, Lambent prints the colours (rows ambient, diffuse, specular), the vectors l, r and h, "
+     "and the distance. Lambent also prints three angles: between n and l, between r and v, and between n and h. The "
+     "attenuation and spot factors, the base and exponent of the highlight, and the diffuse and specular terms of the "
+     "light follow. At the end, Lambent prints the terms and their sum, the weighted sum of the triangles over the "
+     "background, the encoding and the bytes. Vectors are in eye space. The numbers are bit-identical to the numbers "
+     "from which Lambent computes the picture. For the formulas, see `docs/lighting.md`. `--json` prints the same "
+     "numbers on one line. `-o figure.svg` draws the numbers as a figure."},
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. The command lists the format, "
      "the program that wrote the file, the size and the up axis, triangles, meshes, parts and objects, and the names "

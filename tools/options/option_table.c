@@ -59,7 +59,7 @@ static const struct choice shard_by_words[] = {
 static const struct choice light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT,
      "in object space: the model-view matrix transforms the position, as it transforms the vertices"},
-    {"camera", LAM_FRAME_CAMERA, "in eye space: Lambent uses the position without a transform"},
+    {"camera", LAM_FRAME_CAMERA, "in eye space; Lambent does not transform the position"},
     {NULL, 0, NULL}};
 
 static const struct choice highlight_words[] = {
@@ -119,7 +119,7 @@ static const struct choice show_words[] = {
     {"roughness", LAM_OUTPUT_ROUGHNESS, "the roughness of physical materials"},
     {"metallic", LAM_OUTPUT_METALLIC, "the metalness of physical materials"},
     {"occlusion", LAM_OUTPUT_OCCLUSION, "the factor of an occlusion map"},
-    {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour's map, divided by 10"},
+    {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour map, divided by 10"},
     {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: the fraction of surrounding light that reaches the point"},
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of one .exr file"},
     {NULL, 0, NULL}};
@@ -723,13 +723,13 @@ struct option option_table[OPTIONS_MAX] = {
      "name, or its number counted from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the "
      "first light that has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; "
      "angles in degrees), `intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which "
-     "the light comes, in the light's own frame, like the camera's angles: 0 is the front, 90 is the right side. "
-     "`time` is the time in a glTF file's animation; without numbers, the sweep covers the whole animation.\nYou can "
-     "give more than two values: `light.elevation=10..80..10`. If a sweep returns to its first value, for example "
-     "after a full turn, the last frame is one step before that value. The loop is then seamless. You can combine "
-     "several sweeps, also with `--turntable`. Lambent fits the camera once, to the first frame. For `azimuth` and "
-     "`elevation`, the distance of the camera is constant. For `time`, the camera fits the bounding boxes of all "
-     "frames. Only `zoom` and `fov` change the camera between frames.",
+     "the light comes, in the light's own frame. These angles work like the camera's angles: 0 is the front, 90 is the "
+     "right side. `time` is the time in a glTF file's animation; without numbers, the sweep covers the whole "
+     "animation.\nYou can give more than two values: `light.elevation=10..80..10`. If a sweep returns to its first "
+     "value, for example after a full turn, the last frame is one step before that value. The loop is then seamless. "
+     "You can combine several sweeps, also with `--turntable`. Lambent fits the camera once, to the first frame. For "
+     "`azimuth` and `elevation`, the distance of the camera is constant. For `time`, the camera fits the bounding "
+     "boxes of all frames. Only `zoom` and `fov` change the camera between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
     {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames in a sweep.",
@@ -986,9 +986,9 @@ struct option option_table[OPTIONS_MAX] = {
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
      "accepts. The default values of `shininess` are 10, 50 and 1000. `light` draws one light of each type by default, "
      "and `show` (also called `term`) draws the five terms. If you give `--across` twice, the first defines the rows "
-     "of a grid, and the second defines the columns. `mistake=A,B` uses OpenGL to draw shaders with known mistakes "
-     "next to the correct shader, with the differences between them (`lambent shader --mistake list`). `mistake` alone "
-     "draws all mistakes that are visible in the scene.",
+     "of a grid, and the second defines the columns. `mistake=A,B` uses OpenGL to draw a picture with each faulty "
+     "shader next to the correct picture, with the difference between the two pictures. `lambent shader --mistake "
+     "list` lists the known mistakes. `mistake` alone draws all mistakes that are visible in the scene.",
      .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(sheet.across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or an angle in degrees.",
@@ -1011,8 +1011,8 @@ struct option option_table[OPTIONS_MAX] = {
      highlight_words, .store = store_word, FIELD(check.highlight)},
     {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
      "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
-     "By default, Lambent expects a term if the shaders declare one of the term's names. For example, Lambent expects "
-     "a highlight only if the shaders declare a specular colour. If the shaders do not declare an expected colour, "
+     "By default, Lambent expects a term if the shaders declare an input of this term. For example, Lambent expects a "
+     "highlight only if the shaders declare a specular colour. If the shaders do not declare an expected colour, "
      "Lambent uses white.",
      term_words, .store = store_words, FIELD(check.terms)},
     {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
